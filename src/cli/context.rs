@@ -12,7 +12,8 @@ use super::failure::Failure;
 use super::files;
 use super::rows;
 use crate::coupled::CoupledLegs;
-use crate::design::{Design, Format, Violation, Warning, parse, parse_with_cranks};
+use crate::design::{Design, Format, Violation, Warning, parse, parse_ideal, parse_with_cranks};
+use crate::geom::Pose;
 use crate::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 use crate::rotary::RotaryPlatform;
 
@@ -145,6 +146,14 @@ impl Context {
     /// As [`Self::load`].
     pub(crate) fn load_with_cranks(&mut self, path: &Path) -> Result<Design, Failure> {
         self.read_design(path, parse_with_cranks).map(|read| read.design)
+    }
+
+    /// As [`Self::load`], for commands that know what to do with rods on cranks, and take joints as ideal.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub(crate) fn load_ideal(&mut self, path: &Path) -> Result<Design, Failure> {
+        self.read_design(path, parse_ideal).map(|read| read.design)
     }
 
     /// The cranks of a design that has some.

@@ -129,6 +129,20 @@ pub fn parse_with_cranks(text: &str, format: Format) -> Result<(Design, Vec<Warn
     read(text, format, true)
 }
 
+/// Reads a design whose joints are ideal, its legs drives or rods on cranks.
+///
+/// # Errors
+/// All violations found; joints that are not ideal are one ([`Code::NotIdeal`]).
+pub(crate) fn parse_ideal(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+    match parse(text, format) {
+        // cranks have no drives that couple a rotation to a length, so that this takes no more than them
+        Err(violations) if violations.iter().any(|v| v.code == Code::Rotary) => {
+            parse_with_cranks(text, format)
+        }
+        read => read,
+    }
+}
+
 fn read(text: &str, format: Format, takes_cranks: bool) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut report = violation::Findings::new(text);

@@ -11,6 +11,7 @@ use crate::manipulator::{Body, inverse_condition, jacobian};
 use crate::manufacture::{ErrorBound, PoseSearch, ToleranceError, joint_allowance};
 use crate::num::Purpose;
 use crate::requirements::{Terms, leg_forces};
+use crate::rotary::RotaryPlatform;
 
 /// Steps between two poses of a trajectory.
 const STEPS: usize = 10;
@@ -39,9 +40,11 @@ pub(crate) struct DesignFigures {
     pub(crate) assessment: Option<AssessReport>,
     /// Poses looked at.
     pub(crate) poses: usize,
-    /// Least and greatest leg length.
+    /// Least and greatest leg length; not numbers where the legs are rods on cranks.
     pub(crate) lengths: [f64; 2],
-    /// Lengths at home that differ.
+    /// What cranks do, where the legs are rods on cranks.
+    pub(crate) cranks: Option<CrankFigures>,
+    /// Lengths at home that differ; of cranks lengths of rods.
     pub(crate) different_legs: usize,
     /// Greatest leg force under the loads.
     pub(crate) force: Option<f64>,
@@ -62,7 +65,40 @@ pub(crate) struct DesignFigures {
     /// Greatest distance of a joint of base and platform from the centroid of the joints of its body.
     pub(crate) radius: [f64; 2],
     /// How far each joint may be off for the accuracy to be kept: a radius, or why there is none.
-    pub(crate) allowance: Option<Result<f64, ToleranceError>>,
+    pub(crate) allowance: Option<Result<f64, NoAllowance>>,
+}
+
+/// Why joints are not toleranced.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum NoAllowance {
+    /// They cannot be.
+    Error(ToleranceError),
+    /// The legs are rods on cranks.
+    Cranks,
+}
+
+impl std::fmt::Display for NoAllowance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Error(why) => why.fmt(f),
+            Self::Cranks => f.write_str(
+                "the legs are rods on cranks, and joints are toleranced of legs that change their lengths",
+            ),
+        }
+    }
+}
+
+/// What cranks do over the poses. Poses that a rod does not reach count for nothing here; `assess` says that there are some.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CrankFigures {
+    /// Least and greatest angle, degrees; `None` where no pose is reached.
+    pub(crate) angles_deg: Option<[f64; 2]>,
+    /// Least transmission angle, degrees.
+    pub(crate) transmission_deg: Option<f64>,
+    /// Greatest torque under the loads, force units times design units; infinite at a singular pose.
+    pub(crate) torque: Option<f64>,
+    /// Greatest speed under the speed of the platform, degrees per second.
+    pub(crate) speed_deg: Option<f64>,
 }
 
 /// The greatest of all legs along all motions.
@@ -105,7 +141,12 @@ impl Design {
         let required = self.requirements();
         let terms = Terms::new(m, &required, &home);
         let characteristic = self.characteristic_length();
-        let conditioning = |pose: &Pose| Some(inverse_condition(&jacobian(m, pose, characteristic)));
+        // cranks of a design that was read make a platform
+        let platform = self.rotary().ok().flatten();
+        let conditioning = |pose: &Pose| {
+            let of_rods = terms.conditioning_of_rods(pose, characteristic);
+            Some(of_rods.unwrap_or_else(|| inverse_condition(&jacobian(m, pose, characteristic))))
+        };
         let stiffness = self.hardware.leg_stiffness;
         // a singular pose has none
         let softest = |pose: &Pose| {
@@ -115,10 +156,19 @@ impl Design {
         DesignFigures {
             assessment: self.assessed_briefly(options.seed),
             poses: poses.len(),
-            lengths: [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)],
-            different_legs: different(lengths(&home), SAME_LENGTH * m.size()),
-            force: least(&|pose| self.greatest_force(pose).map(|f| -f)).map(|f| -f),
-            speed: least(&|pose| self.greatest_speed(pose).map(|v| -v)).map(|v| -v),
+            lengths: match &platform {
+                None => [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)],
+                Some(_) => [f64::NAN; 2],
+            },
+            different_legs: match &platform {
+                None => different(lengths(&home), SAME_LENGTH * m.size()),
+                Some(platform) => different(platform.rods().get(), SAME_LENGTH * m.size()),
+            },
+            force: least(&|pose| self.greatest_force(pose).filter(|_| platform.is_none()).map(|f| -f))
+                .map(|f| -f),
+            speed: least(&|pose| self.greatest_speed(pose).filter(|_| platform.is_none()).map(|v| -v))
+                .map(|v| -v),
+            cranks: platform.as_ref().map(|platform| self.crank_figures(platform, &poses)),
             motion: MotionFigures::of(&moving),
             conditioning: least(&conditioning).unwrap_or(f64::NAN),
             stiffness: least(&softest),
@@ -127,13 +177,45 @@ impl Design {
             clearance: least(&|pose| terms.least_leg_gap(pose)),
             radius: Body::BOTH.map(|body| self.radius(body)),
             allowance: options.accuracy.map(|bound| {
+                if platform.is_some() {
+                    return Err(NoAllowance::Cranks);
+                }
                 let search = PoseSearch {
                     points: options.points.min(300),
                     seed: options.seed,
                     ..PoseSearch::default()
                 };
-                joint_allowance(m, &space, Point3::origin(), bound, &search).map(|found| found.value)
+                let found = joint_allowance(m, &space, Point3::origin(), bound, &search);
+                found.map(|found| found.value).map_err(NoAllowance::Error)
             }),
+        }
+    }
+
+    /// What the cranks do at poses.
+    fn crank_figures(&self, platform: &RotaryPlatform, poses: &[Pose]) -> CrankFigures {
+        let reached: Vec<(&Pose, [f64; 6])> =
+            poses.iter().filter_map(|pose| Some((pose, platform.ik(pose).ok()?))).collect();
+        let all = || reached.iter().flat_map(|(_, angles)| angles.map(f64::to_degrees));
+        let transmissions = reached.iter().flat_map(|(pose, angles)| platform.transmissions(pose, angles));
+        let greatest = |values: Option<[f64; 6]>| {
+            values.map_or(f64::INFINITY, |values| values.iter().fold(0.0, |a: f64, x| a.max(x.abs())))
+        };
+        let loads = self.all_loads();
+        let torques = reached.iter().flat_map(|(pose, angles)| {
+            loads.iter().map(|load| greatest(platform.torques(pose, angles, &load.wrench(pose))))
+        });
+        let speeds = self.speed.map(|speed| {
+            let of = |(pose, angles): &(&Pose, [f64; 6])| {
+                let angular = speed.angular_deg.to_radians();
+                greatest(platform.greatest_speeds(pose, angles, speed.linear, angular)).to_degrees()
+            };
+            reached.iter().map(of).fold(0.0, f64::max)
+        });
+        CrankFigures {
+            angles_deg: all().reduce(f64::min).zip(all().reduce(f64::max)).map(|(least, most)| [least, most]),
+            transmission_deg: transmissions.map(|g| g.abs().min(1.0).asin().to_degrees()).reduce(f64::min),
+            torque: torques.reduce(f64::max),
+            speed_deg: speeds,
         }
     }
 

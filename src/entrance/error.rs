@@ -160,6 +160,17 @@ fn listed(violations: &[Violation]) -> String {
     violations.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
+/// The parts of an error of cranks are errors of their own.
+#[cfg(feature = "files")]
+impl From<crate::rotary::RotaryFkError> for Error {
+    fn from(error: crate::rotary::RotaryFkError) -> Self {
+        match error {
+            crate::rotary::RotaryFkError::Manipulator(why) => Self::Manipulator(why),
+            crate::rotary::RotaryFkError::Fk(why) => Self::Fk(why),
+        }
+    }
+}
+
 /// Lengths that are valid already cannot fail to be.
 impl From<std::convert::Infallible> for Error {
     fn from(never: std::convert::Infallible) -> Self {

@@ -4,8 +4,11 @@ use std::io::Write as _;
 use std::path::Path;
 
 use super::Error;
-use crate::design::{Design, Format, SeriesKind, Warning, parse};
+use crate::design::{Design, Format, SeriesKind, Violation, Warning, parse};
 use crate::geom::InvalidPose;
+
+/// What reading a text gives.
+type DesignOrViolations = Result<(Design, Vec<Warning>), Vec<Violation>>;
 
 impl Design {
     /// Reads a design file, TOML or, where the name ends in `.json`, JSON, and the table of its trajectory where it names one. What is allowed but
@@ -21,8 +24,17 @@ impl Design {
     /// # Errors
     /// A file that cannot be read; a design with violations, all of them.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Error> {
-        let path = path.as_ref();
-        let (mut design, _) = parse(&read(path)?, Format::of_path(path))
+        Self::load_by(path.as_ref(), parse)
+    }
+
+    /// As [`load`](Self::load), also a design whose legs are rods on cranks, for callers that know what to do with it.
+    #[cfg(feature = "python")]
+    pub(crate) fn load_ideal(path: impl AsRef<Path>) -> Result<Self, Error> {
+        Self::load_by(path.as_ref(), crate::design::parse_ideal)
+    }
+
+    fn load_by(path: &Path, parsed: fn(&str, Format) -> DesignOrViolations) -> Result<Self, Error> {
+        let (mut design, _) = parsed(&read(path)?, Format::of_path(path))
             .map_err(|violations| Error::Design { file: Some(path.to_path_buf()), violations })?;
         if let Some(trajectory) = &mut design.workspace.trajectory {
             let file = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);

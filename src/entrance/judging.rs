@@ -4,9 +4,10 @@ use super::Error;
 use crate::design::Design;
 use crate::equivalents::Equivalents;
 use crate::fk::{Theorem, pose_bound};
-use crate::geom::Region;
+use crate::geom::{PoseSpace, Region};
+use crate::manipulator::Manipulator;
 use crate::requirements::{
-    AssessOptions, LeastConditioning, MarginProof, RodRegularity, Terms, least_conditioning,
+    AssessOptions, LeastConditioning, MarginProof, Requirements, RodRegularity, Terms, least_conditioning,
     least_rod_conditioning, prove, regular_rods,
 };
 use crate::singularity::{
@@ -140,6 +141,20 @@ fn as_regularity(of_rods: &RodRegularity) -> Regularity {
     }
 }
 
+/// Whether a region has a singular pose: of the rods where the design has cranks, of the legs where it has none.
+pub(super) fn regular_region(
+    m: &Manipulator,
+    required: &Requirements,
+    space: &PoseSpace,
+    cells: usize,
+    seed: u64,
+) -> Regularity {
+    match regular_rods(m, required, space, cells, seed) {
+        Some((of_rods, _)) => as_regularity(&of_rods),
+        None => regular_workspace(m, space, cells, seed).0,
+    }
+}
+
 /// Proofs that end where they decide.
 pub(super) fn deciding(seed: u64) -> AssessOptions {
     AssessOptions::new().seed(seed).close(false)
@@ -230,11 +245,11 @@ impl Design {
             return Err(Error::NothingRequired);
         }
         let length = self.characteristic_length();
-        let (regularity, regularity_cells) =
-            match regular_rods(m, &required, &space, cells.max(options.patient_cells), options.seed) {
-                Some((of_rods, cells)) => (as_regularity(&of_rods), cells),
-                None => regular_workspace(m, &space, cells, options.seed),
-            };
+        let of_rods = regular_rods(m, &required, &space, cells.max(options.patient_cells), options.seed);
+        let (regularity, regularity_cells) = of_rods.map_or_else(
+            || regular_workspace(m, &space, cells, options.seed),
+            |(of_rods, cells)| (as_regularity(&of_rods), cells),
+        );
         let terms = Terms::new(m, &required, &space.home);
         let conditioning = least_rod_conditioning(&terms, &space, options, length)
             .unwrap_or_else(|| least_conditioning(m, &space, options, length));

@@ -52,4 +52,6 @@ pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessRep
 pub use optimizing::{OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus};
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
+#[cfg(feature = "python")]
+pub(crate) use solving::solve_angles;
 pub use solving::{Batch, Solver, Tracker};

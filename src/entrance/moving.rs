@@ -11,6 +11,7 @@ use crate::dynamics::{
 };
 use crate::geom::Pose;
 use crate::requirements::{ForceUnit, Load, Margin, MassUnit, Term, TermKind, Terms};
+use crate::rotary::{CrankMotion, RotaryPlatform};
 
 /// A motion of the platform.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,9 +50,9 @@ pub(crate) struct MotionInstant {
     pub(crate) time: f64,
     /// Where the platform is and how it moves.
     pub(crate) state: MotionState,
-    /// The legs, design units and seconds.
+    /// The legs, design units and seconds; of cranks the angles, degrees and seconds, which are not finite where a rod does not reach.
     pub(crate) legs: [LegMotion; 6],
-    /// Forces of the drives in force units, and their powers in watts; `None` where no masses are known, and at a singular pose.
+    /// Forces of the drives in force units, or torques of the cranks in force units times design units, and powers in watts; `None` where no masses are known, at a singular pose, and where a rod does not reach.
     pub(crate) drives: Option<([f64; 6], [f64; 6])>,
 }
 
@@ -67,12 +68,16 @@ pub(crate) struct TimedMargin {
 pub(crate) struct MotionReport {
     /// In the order of time.
     pub(crate) instants: Vec<MotionInstant>,
-    /// By leg; empty where a leg has no length.
+    /// Whether the legs are rods on cranks, so that angles in degrees stand for lengths and torques for forces.
+    pub(crate) cranks: bool,
+    /// By leg; empty where a leg has no length, or a rod does not reach.
     pub(crate) legs: Vec<LegExtremes>,
     /// The least margin of each kind of requirement over the instants.
     pub(crate) margins: Vec<TimedMargin>,
-    /// When forces are not determined, for masses that are known.
+    /// When forces are not determined, for masses that are known, or a crank is singular.
     pub(crate) singular: Option<f64>,
+    /// When a rod first does not reach.
+    pub(crate) unreached: Option<f64>,
 }
 
 /// How stiff a platform is at a pose.
@@ -120,10 +125,15 @@ impl Design {
     /// The legs along a motion. Limits are judged at the instants that are looked at.
     pub(crate) fn along(&self, motion: &PlatformMotion, masses: Option<&MotionMasses>) -> MotionReport {
         let m = self.manipulator();
+        // cranks of a design that was read make a platform
+        let cranks = self.rotary().ok().flatten();
         let instants: Vec<MotionInstant> = motion
             .states()
             .into_iter()
             .map(|(time, state)| {
+                if let Some(platform) = &cranks {
+                    return crank_instant(platform, time, state, masses);
+                }
                 let legs = leg_motions(m, &state);
                 let drives = masses.and_then(|known| known.drives(self, &state, &legs));
                 MotionInstant { time, state, legs, drives }
@@ -134,10 +144,18 @@ impl Design {
             let list: Vec<LegInstant> = instants.iter().map(|at| (at.time, at.legs[i], driven(at))).collect();
             LegExtremes::of(&list)
         };
-        let legs = (0..6).map_while(of_leg).collect();
-        let singular = instants.iter().find(|at| masses.is_some() && at.drives.is_none()).map(|at| at.time);
+        let reached = |at: &&MotionInstant| at.legs.iter().all(|leg| leg.length.is_finite());
+        let unreached = instants.iter().find(|at| cranks.is_some() && !reached(at)).map(|at| at.time);
+        let legs = if unreached.is_some() { Vec::new() } else { (0..6).map_while(of_leg).collect() };
+        let unheld = |at: &&MotionInstant| masses.is_some() && at.drives.is_none();
+        let stuck = |at: &&MotionInstant| !at.legs.iter().all(|leg| leg.acceleration.is_finite());
+        let singular = match &cranks {
+            None => instants.iter().find(unheld),
+            Some(_) => instants.iter().filter(reached).find(|at| unheld(at) || stuck(at)),
+        };
+        let singular = singular.map(|at| at.time);
         let margins = self.margins_along(&instants);
-        MotionReport { instants, legs, margins, singular }
+        MotionReport { instants, cranks: cranks.is_some(), legs, margins, singular, unreached }
     }
 
     /// The least margin of each kind: of the pose as `assess` has them, of force and speed by the motion.
@@ -147,7 +165,7 @@ impl Design {
         let mut least: BTreeMap<TermKind, (Term, f64, &MotionInstant)> = BTreeMap::new();
         for at in instants {
             let by_pose = terms.at(&at.state.pose).into_iter();
-            let by_pose = by_pose.filter(|(t, _)| !matches!(t.kind, TermKind::LegForce | TermKind::LegSpeed));
+            let by_pose = by_pose.filter(|(t, _)| !is_of_motion(t.kind));
             for (term, value) in by_pose.chain(self.drive_margins(at)) {
                 let entry = least.entry(term.kind).or_insert((term, value, at));
                 if value < entry.1 || value.is_nan() {
@@ -163,20 +181,55 @@ impl Design {
         least.into_values().map(timed).collect()
     }
 
-    /// Greatest speed less speed, greatest force less force.
+    /// Greatest speed less speed, greatest force less force; of cranks greatest torque less torque. A pose that a rod does not reach has none.
     fn drive_margins(&self, at: &MotionInstant) -> Vec<(Term, f64)> {
-        let own = |kind, i| Term { kind, first: i, second: if kind == TermKind::LegForce { 0 } else { i } };
+        let (hardware, cranks) = (&self.hardware, self.crank_limits());
+        let (force, speed) = if self.has_cranks() {
+            ((TermKind::CrankTorque, cranks.max_torque), (TermKind::CrankSpeed, cranks.max_speed_deg))
+        } else {
+            ((TermKind::LegForce, hardware.max_leg_force), (TermKind::LegSpeed, hardware.max_leg_speed))
+        };
         let mut out = Vec::new();
         for i in 0..6 {
-            if let Some(greatest) = self.hardware.max_leg_speed {
-                out.push((own(TermKind::LegSpeed, i), greatest - at.legs[i].speed.abs()));
+            if let (kind, Some(greatest)) = speed
+                && !(self.has_cranks() && at.legs[i].length.is_nan())
+            {
+                out.push((Term { kind, first: i, second: i }, greatest - at.legs[i].speed.abs()));
             }
-            if let (Some(greatest), Some((forces, _))) = (self.hardware.max_leg_force, &at.drives) {
-                out.push((own(TermKind::LegForce, i), greatest - forces[i].abs()));
+            if let ((kind, Some(greatest)), Some((forces, _))) = (force, &at.drives) {
+                out.push((Term { kind, first: i, second: 0 }, greatest - forces[i].abs()));
             }
         }
         out
     }
+}
+
+/// What is judged by the motion, and not by a greatest speed or a load in every direction.
+fn is_of_motion(kind: TermKind) -> bool {
+    use TermKind::{CrankSpeed, CrankTorque, LegForce, LegSpeed};
+    matches!(kind, LegForce | LegSpeed | CrankTorque | CrankSpeed)
+}
+
+/// The cranks at an instant: angles in degrees for lengths, torques for forces.
+fn crank_instant(
+    platform: &RotaryPlatform,
+    time: f64,
+    state: MotionState,
+    masses: Option<&MotionMasses>,
+) -> MotionInstant {
+    let none = LegMotion { length: f64::NAN, speed: f64::NAN, acceleration: f64::NAN };
+    let Ok(angles) = platform.ik(&state.pose) else {
+        return MotionInstant { time, state, legs: [none; 6], drives: None };
+    };
+    let joints = platform.legs().map(|leg| state.of_arm(&(state.pose.rotation * leg.platform.coords)));
+    let motions = platform.motions(&state.pose, &angles, &joints);
+    let legs = motions.map(|crank| LegMotion {
+        length: crank.angle.to_degrees(),
+        speed: crank.speed.to_degrees(),
+        acceleration: crank.acceleration.to_degrees(),
+    });
+    let drives = masses.and_then(|known| known.torques(platform, &state, &angles, &motions));
+    MotionInstant { time, state, legs, drives }
 }
 
 impl MotionMasses {
@@ -204,5 +257,27 @@ impl MotionMasses {
         let forces = drive_forces(design.manipulator(), bodies, state, &load)?;
         let powers = std::array::from_fn(|i| bodies.newtons(forces[i]) * legs[i].speed * bodies.metres);
         Some((forces.map(|f| f / in_unit), powers))
+    }
+
+    /// Torques of cranks in force units times design units and powers in watts. Cranks and rods count as massless.
+    fn torques(
+        &self,
+        platform: &RotaryPlatform,
+        state: &MotionState,
+        angles: &[f64; 6],
+        motions: &[CrankMotion; 6],
+    ) -> Option<([f64; 6], [f64; 6])> {
+        let bodies = &self.bodies;
+        let in_unit = self.newtons / bodies.metres;
+        let load = self.load.as_ref().map_or_else(Vector6::zeros, |l| l.wrench(&state.pose) * in_unit);
+        let pushes = drive_forces(&platform.at(angles).ok()?, bodies, state, &load)?;
+        let transmissions = platform.transmissions(&state.pose, angles);
+        let torques: [f64; 6] =
+            std::array::from_fn(|i| pushes[i] * platform.legs()[i].crank.length * transmissions[i]);
+        // kilograms times design units squared per second squared
+        let powers: [f64; 6] =
+            std::array::from_fn(|i| bodies.newtons(torques[i]) * bodies.metres * motions[i].speed);
+        let finite = torques.iter().chain(&powers).all(|x| x.is_finite());
+        finite.then(|| (torques.map(|t| t / in_unit), powers))
     }
 }

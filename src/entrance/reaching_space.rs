@@ -2,11 +2,11 @@
 
 use nalgebra::Vector3;
 
+use super::judging::regular_region;
 use crate::design::Design;
 use crate::geom::{Pose, PoseSpace, Region};
 use crate::reach::{FreeRay, largest_box_within, volume_of_rays};
 use crate::requirements::{AssessOptions, Limit, Requirements, assess, prove};
-use crate::singularity::regular_workspace;
 
 /// Directions in which ways and turns are followed, where nothing is said.
 pub(crate) const RAYS: usize = 1000;
@@ -175,7 +175,7 @@ impl Around<'_> {
         if let Some(b) = bounds().find(violated) {
             return Judged::Violated(Limit::Term(b.found.term), b.found.value);
         }
-        let (regularity, _) = regular_workspace(m, space, CELLS, self.seed);
+        let regularity = regular_region(m, self.required, space, CELLS, self.seed);
         match regularity.is_regular() {
             Some(false) => Judged::Violated(Limit::Singular, 0.0),
             Some(true) if bounds().all(|b| b.verdict.is_met() == Some(true)) => Judged::Free,

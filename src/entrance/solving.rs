@@ -12,6 +12,8 @@ use crate::geom::Pose;
 use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
 use crate::num::Cancel;
 use crate::num::stream::Stream;
+#[cfg(feature = "python")]
+use crate::rotary::RotaryPlatform;
 
 impl Manipulator {
     /// Forward kinematics: all finite poses, real and complex, at these leg lengths.
@@ -242,6 +244,22 @@ impl Iterator for Batch {
     fn next(&mut self) -> Option<Self::Item> {
         self.0.next()
     }
+}
+
+/// All finite poses with each row of angles of cranks, radians, on all cores and in the order of the rows; as [`Solver::solve_all`].
+#[cfg(feature = "python")]
+pub(crate) fn solve_angles<I>(
+    platform: RotaryPlatform,
+    rows: I,
+    options: FkOptions,
+    threads: Threads,
+    cancel: &Cancel,
+) -> Stream<[f64; 6], Result<FkSolutions, Error>>
+where
+    I: Iterator<Item = [f64; 6]> + Send + 'static,
+{
+    let workers = threads.count(rows.size_hint().1.unwrap_or(usize::MAX));
+    Stream::new(rows, workers, cancel.clone(), move |angles: [f64; 6]| Ok(platform.fk(&angles, &options)?))
 }
 
 /// Follows one real pose, never to another assembly mode; a step allocates nothing.

@@ -45,13 +45,9 @@ pub(super) struct PresetChoice {
     class: &'static str,
 }
 
-/// The presets that the page takes: those whose legs change their lengths.
+/// The presets.
 pub(super) fn presets() -> Vec<PresetChoice> {
-    PRESETS
-        .iter()
-        .filter(|p| !p.has_cranks())
-        .map(|p| PresetChoice { name: p.name, class: p.class.as_str() })
-        .collect()
+    PRESETS.iter().map(|p| PresetChoice { name: p.name, class: p.class.as_str() }).collect()
 }
 
 /// The file of a preset.

@@ -18,13 +18,14 @@ pub const CORE: &[u8] = include_bytes!("core.wasm.gz");
 const TEMPLATE: &str = include_str!("web/page.html");
 const STYLE: [&str; 2] = [include_str!("web/layout.css"), include_str!("web/parts.css")];
 /// In the order in which they need each other.
-const SCRIPTS: [&str; 17] = [
+const SCRIPTS: [&str; 18] = [
     include_str!("web/core.js"),
     include_str!("web/task.js"),
     include_str!("web/words.js"),
     include_str!("web/camera.js"),
     include_str!("web/surface.js"),
     include_str!("web/view3d.js"),
+    include_str!("web/cranks.js"),
     include_str!("web/hexagon.js"),
     include_str!("web/plane.js"),
     include_str!("web/sliders.js"),
@@ -72,6 +73,8 @@ pub fn strict_policy(script: &str, style: &str) -> String {
 
 /// Recorded poses of one round.
 const FRAMES: usize = 36;
+/// The same of cranks, whose frames are longer.
+const CRANK_FRAMES: usize = 18;
 /// Points a side of the recorded plane.
 const PLANE: usize = 41;
 
@@ -160,6 +163,7 @@ struct RecordedDesigns {
 
 fn recorded(session: &Session) -> Recorded {
     let chosen = session.start.as_ref().map(Chosen::from);
+    let frames = if session.cranks.is_some() { CRANK_FRAMES } else { FRAMES };
     let state =
         |p: Pose| session.reply(Request::State { pose: PoseRecord::from(&p), chosen: chosen.clone() });
     let home = PoseRecord::from(&session.home);
@@ -169,7 +173,7 @@ fn recorded(session: &Session) -> Recorded {
     let design = |which| session.reply(Request::Design { which, chosen: chosen.clone() });
     Recorded {
         open: session.reply(Request::Open),
-        frames: (0..FRAMES).map(|k| session.along(k as f64 / FRAMES as f64)).map(state).collect(),
+        frames: (0..frames).map(|k| session.along(k as f64 / frames as f64)).map(state).collect(),
         worst: session.reply(Request::Worst { chosen: chosen.clone() }),
         modes: session.reply(Request::Modes { pose: home, lengths: None, which: Which::First, chosen: None }),
         plane: two.map(|s| session.reply(plane(s.into()))),

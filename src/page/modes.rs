@@ -5,12 +5,14 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::scene::sign;
+use super::session::Session;
 use crate::design::Design;
 use crate::equivalence::match_poses;
 use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
 use crate::records::PoseRecord;
+use crate::rotary::RotaryPlatform;
 
 /// All poses of two platforms.
 #[derive(Debug, Serialize)]
@@ -52,6 +54,8 @@ struct ModeRecord {
     turn_deg: f64,
     sign: i8,
     inverse_condition: f64,
+    /// Whether every crank is on its side; `null`: there are none.
+    elbows_kept: Option<bool>,
     certified: bool,
     multiplicity: u32,
     residual: f64,
@@ -92,19 +96,43 @@ pub(super) fn confirm(
     Ok(ConfirmedRecord { first: side(&a), second: side(&b), distance })
 }
 
-/// All poses with the lengths given, or with those at a pose; `here` is then the index of the one nearest to that pose, where poses are isolated.
+/// What poses are asked for: the legs with their lengths, or the rods on the tips of cranks with their angles.
+struct Asked {
+    m: Manipulator,
+    squares: SquaredLegLengths,
+    cranks: Option<(RotaryPlatform, [f64; 6])>,
+}
+
+impl Asked {
+    fn of(session: &Session, design: &Design, at: &Pose, given: Option<[f64; 6]>) -> Result<Self, Refusal> {
+        let Some(platform) = &session.cranks else {
+            let m = design.manipulator().clone();
+            let squares = match given {
+                Some(l) => LegLengths::try_new(l).map_err(|e| Refusal::new("lengths", e))?.squared(),
+                None => at_pose(&m, at)?,
+            };
+            return Ok(Self { m, squares, cranks: None });
+        };
+        let angles = match given {
+            Some(degrees) => degrees.map(f64::to_radians),
+            None => platform.ik(at).map_err(|e| Refusal::new("pose", e))?,
+        };
+        let m = platform.at(&angles).map_err(|e| Refusal::new("lengths", e))?;
+        Ok(Self { m, squares: platform.rods().squared(), cranks: Some((platform.clone(), angles)) })
+    }
+}
+
+/// All poses with the lengths given (of cranks the angles in degrees), or with those at a pose; `here` is then the index of the one nearest to that pose, where poses are isolated.
 /// `turn_deg`: by how much the platform is turned from home.
 pub(super) fn record(
+    session: &Session,
     design: &Design,
-    home: &Pose,
     at: &Pose,
     lengths: Option<[f64; 6]>,
 ) -> Result<ModesRecord, Refusal> {
-    let m = design.manipulator();
-    let found = match lengths {
-        Some(l) => solve(m, LegLengths::try_new(l).map_err(|e| Refusal::new("lengths", e))?.squared())?,
-        None => solve(m, at_pose(m, at)?)?,
-    };
+    let asked = Asked::of(session, design, at, lengths)?;
+    let m = &asked.m;
+    let found = solve(m, asked.squares)?;
     let roots: Vec<&FkRoot> = match &found.solution_set {
         SolutionSet::PositiveDimensional { witnesses, .. } => witnesses.iter().collect(),
         _ => found.roots.iter().collect(),
@@ -125,14 +153,17 @@ pub(super) fn record(
         reason: found.completeness.to_string(),
         here,
         nearest,
-        modes: real.iter().map(|r| mode(design, home, r)).collect(),
+        modes: real.iter().map(|r| mode(&asked, design, &session.home, r)).collect(),
         complex: roots.iter().filter(|r| r.reality != Reality::Real).count(),
     })
 }
 
-fn mode(design: &Design, home: &Pose, root: &FkRoot) -> ModeRecord {
+fn mode(asked: &Asked, design: &Design, home: &Pose, root: &FkRoot) -> ModeRecord {
     let real = root.pose.real_part();
-    let j = jacobian(design.manipulator(), &real, design.characteristic_length());
+    let j = jacobian(&asked.m, &real, design.characteristic_length());
+    let kept = |(platform, angles): &(RotaryPlatform, [f64; 6])| {
+        platform.elbows_kept(&real, angles).iter().all(|kept| *kept)
+    };
     // by the quaternion: the arc cosine of the trace loses half of the digits at 0 and may be of more than 1
     let turn = UnitQuaternion::from_rotation_matrix(&(home.rotation.inverse() * real.rotation)).angle();
     ModeRecord {
@@ -140,6 +171,7 @@ fn mode(design: &Design, home: &Pose, root: &FkRoot) -> ModeRecord {
         turn_deg: turn.to_degrees(),
         sign: sign(&j),
         inverse_condition: inverse_condition(&j),
+        elbows_kept: asked.cranks.as_ref().map(kept),
         certified: root.certified(),
         multiplicity: root.multiplicity,
         residual: root.residual,

@@ -21,7 +21,7 @@ pub(super) struct OpeningRecord<'a> {
     units: &'a str,
     source: Option<&'a str>,
     description: Option<&'a str>,
-    /// `"octahedral"`, `"equivalent"` or `"general"`.
+    /// `"octahedral"`, `"equivalent"`, `"general"`, or `"cranks"` where the legs are rods on cranks.
     kind: &'static str,
     size: f64,
     /// Whether the platform shown first is: the octahedral original, or the design where there is none.
@@ -34,6 +34,8 @@ pub(super) struct OpeningRecord<'a> {
     trajectory: bool,
     workspace: bool,
     lengths: Option<[f64; 6]>,
+    /// Least and greatest angle of each crank, degrees, `null` where there are none; nothing where there are no cranks.
+    angles_deg: Option<Vec<Option<[f64; 2]>>>,
     limits: LimitsRecord,
     hardware: HardwareRecord,
     slides: SlidesRecord,
@@ -175,12 +177,14 @@ struct LegRecord {
 /// The design, the original's hexagon, and the patterns to choose from.
 pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
     let design = &session.design;
-    let architecture = Architecture::of(session.first().manipulator());
-    let finding = architecture.findings.first();
+    // of cranks: what is said of the joints holds for legs that change their lengths
+    let architecture = session.cranks.is_none().then(|| Architecture::of(session.first().manipulator()));
+    let finding = architecture.as_ref().and_then(|a| a.findings.first());
     let (centre, radius) = session.reach();
     let kind = match &session.original {
         Some(o) if o.seen.is_none() => "octahedral",
         Some(_) => "equivalent",
+        None if session.cranks.is_some() => "cranks",
         None => "general",
     };
     let original = session.original.as_ref();
@@ -191,7 +195,7 @@ pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
         description: design.description.as_deref(),
         kind,
         size: design.manipulator().size(),
-        singular: architecture.is_singular(),
+        singular: architecture.as_ref().is_some_and(Architecture::is_singular),
         reason: finding.map(|f| f.case.sentence()),
         home: (&session.home).into(),
         centre: centre.coords.into(),
@@ -199,6 +203,10 @@ pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
         trajectory: design.workspace.trajectory.is_some(),
         workspace: !design.workspace.is_empty(),
         lengths: session.first().lengths.map(|l| l.get()),
+        angles_deg: session.cranks.as_ref().map(|platform| {
+            let degrees = |(a, b): (f64, f64)| [a.to_degrees(), b.to_degrees()];
+            platform.legs().iter().map(|leg| leg.limits.map(degrees)).collect()
+        }),
         limits: LimitsRecord { spacing: session.limits.0, det: session.limits.1 },
         hardware: HardwareRecord::of(&design.hardware),
         slides: SlidesRecord::of(design),

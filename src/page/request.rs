@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
 use super::{begin, feasible, limits, modes, motion, opening, path, plane, scene, surface, worst};
-use crate::design::{Format, parse};
+use crate::design::{Format, parse_ideal};
 use crate::geom::{Angles, Pose};
 use crate::records::PoseRecord;
 use crate::requirements::AssessOptions;
@@ -54,7 +54,7 @@ pub(super) enum Request {
     Worst { chosen: Option<Chosen> },
     /// The requirements of a platform over its whole workspace, as `assess` answers with these numbers.
     Assess { which: Which, chosen: Option<Chosen>, points: usize, searches: usize, cells: usize },
-    /// All poses with given leg lengths, or with those of a pose.
+    /// All poses with given leg lengths, or with those of a pose; of cranks with angles in degrees.
     Modes { pose: PoseRecord, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
     /// All poses of both platforms, each from its own leg lengths, paired.
     Confirm { pose: PoseRecord, chosen: Chosen },
@@ -159,6 +159,10 @@ impl Session {
 
     fn respond(&self, request: Request) -> Result<Value, Refusal> {
         let equivalent = |c: Option<Chosen>| c.map(Chosen::equivalent).transpose();
+        if self.cranks.is_some() && matches!(request, Request::Locus { .. } | Request::Motion { .. }) {
+            let message = "the legs are rods on cranks, and this is about legs that change their lengths";
+            return Err(Refusal::new("rotary", message));
+        }
         match request {
             Request::Open => Ok(value(opening::record(self))),
             Request::Start { pattern } => {
@@ -185,7 +189,7 @@ impl Session {
             }
             Request::Modes { pose, lengths, which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
-                modes::record(&design, &self.home, &Pose::from(&pose), lengths).map(value)
+                modes::record(self, &design, &Pose::from(&pose), lengths).map(value)
             }
             Request::Confirm { pose, chosen } => {
                 let second = self.second(&chosen.equivalent()?)?.0;
@@ -258,7 +262,7 @@ impl From<&Session> for Opening {
 
 fn opened(text: &str) -> Result<Session, Refusal> {
     let opening: Opening = serde_json::from_str(text).map_err(|e| Refusal::new("request", e))?;
-    let (mut design, _) = parse(&opening.design, Format::Toml).map_err(|violations| {
+    let (mut design, _) = parse_ideal(&opening.design, Format::Toml).map_err(|violations| {
         let list: Vec<String> =
             violations.iter().map(|v| format!("line {}: {}", v.line, v.message)).collect();
         Refusal::new("design", list.join("; "))

@@ -10,8 +10,9 @@ use super::session::{Equivalent, Session};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
-use crate::records::{MarginRecord, PoseRecord};
+use crate::records::{CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
 use crate::requirements::{Margin, Term, TermKind, Terms};
+use crate::rotary::RotaryPlatform;
 use crate::synthesis::AffineLegMap;
 
 /// Below this a singular value is not told from zero.
@@ -43,6 +44,27 @@ struct PlatformRecord {
     spacing: BodySpacings,
     /// The least of each kind of requirement at the pose.
     margins: Vec<MarginRecord>,
+    /// Where the legs are rods on cranks; the lengths are then those of the rods.
+    cranks: Option<CranksRecord>,
+}
+
+/// The cranks at a pose; their centres are the base joints.
+#[derive(Debug, Serialize)]
+struct CranksRecord {
+    /// From each centre to the tip at the angle 0 and at a quarter turn.
+    arms: [[[f64; 3]; 2]; 6],
+    out_of_reach: Option<OutOfReachRecord>,
+    /// In leg order; none where a rod does not reach.
+    list: Vec<CrankPlace>,
+}
+
+/// A crank with both places of its tip.
+#[derive(Debug, Serialize)]
+struct CrankPlace {
+    #[serde(flatten)]
+    crank: CrankRecord,
+    /// On the other side.
+    other_tip: [f64; 3],
 }
 
 /// A joint and where it is, base frame.
@@ -86,7 +108,10 @@ struct RelationRecord {
 /// Everything a page shows at a pose.
 pub(super) fn record(session: &Session, at: &Pose, e: Option<&Equivalent>) -> Result<SceneRecord, Refusal> {
     let first = session.first();
-    let s = squares(first, at)?;
+    let s = match &session.cranks {
+        Some(platform) => platform.rods().squared(),
+        None => squares(first, at)?,
+    };
     let mut platforms = vec![platform(session, first, at, &s, session.first_is_given())];
     let mut map = None;
     if let Some(e) = e {
@@ -122,13 +147,31 @@ fn platform(
         legs: pairs.map(|(a, b)| [a, b]),
         lengths: s.lengths().get(),
         squares: s.get(),
-        inverse_condition: Session::inverse_condition(design, at),
-        sign: sign(&jacobian(m, at, design.characteristic_length())),
+        inverse_condition: session.inverse_condition(design, at),
+        sign: session
+            .pushing(design, at)
+            .map_or(0, |pushing| sign(&jacobian(&pushing, at, design.characteristic_length()))),
         spacing: BodySpacings {
             base: spacing(m, Body::Base, design.base_names()),
             platform: spacing(m, Body::Platform, design.platform_names()),
         },
         margins: if required { margins(session, design, at) } else { Vec::new() },
+        cranks: session.cranks.as_ref().map(|platform| cranks(design, platform, at)),
+    }
+}
+
+fn cranks(design: &Design, platform: &RotaryPlatform, at: &Pose) -> CranksRecord {
+    let found = RotaryIkRecord::new(design, platform, at);
+    let place = |(i, crank): (usize, CrankRecord)| CrankPlace {
+        other_tip: platform.tip(i, crank.other_angle_deg.to_radians()).coords.into(),
+        crank,
+    };
+    CranksRecord {
+        arms: std::array::from_fn(|i| {
+            platform.directions()[i].map(|e| (e * platform.legs()[i].crank.length).into())
+        }),
+        out_of_reach: found.out_of_reach,
+        list: found.cranks.into_iter().enumerate().map(place).collect(),
     }
 }
 

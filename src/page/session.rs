@@ -7,6 +7,7 @@ use crate::equivalents::Original;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
 use crate::offsets::OffsetProblem;
+use crate::rotary::RotaryPlatform;
 use crate::synthesis::{AffineLegMap, InstantiateError, Pattern};
 
 /// A design with what its page needs to know: the octahedral platform behind it, home, and where the offsets begin.
@@ -15,6 +16,8 @@ pub struct Session {
     pub(super) design: Design,
     pub(super) original: Option<Original>,
     pub(super) start: Option<Equivalent>,
+    /// Where the legs are rods on cranks; there is no original then.
+    pub(super) cranks: Option<RotaryPlatform>,
     pub(super) home: Pose,
     /// Least distance of joint centres and least `|det A|` asked for.
     pub(super) limits: (f64, f64),
@@ -51,7 +54,9 @@ impl Session {
     /// a regular one does, that of an equivalent one with the design itself.
     #[must_use]
     pub fn new(design: Design) -> Self {
-        let original = Original::of(&design);
+        // cranks of a design that was read make a platform
+        let cranks = design.rotary().ok().flatten();
+        let original = if cranks.is_some() { None } else { Original::of(&design) };
         let table = &design.optimize;
         let defaults =
             original.as_ref().map(|o| OffsetProblem::with_defaults(o.octahedral.clone(), Vec::new()));
@@ -59,6 +64,7 @@ impl Session {
         let least = defaults.as_ref().map_or(0.0, |d| d.min_abs_det);
         let mut session = Self {
             start: None,
+            cranks,
             home: design.home_or_default(),
             limits: (table.min_joint_distance.unwrap_or(spacing), table.min_abs_det.unwrap_or(least)),
             original,
@@ -133,6 +139,8 @@ impl Session {
         let centre = nalgebra::Point3::from(
             ends.iter().map(|p| p.coords).sum::<nalgebra::Vector3<f64>>() / ends.len() as f64,
         );
-        (centre, ends.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max))
+        // the tips of cranks go around the base joints
+        let crank = self.cranks.iter().flat_map(RotaryPlatform::legs).map(|leg| leg.crank.length);
+        (centre, ends.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max) + crank.fold(0.0, f64::max))
     }
 }

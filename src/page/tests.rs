@@ -359,7 +359,8 @@ fn presets_and_points_are_designs() {
     let session = Session::without_design().unwrap();
     for preset in ask(&session, &json!({"op": "presets"})).as_array().unwrap() {
         let made = ask(&session, &json!({"op": "preset", "name": preset["name"]}));
-        design(made["toml"].as_str().unwrap());
+        let opened = Session::open(&json!({"design": made["toml"], "start": null}).to_string());
+        assert!(opened.is_ok(), "{preset}: {opened:?}");
     }
     assert_eq!(ask(&session, &json!({"op": "preset", "name": "none"}))["error"]["code"], json!("preset"));
     let general = design(GENERAL);
@@ -507,4 +508,51 @@ fn the_surface_of_singular_positions_is_where_the_sign_of_det_j_changes() {
     (everywhere["which"], everywhere["chosen"]) = (json!("second"), chosen);
     let found = ask(&midline, &everywhere);
     assert!(found["everywhere"] == json!(true) && found["surface"]["triangles"] == json!([]));
+}
+
+#[test]
+fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths() {
+    let preset = crate::design::PRESETS.iter().find(|p| p.name == "reachy-mini").unwrap();
+    let session = Session::open(&json!({"design": preset.text, "start": null}).to_string()).unwrap();
+    let open = ask(&session, &json!({"op": "open"}));
+    assert_eq!(
+        (&open["kind"], &open["singular"], &open["patterns"]),
+        (&json!("cranks"), &json!(false), &json!(null))
+    );
+    assert_eq!(open["angles_deg"].as_array().unwrap().len(), 6);
+    let state = ask(&session, &json!({"op": "state", "pose": open["home"], "chosen": null}));
+    let platform = &state["platforms"][0];
+    let point = |v: &Value| -> Vec<f64> { serde_json::from_value(v.clone()).unwrap() };
+    let apart = |a: &[f64], b: &[f64]| {
+        let square: f64 = a.iter().zip(b).map(|(x, y)| (x - y).powi(2)).sum();
+        square.sqrt()
+    };
+    for (k, crank) in platform["cranks"]["list"].as_array().unwrap().iter().enumerate() {
+        let [a, b] = [0, 1].map(|end| platform["legs"][k][end].as_u64().unwrap() as usize);
+        let (centre, joint) = (point(&platform["base"][a]["at"]), point(&platform["platform"][b]["at"]));
+        for tip in ["tip", "other_tip"].map(|key| point(&crank[key])) {
+            assert!((apart(&tip, &joint) - 85.0).abs() < 1e-9 && (apart(&tip, &centre) - 40.0).abs() < 1e-9);
+        }
+        let arms = &platform["cranks"]["arms"][k];
+        let (s, c) = crank["angle_deg"].as_f64().unwrap().to_radians().sin_cos();
+        let turned: Vec<f64> = centre
+            .iter()
+            .zip(point(&arms[0]))
+            .zip(point(&arms[1]))
+            .map(|((x, e), f)| x + c * e + s * f)
+            .collect();
+        assert!(apart(&turned, &point(&crank["tip"])) < 1e-9);
+    }
+    assert!(platform["inverse_condition"].as_f64().unwrap() > 0.0 && platform["sign"] != json!(0));
+    // beyond reach there are circles, and no cranks
+    let far = json!({"op": "place", "position": [0, 0, 300], "rpy_deg": [0, 0, 0]});
+    let pose = ask(&session, &far)["pose"].clone();
+    let state = ask(&session, &json!({"op": "state", "pose": pose, "chosen": null}));
+    let cranks = &state["platforms"][0]["cranks"];
+    assert!(cranks["out_of_reach"]["too_short_by"].as_f64().unwrap() > 0.0 && cranks["list"] == json!([]));
+    assert_eq!(state["platforms"][0]["inverse_condition"], json!(0.0));
+    for op in ["motion", "locus"] {
+        let asked = json!({"op": op, "pose": open["home"], "which": "first", "chosen": null, "points": 5});
+        assert_eq!(ask(&session, &asked)["error"]["code"], json!("rotary"), "{op}");
+    }
 }

@@ -1,12 +1,14 @@
 //! Conditioning over all poses of the workspace.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
 use crate::design::Design;
 use crate::geom::Pose;
-use crate::manipulator::{inverse_condition, jacobian};
+use crate::manipulator::{Manipulator, inverse_condition, jacobian};
 use crate::records::PoseRecord;
 
 /// The worst conditioning of the platforms.
@@ -26,13 +28,22 @@ struct LeastRecord {
 }
 
 impl Session {
-    /// `sigma_min / sigma_max` of the length-normalised Jacobian.
-    pub(super) fn inverse_condition(design: &Design, pose: &Pose) -> f64 {
-        inverse_condition(&jacobian(design.manipulator(), pose, design.characteristic_length()))
+    /// `sigma_min / sigma_max` of the length-normalised Jacobian of the legs, or of the rods; 0 where a rod does not reach.
+    pub(super) fn inverse_condition(&self, design: &Design, pose: &Pose) -> f64 {
+        self.pushing(design, pose)
+            .map_or(0.0, |m| inverse_condition(&jacobian(&m, pose, design.characteristic_length())))
     }
 
-    fn worst(design: &Design, poses: &[Pose]) -> Option<LeastRecord> {
-        let values = poses.iter().map(|p| (Self::inverse_condition(design, p), p));
+    /// What pushes the platform at a pose: the legs of a design of the page, or its rods on the tips of their cranks; `None` where a rod does not reach.
+    pub(super) fn pushing<'a>(&self, design: &'a Design, pose: &Pose) -> Option<Cow<'a, Manipulator>> {
+        match &self.cranks {
+            None => Some(Cow::Borrowed(design.manipulator())),
+            Some(platform) => platform.at(&platform.ik(pose).ok()?).ok().map(Cow::Owned),
+        }
+    }
+
+    fn worst(&self, design: &Design, poses: &[Pose]) -> Option<LeastRecord> {
+        let values = poses.iter().map(|p| (self.inverse_condition(design, p), p));
         let least = values.min_by(|x, y| x.0.total_cmp(&y.0));
         least.map(|(inverse_condition, p)| LeastRecord { inverse_condition, pose: p.into() })
     }
@@ -42,8 +53,8 @@ impl Session {
 pub(super) fn record(session: &Session, e: Option<&Equivalent>) -> Result<WorstRecord, Refusal> {
     let poses = session.judged();
     let second = match e {
-        Some(e) => Session::worst(&session.second(e)?.0, &poses),
+        Some(e) => session.worst(&session.second(e)?.0, &poses),
         None => None,
     };
-    Ok(WorstRecord { poses: poses.len(), first: Session::worst(session.first(), &poses), second })
+    Ok(WorstRecord { poses: poses.len(), first: session.worst(session.first(), &poses), second })
 }

@@ -7,7 +7,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde::Serialize;
 
-use super::design::{NativeDesign, threads_of};
+use super::design::{NativeDesign, OF_LEG_MAPS, threads_of};
 use super::failure::{interrupted, raised};
 use crate::design::{self, PRESETS};
 use crate::entrance::{self, VerifyOptions, sample_plan};
@@ -24,10 +24,10 @@ pub(super) fn document(
     serde_json::to_string(&whole).map_err(|e| PyRuntimeError::new_err(e.to_string()))
 }
 
-/// The names of the presets whose legs change their lengths.
+/// The names of the presets.
 #[pyfunction]
 pub(super) fn preset_names() -> Vec<&'static str> {
-    PRESETS.iter().filter(|p| !p.has_cranks()).map(|p| p.name).collect()
+    PRESETS.iter().map(|p| p.name).collect()
 }
 
 /// `A` and `c` of the affine map of squared leg lengths, and the answer of `equipod equivalents map`.
@@ -38,6 +38,7 @@ pub(super) fn leg_map<'py>(
     from_: &NativeDesign,
     to: &NativeDesign,
 ) -> PyResult<(Option<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)>, String)> {
+    [from_, to].into_iter().try_for_each(|design| design.only_of_legs(py, OF_LEG_MAPS))?;
     let (a, b) = (from_.inner(), to.inner());
     let found = py.detach(|| entrance::leg_map(a, b)).map_err(|e| raised(py, e))?;
     let map = found.map().map(|map| {
@@ -61,6 +62,7 @@ pub(super) fn verify(
     seed: u64,
     threads: Option<usize>,
 ) -> PyResult<String> {
+    [a, b].into_iter().try_for_each(|design| design.only_of_legs(py, OF_LEG_MAPS))?;
     let (a, b) = (a.inner(), b.inner());
     let threads = threads_of(py, threads)?;
     let found = py.detach(|| {

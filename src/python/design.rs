@@ -10,39 +10,64 @@ use pyo3::prelude::*;
 
 use super::answers::document;
 use super::arrays::{as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
-use super::failure::{interrupted, raised, refused};
-use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns};
-use super::tracker::NativeTracker;
-use crate::design::{self, Format, PRESETS, parse};
-use crate::entrance::{Error, Solver};
+use super::failure::{interrupted, raised, refused, refused_for_cranks};
+use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};
+use super::tracker::{Followed, NativeTracker};
+use crate::design::{self, Format, PRESETS, parse_ideal};
+use crate::entrance::{Error, Solver, solve_angles};
 use crate::fk::{FkOptions, Method, Threads};
 use crate::manipulator::{Body, Manipulator, NoSuchBody, jacobian_of_legs};
 use crate::num::Cancel;
 use crate::records::{AssessAnswer, CheckAnswer};
 use crate::requirements::{AssessOptions, Terms};
+use crate::rotary::{InvalidRotary, RotaryPlatform, RotaryTracker};
 use crate::synthesis::InstantiateError;
 
 /// A platform with names, units, home pose and requirements.
 #[pyclass(frozen, name = "Design", module = "equipod._core")]
 pub(super) struct NativeDesign {
     design: Arc<design::Design>,
+    /// Where the legs are rods on cranks.
+    cranks: Result<Option<RotaryPlatform>, InvalidRotary>,
     /// Prepared with the default options, for batches.
     solver: OnceLock<Solver>,
 }
 
+/// Angles of the cranks, those on the other sides, transmissions, what remains of the limits; float64, shape (.., 6).
+type CrankArrays<'py> = [Bound<'py, PyArrayDyn<f64>>; 4];
+
 impl NativeDesign {
     pub(super) fn of(design: design::Design) -> Self {
-        Self { design: Arc::new(design), solver: OnceLock::new() }
+        Self { cranks: design.rotary(), design: Arc::new(design), solver: OnceLock::new() }
     }
 
     pub(super) fn inner(&self) -> &design::Design {
         &self.design
     }
 
+    /// The cranks of a design that has some.
+    fn cranks(&self, py: Python<'_>) -> PyResult<Option<&RotaryPlatform>> {
+        self.cranks
+            .as_ref()
+            .map(Option::as_ref)
+            .map_err(|why| refused(py, "design::invalid", &why.to_string()))
+    }
+
+    /// Refuses rods on cranks where what is asked for is about legs that change their lengths, and names what is asked instead.
+    pub(super) fn only_of_legs(&self, py: Python<'_>, instead: &str) -> PyResult<()> {
+        if self.design.has_cranks() { Err(refused_for_cranks(py, instead)) } else { Ok(()) }
+    }
+
     fn body(py: Python<'_>, name: &str) -> PyResult<Body> {
         name.parse().map_err(|e: NoSuchBody| refused(py, "unknown_name", &e.to_string()))
     }
 }
+
+/// What to ask of cranks in place of whether a design is architecturally singular.
+const OF_SINGULARITY: &str = "ask assess, which proves that no pose of the workspace is singular";
+/// Why there is nothing to ask of cranks in place of leg maps.
+pub(super) const OF_LEG_MAPS: &str =
+    "leg maps hold between squared lengths of legs, and nothing follows from them for the angles of cranks";
 
 /// Rows of a batch between two looks for a signal, milliseconds where rows take longest.
 const SIGNALS: usize = 64;
@@ -81,14 +106,14 @@ impl NativeDesign {
     /// Reads a file.
     #[staticmethod]
     fn load(py: Python<'_>, path: std::path::PathBuf) -> PyResult<Self> {
-        design::Design::load(path).map(Self::of).map_err(|e| raised(py, e))
+        design::Design::load_ideal(path).map(Self::of).map_err(|e| raised(py, e))
     }
 
     /// Reads a text, TOML or JSON.
     #[staticmethod]
     fn loads(py: Python<'_>, text: &str, json: bool) -> PyResult<Self> {
         let format = if json { Format::Json } else { Format::Toml };
-        let read = parse(text, format).map_err(|violations| Error::Design { file: None, violations });
+        let read = parse_ideal(text, format).map_err(|violations| Error::Design { file: None, violations });
         read.map(|(design, _)| Self::of(design)).map_err(|e| raised(py, e))
     }
 
@@ -136,6 +161,12 @@ impl NativeDesign {
         &self.design.units
     }
 
+    /// `prismatic` or `rotary`.
+    #[getter]
+    fn drive(&self) -> &'static str {
+        if self.design.has_cranks() { "rotary" } else { "prismatic" }
+    }
+
     /// Whether the design says where home is.
     #[getter]
     fn has_home(&self) -> bool {
@@ -180,7 +211,7 @@ impl NativeDesign {
         self.design.save(path).map_err(|e| raised(py, e))
     }
 
-    /// Leg lengths, float64, shape (.., 6), of poses (.., 4, 4); `None`: the poses are no array of doubles, row by row, of this shape.
+    /// Leg lengths, or angles of cranks, float64, shape (.., 6), of poses (.., 4, 4); `None`: the poses are no array of doubles, row by row, of this shape. NaN where a rod does not reach.
     fn ik<'py>(
         &self,
         py: Python<'py>,
@@ -190,6 +221,14 @@ impl NativeDesign {
         let Some((entries, before)) = pose_entries(&array) else { return Ok(None) };
         let legs = self.design.manipulator().legs();
         let mut lengths = Vec::with_capacity(6 * (entries.len() / 16));
+        if let Some(platform) = self.cranks(py)? {
+            at_poses(py, entries, |pose| {
+                let angles = platform.ik(&pose).unwrap_or([f64::NAN; 6]);
+                lengths.extend_from_slice(&angles);
+                Ok(())
+            })?;
+            return Ok(Some(shaped([before, &[6]].concat(), lengths)?.into_pyarray(py)));
+        }
         at_poses(py, entries, |pose| {
             lengths.extend_from_slice(&pose.lengths_of(&legs).ok_or(Error::Overflow)?.get());
             Ok(())
@@ -197,7 +236,41 @@ impl NativeDesign {
         Ok(Some(shaped([before, &[6]].concat(), lengths)?.into_pyarray(py)))
     }
 
-    /// Leg speeds by velocity and angular velocity, float64, shape (.., 6, 6), at poses (.., 4, 4); `None` as for `ik`.
+    /// What is known of the cranks at poses (.., 4, 4); `None` as for `ik`.
+    fn crank_angles<'py>(
+        &self,
+        py: Python<'py>,
+        poses: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<CrankArrays<'py>>> {
+        let Some(platform) = self.cranks(py)? else {
+            let message = "the legs change their lengths, and the design has no cranks: use ik";
+            return Err(refused(py, "no_cranks", message));
+        };
+        let Some(array) = as_it_stands(poses) else { return Ok(None) };
+        let Some((entries, before)) = pose_entries(&array) else { return Ok(None) };
+        let mut columns: [Vec<f64>; 4] =
+            std::array::from_fn(|_| Vec::with_capacity(6 * (entries.len() / 16)));
+        at_poses(py, entries, |pose| {
+            let rows = match platform.both_angles(&pose) {
+                Err(_) => [[f64::NAN; 6]; 4],
+                Ok(both) => {
+                    let of = |i: usize| platform.legs()[i].elbow;
+                    let kept = std::array::from_fn(|i| platform.counted(i, both[i].of(of(i))));
+                    let other: [f64; 6] =
+                        std::array::from_fn(|i| platform.counted(i, both[i].of(of(i).other())));
+                    [kept, other, platform.transmissions(&pose, &kept), platform.limit_margins(&kept)]
+                }
+            };
+            columns.iter_mut().zip(rows).for_each(|(column, row)| column.extend_from_slice(&row));
+            Ok(())
+        })?;
+        let shape = [before, &[6]].concat();
+        let [kept, other, transmission, left] =
+            columns.map(|column| shaped(shape.clone(), column).map(|a| a.into_pyarray(py)));
+        Ok(Some([kept?, other?, transmission?, left?]))
+    }
+
+    /// Speeds of legs, or of cranks in radians per second, by velocity and angular velocity, float64, shape (.., 6, 6), at poses (.., 4, 4); `None` as for `ik`. NaN where a rod does not reach or a crank is singular.
     fn jacobian<'py>(
         &self,
         py: Python<'py>,
@@ -208,6 +281,19 @@ impl NativeDesign {
         let Some((entries, before)) = pose_entries(&array) else { return Ok(None) };
         let legs = self.design.manipulator().legs();
         let mut rows = Vec::with_capacity(36 * (entries.len() / 16));
+        if let Some(platform) = self.cranks(py)? {
+            at_poses(py, entries, |pose| {
+                let found =
+                    platform.ik(&pose).ok().and_then(|angles| platform.crank_jacobian(&pose, &angles));
+                let over = |(i, j): (usize, usize)| {
+                    let scale = if j < 3 { 1.0 } else { characteristic_length };
+                    found.map_or(f64::NAN, |found| found[(i, j)] / scale)
+                };
+                rows.extend((0..36).map(|k| over((k / 6, k % 6))));
+                Ok(())
+            })?;
+            return Ok(Some(shaped([before, &[6, 6]].concat(), rows)?.into_pyarray(py)));
+        }
         at_poses(py, entries, |pose| {
             // row by row: the columns of the transposed
             rows.extend_from_slice(
@@ -223,7 +309,7 @@ impl NativeDesign {
         self.design.characteristic_length()
     }
 
-    /// All finite poses with six lengths.
+    /// All finite poses with six lengths, or with six angles of cranks.
     fn fk(
         &self,
         py: Python<'_>,
@@ -232,11 +318,18 @@ impl NativeDesign {
         method: Option<&str>,
     ) -> PyResult<NativeSolutions> {
         let options = options(py, seed, method)?;
+        if let Some(platform) = self.cranks(py)? {
+            let found = py.detach(|| platform.fk(&lengths, &options)).map_err(|e| raised(py, e.into()))?;
+            return Ok(NativeSolutions::new(
+                found,
+                SolvedFor::Angles(Arc::clone(&self.design), platform.clone(), lengths),
+            ));
+        }
         let found = py.detach(|| self.design.fk_with(lengths, options)).map_err(|e| raised(py, e))?;
-        Ok(NativeSolutions::new(found, &self.design))
+        Ok(NativeSolutions::new(found, SolvedFor::Lengths(Arc::clone(&self.design))))
     }
 
-    /// All finite poses with each row of lengths (n, 6).
+    /// All finite poses with each row of lengths, or of angles of cranks (n, 6).
     fn fk_batch<'py>(
         &self,
         py: Python<'py>,
@@ -246,11 +339,16 @@ impl NativeDesign {
         let rows = lengths_in(py, &lengths.as_array())?;
         let threads = threads_of(py, threads)?;
         let cancel = Cancel::new();
+        let cranks = self.cranks(py)?.cloned();
         let found = py.detach(|| {
-            let prepared = self.solver.get_or_init(|| self.design.solver(FkOptions::new()));
-            let solver = prepared.clone().threads(threads).cancel(&cancel);
+            let solved: Box<dyn Iterator<Item = _>> = if let Some(platform) = cranks {
+                Box::new(solve_angles(platform, rows.into_iter(), FkOptions::new(), threads, &cancel))
+            } else {
+                let prepared = self.solver.get_or_init(|| self.design.solver(FkOptions::new()));
+                Box::new(prepared.clone().threads(threads).cancel(&cancel).solve_all(rows))
+            };
             let mut found = SolutionColumns::default();
-            for (k, row) in solver.solve_all(rows).enumerate() {
+            for (k, row) in solved.enumerate() {
                 found.push(&row);
                 if k % SIGNALS == 0 && interrupted() {
                     cancel.cancel();
@@ -266,7 +364,17 @@ impl NativeDesign {
     fn tracker(&self, py: Python<'_>, start: PyReadonlyArray3<'_, f64>) -> PyResult<NativeTracker> {
         let start = poses_in(py, &start.as_array())?;
         let first = start.first().ok_or_else(|| refused(py, "shape", "a tracker starts at one pose"))?;
-        Ok(NativeTracker(self.design.tracker(*first)))
+        if let Some(platform) = self.cranks(py)? {
+            let angles = platform.ik(first).map_err(|why| {
+                refused(
+                    py,
+                    "pose",
+                    &format!("the cranks do not hold the pose where the tracker starts: {why}"),
+                )
+            })?;
+            return Ok(NativeTracker(Followed::Cranks(RotaryTracker::new(platform.clone(), *first, angles))));
+        }
+        Ok(NativeTracker(Followed::Legs(self.design.tracker(*first))))
     }
 
     /// The margins of all requirements at poses (n, 4, 4): names, units and legs or joints of the columns, and float64 of shape (n, columns).
@@ -300,6 +408,7 @@ impl NativeDesign {
 
     /// The answer of `equipod check`.
     fn check(&self, py: Python<'_>, seed: u64) -> PyResult<String> {
+        self.only_of_legs(py, OF_SINGULARITY)?;
         let found = py.detach(|| self.design.check_with(seed)).map_err(|e| raised(py, e))?;
         document(CheckAnswer::from(&found), &[&self.design], Some(seed))
     }
@@ -327,6 +436,7 @@ impl NativeDesign {
         pattern: Option<&str>,
         offsets: Vec<f64>,
     ) -> PyResult<(Self, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)> {
+        self.only_of_legs(py, OF_LEG_MAPS)?;
         let built = || -> Result<_, Error> {
             let class = self.design.equivalents()?;
             if let Some(name) = pattern {

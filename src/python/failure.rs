@@ -4,6 +4,7 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::design::Code;
 use crate::entrance::Error;
 
 /// What is wrong with one place of a design.
@@ -38,6 +39,14 @@ pub(super) fn interrupted() -> bool {
 /// Bad input that the library does not see: shapes and names of arguments.
 pub(super) fn refused(py: Python<'_>, code: &str, message: &str) -> PyErr {
     design_error(py, code, message, &[])
+}
+
+/// Cranks where what is asked for is about legs that change their lengths; with what is asked instead.
+pub(super) fn refused_for_cranks(py: Python<'_>, instead: &str) -> PyErr {
+    let message = format!(
+        "the legs are rods on cranks, and what is asked for is about legs that change their lengths: {instead}"
+    );
+    refused(py, Code::Rotary.as_str(), &message)
 }
 
 fn design_error(py: Python<'_>, code: &str, message: &str, faults: &[TextFault]) -> PyErr {

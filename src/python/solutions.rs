@@ -10,10 +10,12 @@ use pyo3::prelude::*;
 
 use super::answers::document;
 use super::arrays::complex_matrices;
+use super::failure::raised;
 use crate::design::Design;
 use crate::entrance::Error;
 use crate::fk::{Completeness, FkRoot, FkSolutions, Reality};
 use crate::records::{FkOneAnswer, SolvedRecord};
+use crate::rotary::RotaryPlatform;
 
 /// 1 for a real pose, 0 for one that is not, -1 where it is not decided.
 fn reality(root: &FkRoot) -> i8 {
@@ -33,16 +35,24 @@ fn completeness(found: &FkSolutions) -> i8 {
     }
 }
 
-/// All finite poses, real and complex, with one set of leg lengths.
+/// What poses were computed for.
+pub(super) enum SolvedFor {
+    /// Leg lengths.
+    Lengths(Arc<Design>),
+    /// Angles of cranks, radians.
+    Angles(Arc<Design>, RotaryPlatform, [f64; 6]),
+}
+
+/// All finite poses, real and complex, with one set of leg lengths or of angles.
 #[pyclass(frozen, name = "Solutions", module = "equipod._core")]
 pub(super) struct NativeSolutions {
     found: FkSolutions,
-    design: Arc<Design>,
+    of: SolvedFor,
 }
 
 impl NativeSolutions {
-    pub(super) fn new(found: FkSolutions, design: &Arc<Design>) -> Self {
-        Self { found, design: Arc::clone(design) }
+    pub(super) fn new(found: FkSolutions, of: SolvedFor) -> Self {
+        Self { found, of }
     }
 }
 
@@ -98,10 +108,23 @@ impl NativeSolutions {
     }
 
     /// The document of one set of lengths, certificates included.
-    fn json(&self) -> PyResult<String> {
-        let home = self.design.home_or_default();
-        let solved = SolvedRecord::from(&self.found).with_real_poses(self.design.manipulator(), &home);
-        document(FkOneAnswer::from(solved), &[&self.design], Some(self.found.seed))
+    fn json(&self, py: Python<'_>) -> PyResult<String> {
+        let solved = SolvedRecord::from(&self.found);
+        let (design, answer) = match &self.of {
+            SolvedFor::Lengths(design) => {
+                let solved = solved.with_real_poses(design.manipulator(), &design.home_or_default());
+                (design, FkOneAnswer::from(solved))
+            }
+            SolvedFor::Angles(design, platform, angles) => {
+                let tips = platform.at(angles).map_err(|e| raised(py, e.into()))?;
+                let solved = solved.with_real_poses(&tips, &design.home_or_default());
+                let solved = solved.with_elbows(platform, angles);
+                let symmetric_finite = platform.symmetric_pose_count(angles);
+                let angles_deg = Some(angles.map(f64::to_degrees));
+                (design, FkOneAnswer { angles_deg, symmetric_finite, ..solved.into() })
+            }
+        };
+        document(answer, &[design], Some(self.found.seed))
     }
 }
 

@@ -1,17 +1,51 @@
-//! One real pose followed from lengths to lengths.
+//! One real pose followed from lengths to lengths, or from angles of cranks to angles.
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use super::arrays::{as_it_stands, lengths_in, matrices};
 use super::failure::raised;
-use crate::entrance;
+use crate::entrance::{self, Error};
 use crate::fk::NearOutcome;
+use crate::geom::Pose;
 use crate::manipulator::LegLengths;
+use crate::rotary::RotaryTracker;
 
 /// Follows one real pose, never to another assembly mode.
 #[pyclass(name = "Tracker", module = "equipod._core")]
-pub(super) struct NativeTracker(pub(super) entrance::Tracker);
+pub(super) struct NativeTracker(pub(super) Followed);
+
+/// What a pose is followed by.
+pub(super) enum Followed {
+    /// Six lengths.
+    Legs(entrance::Tracker),
+    /// Six angles, radians.
+    Cranks(RotaryTracker),
+}
+
+impl Followed {
+    fn pose(&self) -> Pose {
+        match self {
+            Self::Legs(tracker) => tracker.pose(),
+            Self::Cranks(tracker) => tracker.pose(),
+        }
+    }
+
+    /// Whether these can be followed at all; angles are looked at when they are followed.
+    fn check(&self, row: [f64; 6]) -> Result<(), Error> {
+        match self {
+            Self::Legs(_) => LegLengths::try_new(row).map(|_| ()).map_err(Error::from),
+            Self::Cranks(_) => Ok(()),
+        }
+    }
+
+    fn continued(&mut self, row: [f64; 6]) -> Result<NearOutcome, Error> {
+        match self {
+            Self::Legs(tracker) => tracker.step(row),
+            Self::Cranks(tracker) => Ok(tracker.step(&row)?),
+        }
+    }
+}
 
 /// `tracked`, `near_singularity` or `lost`, and how far on the straight line of squared lengths.
 fn said(outcome: &NearOutcome) -> (&'static str, f64, Option<String>) {
@@ -39,7 +73,7 @@ impl NativeTracker {
         let Some(array) = as_it_stands(lengths) else { return Ok(None) };
         let six = array.as_slice().ok().and_then(|entries| <[f64; 6]>::try_from(entries).ok());
         let Some(six) = six.filter(|_| array.ndim() == 1) else { return Ok(None) };
-        let outcome = self.0.step(six).map_err(|e| raised(py, e))?;
+        let outcome = self.0.continued(six).map_err(|e| raised(py, e))?;
         let (status, fraction, reason) = said(&outcome);
         let pose = matrices(&[*outcome.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py);
         Ok(Some((status, pose, outcome.evidence().residual, fraction, reason)))
@@ -54,13 +88,12 @@ impl NativeTracker {
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray1<f64>>, &'static str, f64, Option<String>)>
     {
         let rows = lengths_in(py, &lengths.as_array())?;
-        let checked = rows.into_iter().map(LegLengths::try_new).collect::<Result<Vec<_>, _>>();
-        let rows = checked.map_err(|e| raised(py, e.into()))?;
+        rows.iter().try_for_each(|row| self.0.check(*row)).map_err(|e| raised(py, e))?;
         let tracker = &mut self.0;
         let (poses, residuals, end) = py.detach(move || {
             let (mut poses, mut residuals) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
             for row in &rows {
-                match tracker.step(row) {
+                match tracker.continued(*row) {
                     Ok(NearOutcome::Tracked { pose, evidence }) => {
                         poses.push(pose);
                         residuals.push(evidence.residual);

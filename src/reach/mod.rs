@@ -12,7 +12,7 @@ mod tests;
 mod way;
 
 use crate::geom::Pose;
-use crate::manipulator::{Leg, Manipulator, leg_determinant};
+use crate::manipulator::{Leg, Manipulator};
 use crate::requirements::{Limit, Quantity, Requirements, Terms};
 
 pub use nearest::{NearestPose, NearestPoseOptions};
@@ -33,7 +33,6 @@ const FARTHEST: f64 = 10.0;
 /// What limits the poses of a manipulator: its requirements, and the sign that `det J` has at home.
 #[derive(Debug)]
 pub struct Reach<'a> {
-    manipulator: &'a Manipulator,
     required: &'a Requirements,
     terms: Terms<'a>,
     legs: [Leg; 6],
@@ -73,17 +72,18 @@ impl<'a> Reach<'a> {
     /// Makes the requirements ready. `length` makes turns comparable with shifts where poses are compared: a radian counts as this many design units.
     #[must_use]
     pub fn new(m: &'a Manipulator, required: &'a Requirements, home: &Pose, length: f64) -> Self {
-        let at_home = Some(leg_determinant(m, home)).filter(|det| det.abs() > SINGULAR);
         let terms = Terms::new(m, required, home);
-        Self { manipulator: m, required, terms, legs: m.legs(), home: *home, size: m.size(), length, at_home }
+        let at_home = terms.determinant(home).filter(|det| det.abs() > SINGULAR);
+        Self { required, terms, legs: m.legs(), home: *home, size: m.size(), length, at_home }
     }
 
     /// The margins of all requirements at a pose, and `det J` over that at home where home is regular.
     #[must_use]
     pub fn margins(&self, pose: &Pose) -> Vec<(Limit, f64)> {
         let terms = self.terms.at(pose).into_iter().map(|(term, margin)| (Limit::Term(term), margin));
+        // where a rod does not close that is what is violated
         let ratio =
-            self.at_home.map(|home| (Limit::Singular, leg_determinant(self.manipulator, pose) / home));
+            self.at_home.and_then(|home| Some((Limit::Singular, self.terms.determinant(pose)? / home)));
         terms.chain(ratio).collect()
     }
 
@@ -140,7 +140,7 @@ impl<'a> Reach<'a> {
     /// How far the way is free from its start, up to `most`; 0 where the start is not allowed.
     ///
     /// Lengths, swing, clearances, keep-outs, leg speeds and the envelope of the machine cannot be violated between two steps, since their rates are bounded, but for steps of a
-    /// hundred-thousandth of the size where one of them is nearly zero (twice as far at each step that follows while it stays there). Forces, stiffness, natural frequency and the sign of `det J` are looked at at every step, which are at most
+    /// hundred-thousandth of the size where one of them is nearly zero (twice as far at each step that follows while it stays there); so are the reach of rods and the transmission, the angle and the lean of cranks. Forces, torques and speeds of cranks, stiffness, natural frequency and the sign of `det J` are looked at at every step, which are at most
     /// a fiftieth of the size.
     #[must_use]
     pub fn along(&self, way: &StraightWay, most: f64) -> Travel {

@@ -20,7 +20,7 @@ use nalgebra::Vector3;
 use super::{Reach, StraightWay};
 use crate::geom::Pose;
 use crate::manipulator::{Body, Leg};
-use crate::requirements::{HingeAngle, Limit, Term, TermKind};
+use crate::requirements::{CrankRoom, HingeAngle, Limit, Term, TermKind};
 
 /// The steps of a leg are so short that it keeps this share of its length.
 const KEPT: f64 = 0.75;
@@ -106,6 +106,22 @@ fn lasts(margin: f64, rate: f64) -> f64 {
     if rate > 0.0 { margin.max(0.0) / rate } else { f64::INFINITY }
 }
 
+/// A step over which a margin of a crank lasts whose platform joint is no faster than `speed`.
+///
+/// While the rod closes, `|d| <= r + l`, `||d|^2 - r^2 - l^2| <= 2 r l` and `|d.n| <= l`, hence `|(s^2)'| <= 2 l V (2 + l / r)`; and `|q'| <= V l / (r s)`. Where the rod ceases to close its own margins end the way.
+fn crank_step(room: &CrankRoom, kind: TermKind, margin: f64, speed: f64) -> f64 {
+    let rate = 2.0 * room.rod * speed * (2.0 + room.rod / room.length);
+    match kind {
+        TermKind::CrankTransmission => lasts(room.above_least, rate),
+        TermKind::TipSwing => lasts(room.lean, speed),
+        // s keeps half of what it is
+        _ => {
+            let turning = 2.0 * speed * room.rod / (room.length * room.square.max(0.0).sqrt());
+            lasts(margin.to_radians(), turning).min(lasts(0.75 * room.square, rate))
+        }
+    }
+}
+
 /// The greatest speed of a platform joint on a way.
 pub(super) fn fastest(way: &StraightWay, legs: &[Leg; 6]) -> f64 {
     let turned = |leg: &Leg| way.turn.cross(&(way.start.rotation * leg.platform.coords)).norm();
@@ -184,6 +200,12 @@ impl Reach<'_> {
                 lasts(margin, rate * degrees.to_radians()).min(base.cap)
             }
             TermKind::MachineEnvelope if term.second == 1 => lasts(margin, base.speed),
+            // distances from points of the circle of the crank: the joint of the platform is no faster than V
+            TermKind::RodTooShort | TermKind::RodTooLong => lasts(margin, base.speed),
+            TermKind::CrankTransmission | TermKind::CrankAngle | TermKind::TipSwing => self
+                .terms
+                .crank_room(term.first, pose)
+                .map_or(f64::INFINITY, |room| crank_step(&room, term.kind, margin, base.speed)),
             // forces and stiffness have no bound near singular poses; the others do not depend on the pose
             _ => f64::INFINITY,
         }

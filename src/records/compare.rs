@@ -44,13 +44,16 @@ pub struct FiguresRecord {
     pub assessment: Option<AssessAnswer>,
     /// Poses looked at.
     pub poses: usize,
-    /// Least leg length.
+    /// Least leg length; null where the legs are rods on cranks.
     pub shortest: Number,
-    /// Greatest leg length.
+    /// Greatest leg length; null where the legs are rods on cranks.
     pub longest: Number,
     /// The difference.
     pub stroke: Number,
-    /// Lengths at home that differ by more than a millionth of the size.
+    /// What the cranks do, where the legs are rods on cranks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cranks: Option<CrankFiguresRecord>,
+    /// Lengths at home that differ by more than a millionth of the size; of rods on cranks the lengths of the rods.
     pub different_legs: usize,
     /// Greatest leg force under the payload and the loads, one at a time.
     pub force: Option<Number>,
@@ -84,12 +87,32 @@ pub struct FiguresRecord {
     pub no_tolerance: Option<String>,
 }
 
+/// What cranks do over the poses that all rods reach.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CrankFiguresRecord {
+    /// Least angle; null: no pose is reached.
+    pub least_deg: Option<Number>,
+    /// Greatest angle.
+    pub greatest_deg: Option<Number>,
+    /// Least transmission angle: 0 at a singular crank.
+    pub transmission_deg: Option<Number>,
+    /// Greatest torque under the payload and the loads, one at a time, force units times design units.
+    pub torque: Option<Number>,
+    /// Greatest speed under the speed that the platform has to have, degrees per second.
+    pub speed_deg: Option<Number>,
+    /// Greatest torque along the manoeuvres.
+    pub motion_torque: Option<Number>,
+    /// Greatest speed along the manoeuvres, degrees per second.
+    pub motion_speed_deg: Option<Number>,
+}
+
 impl FiguresRecord {
     /// The figures of a design.
     #[must_use]
     pub(crate) fn new(design: &Design, path: String, found: &DesignFigures) -> Self {
         let number = |x: Option<f64>| x.map(Number);
         let [shortest, longest] = found.lengths;
+        let turns = found.cranks.is_some();
         let (tolerance, no_tolerance) = match &found.allowance {
             None => (None, None),
             Some(Ok(value)) => (Some(*value), None),
@@ -106,8 +129,17 @@ impl FiguresRecord {
             different_legs: found.different_legs,
             force: number(found.force),
             speed: number(found.speed),
-            motion_force: number(found.motion.force),
-            motion_speed: number(found.motion.speed),
+            motion_force: number(found.motion.force).filter(|_| !turns),
+            motion_speed: number(found.motion.speed).filter(|_| !turns),
+            cranks: found.cranks.as_ref().map(|cranks| CrankFiguresRecord {
+                least_deg: number(cranks.angles_deg.map(|a| a[0])),
+                greatest_deg: number(cranks.angles_deg.map(|a| a[1])),
+                transmission_deg: number(cranks.transmission_deg),
+                torque: number(cranks.torque),
+                speed_deg: number(cranks.speed_deg),
+                motion_torque: number(found.motion.force),
+                motion_speed_deg: number(found.motion.speed),
+            }),
             motion_power_w: number(found.motion.power),
             conditioning: Number(found.conditioning),
             stiffness: number(found.stiffness),
@@ -149,6 +181,7 @@ impl CompareAnswer {
         let (length, force) = (self.length_unit.as_str(), self.force_unit.as_str());
         let speed = format!("{length}/s");
         let stiffness = format!("{force}/{length}");
+        let torque = format!("{force} {length}");
         let mut out = vec![self.words("requirements", |d| {
             d.assessment.as_ref().map(|a| match a.met {
                 Some(true) => "met",
@@ -174,6 +207,13 @@ impl CompareAnswer {
             of("greatest speed", &speed, &|d| d.speed),
             of("force in motion", force, &|d| d.motion_force),
             of("speed in motion", &speed, &|d| d.motion_speed),
+            of("least crank angle", "deg", &|d| d.cranks.as_ref()?.least_deg),
+            of("greatest crank angle", "deg", &|d| d.cranks.as_ref()?.greatest_deg),
+            of("least transmission angle", "deg", &|d| d.cranks.as_ref()?.transmission_deg),
+            of("greatest torque", &torque, &|d| d.cranks.as_ref()?.torque),
+            of("greatest crank speed", "deg/s", &|d| d.cranks.as_ref()?.speed_deg),
+            of("torque in motion", &torque, &|d| d.cranks.as_ref()?.motion_torque),
+            of("crank speed in motion", "deg/s", &|d| d.cranks.as_ref()?.motion_speed_deg),
             of("power in motion", "W", &|d| d.motion_power_w),
             of("conditioning", "", &|d| Some(d.conditioning)),
             of("least stiffness", &stiffness, &|d| d.stiffness),

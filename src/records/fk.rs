@@ -84,6 +84,9 @@ pub struct FkOneAnswer {
     /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as doubles, to the platform, and certificates hold for these tips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
+    /// Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the tips as doubles are so far out that their rounding decides whether there are any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symmetric_finite: Option<usize>,
     /// How the pose was followed, with `--near`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near: Option<NearRecord>,
@@ -97,7 +100,7 @@ pub struct FkOneAnswer {
 
 impl From<SolvedRecord> for FkOneAnswer {
     fn from(solved: SolvedRecord) -> Self {
-        Self { solved, angles_deg: None, near: None, drives: None, closure: None }
+        Self { solved, angles_deg: None, symmetric_finite: None, near: None, drives: None, closure: None }
     }
 }
 

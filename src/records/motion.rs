@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{MarginRecord, Number, PoseQuaternionRecord};
 use crate::design::Design;
-use crate::dynamics::{Extreme, LeastStiffness, LegExtremes, Vibration};
+use crate::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vibration};
 use crate::entrance::{MotionReport, StiffnessReport, TimedMargin};
 
 /// The answer of `motion`.
@@ -87,12 +87,18 @@ pub struct MotionRunRecord {
     pub duration_s: f64,
     /// As in the answer, of this motion.
     pub met: bool,
-    /// By leg; empty where a leg has no length at some instant.
+    /// By leg; empty where a leg has no length at some instant, and where the legs are rods on cranks.
     pub legs: Vec<LegMotionRecord>,
+    /// By leg, where the legs are rods on cranks; empty where a rod does not reach at some instant.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cranks: Option<Vec<CrankMotionRecord>>,
     /// The least margin of each kind of requirement, force and speed by this motion.
     pub requirements: Vec<TimedMarginRecord>,
     /// When forces are not determined, since the pose is singular; null: at no instant.
     pub singular_at_s: Option<f64>,
+    /// When a rod first does not reach from its crank to the platform, where one does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unreached_at_s: Option<f64>,
 }
 
 impl MotionRunRecord {
@@ -106,12 +112,21 @@ impl MotionRunRecord {
             motion,
             instants: found.instants.len(),
             duration_s: ends.map_or(0.0, |(first, last)| last.time - first.time),
-            met: found.singular.is_none() && found.margins.iter().all(|m| m.margin.standing.is_met()),
-            legs: found.legs.iter().enumerate().map(|(i, leg)| LegMotionRecord::new(i + 1, leg)).collect(),
+            met: found.singular.is_none()
+                && found.unreached.is_none()
+                && found.margins.iter().all(|m| m.margin.standing.is_met()),
+            legs: if found.cranks { Vec::new() } else { each(found, LegMotionRecord::new) },
+            cranks: found.cranks.then(|| each(found, CrankMotionRecord::new)),
             requirements,
             singular_at_s: found.singular,
+            unreached_at_s: found.unreached,
         }
     }
+}
+
+/// A record of each leg, from 1.
+fn each<T>(found: &MotionReport, record: fn(usize, &LegExtremes) -> T) -> Vec<T> {
+    found.legs.iter().enumerate().map(|(i, leg)| record(i + 1, leg)).collect()
 }
 
 /// A margin with its time.
@@ -178,6 +193,44 @@ impl LegMotionRecord {
             push: found.drive.map(|d| d.push.into()),
             pull: found.drive.map(|d| d.pull.into()),
             rms_force: found.drive.map(|d| Number(d.rms_force)),
+            power_w: found.drive.map(|d| d.power.into()),
+        }
+    }
+}
+
+/// A crank along a motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CrankMotionRecord {
+    /// From 1.
+    pub leg: usize,
+    /// Least angle.
+    pub least_deg: ExtremeRecord,
+    /// Greatest angle.
+    pub greatest_deg: ExtremeRecord,
+    /// Speed of the greatest size, degrees per second.
+    pub speed_deg: ExtremeRecord,
+    /// Acceleration of the greatest size, degrees per second squared.
+    pub acceleration_deg: ExtremeRecord,
+    /// Torque of the greatest size about the axis, force units times design units; null: no masses are known, or torques are not determined. Cranks and rods count as massless.
+    pub torque: Option<ExtremeRecord>,
+    /// Root of the mean square of the torque over time.
+    pub rms_torque: Option<Number>,
+    /// Power of the greatest size, watts; negative where the drive brakes.
+    pub power_w: Option<ExtremeRecord>,
+}
+
+impl CrankMotionRecord {
+    fn new(leg: usize, found: &LegExtremes) -> Self {
+        let torque =
+            |d: DriveExtremes| if d.push.value.abs() >= d.pull.value.abs() { d.push } else { d.pull };
+        Self {
+            leg,
+            least_deg: found.shortest.into(),
+            greatest_deg: found.longest.into(),
+            speed_deg: found.speed.into(),
+            acceleration_deg: found.acceleration.into(),
+            torque: found.drive.map(|d| torque(d).into()),
+            rms_torque: found.drive.map(|d| Number(d.rms_force)),
             power_w: found.drive.map(|d| d.power.into()),
         }
     }

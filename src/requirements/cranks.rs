@@ -17,7 +17,7 @@ use super::load::forces_along;
 use super::term::{Term, TermKind, Terms, angle_deg};
 use super::{LeastConditioning, Requirements};
 use crate::geom::{Pose, PoseSpace};
-use crate::manipulator::{Leg, inverse_condition, jacobian_of_legs};
+use crate::manipulator::{Leg, inverse_condition, jacobian_of_legs, leg_determinant};
 
 /// A crank and its rod; the base joint of the leg is the centre of the crank.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,6 +77,21 @@ struct CrankAt {
     cos: f64,
     sin: f64,
     tip: Point3<f64>,
+}
+
+/// How far a crank is from what a short way can take it to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CrankRoom {
+    /// Of the crank.
+    pub(crate) length: f64,
+    /// Of the rod.
+    pub(crate) rod: f64,
+    /// `s^2`, negative where the rod does not close.
+    pub(crate) square: f64,
+    /// What `s^2` is above its value at the least transmission angle.
+    pub(crate) above_least: f64,
+    /// How far the rod may lean out of the plane of its crank beyond what it does; infinite where nothing is required.
+    pub(crate) lean: f64,
 }
 
 /// The cranks of a design, and what they and the joints of their rods can do.
@@ -209,9 +224,44 @@ impl Terms<'_> {
         (0..6).map(of).fold(0.0, f64::max)
     }
 
+    /// `det J` of the lines of what pushes the platform, without unit: of legs with lengths over the size, of rods with unit vectors and moments over the size. `None` where a rod does not close.
+    #[must_use]
+    pub(crate) fn determinant(&self, pose: &Pose) -> Option<f64> {
+        match &self.required.cranks {
+            None => Some(leg_determinant(self.manipulator, pose)),
+            Some(cranks) => {
+                self.rod_rows(cranks, pose, self.manipulator.size()).map(|rows| rows.determinant())
+            }
+        }
+    }
+
+    /// What a crank has left of its reach, of its transmission and of its lean; `None` where the legs change their lengths.
+    pub(crate) fn crank_room(&self, i: usize, pose: &Pose) -> Option<CrankRoom> {
+        let cranks = self.required.cranks.as_ref()?;
+        let crank = &cranks.legs[i];
+        let here = crank.at(&self.manipulator.legs()[i], pose);
+        let least = crank.rod * cranks.least_transmission_deg.to_radians().sin();
+        let most = cranks.tip_swing_deg.map_or(f64::INFINITY, |limit| crank.rod * limit.to_radians().sin());
+        Some(CrankRoom {
+            length: crank.length,
+            rod: crank.rod,
+            square: here.left,
+            above_least: here.left - least * least,
+            lean: most - here.along.abs(),
+        })
+    }
+
     /// The inverse condition number of the lines of the rods with moments over a length; 0 where a rod does not close.
     pub(super) fn rod_conditioning(&self, cranks: &Cranks, pose: &Pose, length: f64) -> f64 {
         self.rod_rows(cranks, pose, length).map_or(0.0, |rows| inverse_condition(&rows))
+    }
+}
+
+impl Terms<'_> {
+    /// The inverse condition number at a pose of the lines of the rods with moments over a length; 0 where a rod does not close, `None` where the design has no cranks.
+    #[must_use]
+    pub(crate) fn conditioning_of_rods(&self, pose: &Pose, length: f64) -> Option<f64> {
+        Some(self.rod_conditioning(self.required.cranks.as_ref()?, pose, length))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Requirements;
 use super::term::{Quantity, Term, Terms};
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, leg_determinant};
+use crate::manipulator::Manipulator;
 
 /// What ends the workspace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,7 +30,6 @@ pub struct PoseLimit {
 /// proves nothing: a path may still have to pass singular poses.) Where home itself is singular there is no sign to keep, and singularity is left out.
 #[derive(Debug)]
 pub struct Limits<'a> {
-    manipulator: &'a Manipulator,
     required: &'a Requirements,
     terms: Terms<'a>,
     size: f64,
@@ -47,8 +46,8 @@ impl<'a> Limits<'a> {
     pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
         let terms = Terms::new(manipulator, required, home);
         let size = manipulator.size();
-        let at_home = Some(leg_determinant(manipulator, home)).filter(|det| det.abs() > SINGULAR);
-        Self { manipulator, required, terms, size, at_home }
+        let at_home = terms.determinant(home).filter(|det| det.abs() > SINGULAR);
+        Self { required, terms, size, at_home }
     }
 
     /// Whether `det J` limits the workspace; not when it vanishes at home.
@@ -79,7 +78,9 @@ impl<'a> Limits<'a> {
         let shares = terms.iter().map(|t| PoseLimit { share: self.share(t), limit: Some(Limit::Term(t.0)) });
         let none = PoseLimit { share: f64::INFINITY, limit: None };
         let worst = shares.fold(none, |worst, t| if t.share < worst.share { t } else { worst });
-        let ratio = self.at_home.map_or(f64::INFINITY, |home| leg_determinant(self.manipulator, pose) / home);
+        // a rod that does not close is a requirement that is violated
+        let ratio = self.at_home.and_then(|home| Some(self.terms.determinant(pose)? / home));
+        let ratio = ratio.unwrap_or(f64::INFINITY);
         if worst.share > 0.0 && ratio < worst.share {
             PoseLimit { share: ratio, limit: Some(Limit::Singular) }
         } else {

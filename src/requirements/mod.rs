@@ -35,6 +35,7 @@ pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bodies::MovingBodies;
 pub use bound::{MarginBound, MarginProof, MarginVerdict, RodRegularity, prove, regular_rods};
 pub use conditioning::{LeastConditioning, least_conditioning};
+pub(crate) use cranks::CrankRoom;
 pub use cranks::{CrankedLeg, Cranks, least_rod_conditioning};
 pub use envelope::{Envelope, Envelopes};
 pub(crate) use envelope::{ball, room};

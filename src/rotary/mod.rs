@@ -11,6 +11,7 @@
 //!
 //! `docs/theory/rotary.md` has the derivations.
 
+mod symmetric;
 #[cfg(test)]
 mod tests;
 mod tracker;
@@ -97,6 +98,17 @@ pub enum InvalidRotary {
     /// Tips and joints that make no platform, at the angles zero.
     #[error(transparent)]
     Manipulator(#[from] InvalidManipulator),
+}
+
+/// The angle of a crank and its derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrankMotion {
+    /// Radians.
+    pub angle: f64,
+    /// Radians per second.
+    pub speed: f64,
+    /// Radians per second squared.
+    pub acceleration: f64,
 }
 
 /// Both angles at which a crank can hold a platform joint.
@@ -305,6 +317,33 @@ impl RotaryPlatform {
             rows.set_row(i, &scaled);
         }
         rows.iter().all(|x| x.is_finite()).then_some(rows)
+    }
+
+    /// How the cranks turn when the platform joints, in leg order, have these velocities and accelerations (base frame). Not finite where a crank is singular.
+    ///
+    /// With the line `m` of the rod, `m . (B' - a') = 0` for the tip `a' = r q' (n x t)`, and once more differentiated
+    /// `r q'' m.(n x t) = |B' - a'|^2 + m . B'' + r q'^2 m.t`.
+    #[must_use]
+    pub fn motions(
+        &self,
+        pose: &Pose,
+        angles: &[f64; 6],
+        joints: &[(Vector3<f64>, Vector3<f64>); 6],
+    ) -> [CrankMotion; 6] {
+        let ends = self.ends(angles);
+        std::array::from_fn(|i| {
+            let crank = &self.legs[i].crank;
+            let (velocity, acceleration) = &joints[i];
+            let rod = pose.transform(&ends[i].platform) - ends[i].base;
+            let arm = (ends[i].base - crank.centre) / crank.length;
+            let ahead = crank.axis.cross(&arm);
+            let pushed = crank.length * rod.dot(&ahead);
+            let speed = rod.dot(velocity) / pushed;
+            let apart = velocity - ahead * (crank.length * speed);
+            let turned =
+                apart.norm_squared() + rod.dot(acceleration) + crank.length * speed * speed * rod.dot(&arm);
+            CrankMotion { angle: angles[i], speed, acceleration: turned / pushed }
+        })
     }
 
     /// The greatest speed of each crank, radians per second, when the platform origin moves at most so fast in any direction and the platform turns at most so fast (radians per second) about any axis:

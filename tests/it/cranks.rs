@@ -385,14 +385,10 @@ fn nothing_takes_cranks_for_legs_that_change_their_lengths() {
     let file = format!("{out}/o.svg");
     for args in [
         vec!["check", HEAD],
-        vec!["compare", HEAD, octahedral],
         vec!["explore", HEAD, "-o", out],
-        vec!["limits", HEAD],
         vec!["optimize", HEAD],
         vec!["verify", HEAD, octahedral],
         vec!["verify", octahedral, HEAD],
-        vec!["view", HEAD, "-o", &file],
-        vec!["motion", HEAD, "--sine", "x:1:1"],
         vec!["equivalents", "map", octahedral, HEAD],
         vec!["equivalents", "family", HEAD],
         vec!["equivalents", "components", HEAD],
@@ -423,6 +419,285 @@ fn nothing_takes_cranks_for_legs_that_change_their_lengths() {
         assert_eq!(done.status.code(), Some(2), "{args:?}");
         assert_eq!(document(&done)["error"]["code"], code, "{args:?}");
     }
+}
+
+/// A document and its exit code.
+fn asked(args: &[&str]) -> (Option<i32>, Value) {
+    let out = equipod(&[args, &["--json"]].concat());
+    (out.status.code(), document(&out))
+}
+
+/// How far the head may move, against a walk in small steps by other code.
+#[test]
+fn free_ways_of_cranks_end_where_a_limit_of_theirs_does() {
+    let (code, doc) = asked(&["limits", HEAD, "--at", "2,-3,180,4,-2,5"]);
+    assert_eq!((code, &doc["allowed"]), (Some(0), &true.into()), "{doc}");
+    let preset = std::fs::read_to_string(HEAD).unwrap();
+    let (design, _) = parse_with_cranks(&preset, Format::Toml).unwrap();
+    let platform = design.rotary().unwrap().unwrap();
+    let (required, home) = (design.requirements(), design.home.unwrap());
+    let terms = Terms::new(design.manipulator(), &required, &home);
+    let start: Pose = "2,-3,180,4,-2,5".parse().unwrap();
+    let met = |pose: &Pose| {
+        let reached = platform.ik(pose).is_ok_and(|angles| platform.within_limits(&angles));
+        reached && terms.at(pose).iter().all(|(_, margin)| *margin > 0.0)
+    };
+    for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let row = doc["axes"].as_array().unwrap().iter().find(|row| row["axis"] == name).unwrap();
+        for (way, sign) in [("back", -1.0), ("forth", 1.0)] {
+            let end = row[way]["value"].as_f64().unwrap();
+            let at = |value: f64| {
+                let mut pose = start;
+                pose.position[k] = value;
+                pose
+            };
+            // allowed up to the end, and not beyond it
+            let step = (end - start.position[k]) / 200.0;
+            assert!((0..200).all(|j| met(&at(start.position[k] + step * f64::from(j)))), "{name} {way}");
+            assert!(!met(&at(end + sign * 1e-4)), "{name} {way}: {row}");
+            let binds = row[way]["binds"]["name"].as_str().unwrap();
+            assert!(
+                ["rod_too_short", "rod_too_long", "crank_angle", "crank_torque"].contains(&binds),
+                "{row}"
+            );
+        }
+    }
+    // beyond reach: the nearest allowed pose, and what is violated
+    let (code, doc) = asked(&["limits", HEAD, "--to", "0,0,260,0,0,0"]);
+    assert_eq!(code, Some(1), "{doc}");
+    assert!(
+        doc["way"]["binds"]["name"].is_string() && doc["nearest_allowed"]["distance"].is_number(),
+        "{doc}"
+    );
+    let (code, doc) = asked(&["limits", HEAD, "--at", "0,0,260,0,0,0"]);
+    let violated: Vec<&str> = doc["violated"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|v| v["name"].as_str().unwrap_or("singular"))
+        .collect();
+    assert_eq!((code, violated.contains(&"rod_too_short")), (Some(1), true), "{doc}");
+    assert!(!violated.contains(&"singular"), "where no rod reaches there is no sign to lose: {doc}");
+}
+
+/// Every limit of cranks binds on some way, and no pose of the way before its end violates one.
+#[test]
+fn ways_of_cranks_keep_every_limit_between_their_steps() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("servos.toml");
+    // angles about those at home, which are 150 degrees
+    let text = limited().text().replace("angle_deg = [-80, \"60 + half\"]", "angle_deg = [100, 190]");
+    // a speed that binds late, so that what binds has steps of its own
+    let text = text.replace("max_speed_deg = 300", "max_speed_deg = 3000");
+    let (design, _) = parse_with_cranks(&text, Format::Toml).unwrap_or_else(|v| panic!("{v:?}"));
+    std::fs::write(&path, &text).unwrap();
+    let (required, home) = (design.requirements(), design.home.unwrap());
+    let terms = Terms::new(design.manipulator(), &required, &home);
+    let mut bound = std::collections::BTreeSet::new();
+    for to in ["30,10,110,0,0,0", "0,0,80,0,0,0", "0,0,125,0,0,0", "0,0,105,0,0,60", "5,-30,100,20,5,0"] {
+        let (_, doc) = asked(&["limits", path.to_str().unwrap(), "--to", to]);
+        let way = &doc["way"];
+        let free = way["free"].as_f64().unwrap_or_else(|| panic!("{doc}"));
+        bound.insert(way["binds"]["name"].as_str().unwrap_or_else(|| panic!("{to}: {doc}")).to_string());
+        let target: Pose = to.parse().unwrap();
+        let turn = (target.rotation * home.rotation.inverse()).scaled_axis();
+        for k in 0..400 {
+            let t = free * f64::from(k) / 400.0;
+            let pose = Pose {
+                rotation: Rotation3::new(turn * t) * home.rotation,
+                position: home.position + (target.position - home.position) * t,
+            };
+            let worst = terms.at(&pose).into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+            assert!(worst.1 > -1e-9, "{to} at {t}: {worst:?}");
+        }
+    }
+    assert!(bound.len() >= 2, "{bound:?}");
+}
+
+/// Speeds, accelerations, torques and powers along a motion against differences of angles and the work of the weight.
+#[test]
+fn a_motion_of_cranks_has_speeds_torques_and_powers() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("m.csv");
+    let (code, doc) = asked(&["motion", HEAD, "--sine", "z:6:2", "--csv", table.to_str().unwrap()]);
+    assert_eq!((code, &doc["met"]), (Some(0), &true.into()), "{doc}");
+    let run = &doc["motions"][0];
+    assert!(run["legs"].as_array().unwrap().is_empty() && run.get("unreached_at_s").is_none());
+    let names: Vec<&str> = run["requirements"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|r| r["margin"]["name"].as_str().unwrap())
+        .collect();
+    for name in ["crank_torque", "crank_speed", "crank_angle", "rod_too_short"] {
+        assert!(names.contains(&name), "{names:?}");
+    }
+    let text = std::fs::read_to_string(&table).unwrap();
+    let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').skip(1).map(|x| x.parse().unwrap()).collect())
+        .collect();
+    let column =
+        |name: &str| header.iter().position(|h| *h == name).unwrap_or_else(|| panic!("{header:?}")) - 1;
+    let (preset, _) = parse_with_cranks(&std::fs::read_to_string(HEAD).unwrap(), Format::Toml).unwrap();
+    let payload = preset.payload.clone().unwrap();
+    for k in 1..rows.len() - 1 {
+        let dt = rows[k + 1][0] - rows[k][0];
+        let mut power = 0.0;
+        for leg in 1..=6 {
+            let at = |name: &str, k: usize| {
+                rows[k][column(&format!(
+                    "{name}_{leg}_{}",
+                    match name {
+                        "crank" => "deg",
+                        "speed" => "deg_per_s",
+                        "acceleration" => "deg_per_s2",
+                        "torque" => "N_mm",
+                        _ => "W",
+                    }
+                ))]
+            };
+            let first = (at("crank", k + 1) - at("crank", k - 1)) / (2.0 * dt);
+            let second = (at("crank", k + 1) - 2.0 * at("crank", k) + at("crank", k - 1)) / (dt * dt);
+            assert!((first - at("speed", k)).abs() < 2e-3 * 400.0, "{leg}: {first} {}", at("speed", k));
+            assert!((second - at("acceleration", k)).abs() < 2e-3 * 9000.0, "{leg}: {second}");
+            // N mm times rad/s in W
+            let own = at("torque", k) * 1e-3 * at("speed", k).to_radians();
+            assert!((own - at("power", k)).abs() < 1e-9 * (1.0 + own.abs()));
+            power += at("power", k);
+        }
+        // the drives lift and accelerate the head: m (g + a) v
+        let [z, before, after] = [k, k - 1, k + 1].map(|j| rows[j][column("z_mm")]);
+        let (speed, acceleration) = ((after - before) / (2.0 * dt), (after - 2.0 * z + before) / (dt * dt));
+        let meant = payload.mass * (9806.65 + acceleration) * speed * 1e-6;
+        assert!((power - meant).abs() < 2e-3 * 0.3, "{power} {meant}");
+    }
+    // a way beyond reach is told with its time, and no speed is made up for it
+    let (code, doc) = asked(&["motion", HEAD, "--sine", "z:60:1"]);
+    let run = &doc["motions"][0];
+    assert_eq!((code, &doc["met"]), (Some(1), &false.into()));
+    assert!(run["unreached_at_s"].as_f64().unwrap() > 0.0 && run["cranks"].as_array().unwrap().is_empty());
+    let text = String::from_utf8(equipod(&["motion", HEAD, "--sine", "z:60:1"]).stdout).unwrap();
+    assert!(text.contains("a rod does not reach") && text.contains("exceeds its limits"), "{text}");
+    let (code, doc) = asked(&["motion", HEAD, "--stiffness"]);
+    assert_eq!((code, &doc["error"]["code"]), (Some(2), &"motion::no_stiffness".into()));
+}
+
+/// All poses of the symmetric head by the quadratics of the theorem, against those that forward kinematics finds.
+#[test]
+fn the_symmetric_head_has_the_28_poses_of_the_theorem() {
+    let (design, _) = parse_with_cranks(&std::fs::read_to_string(HEAD).unwrap(), Format::Toml).unwrap();
+    let platform = design.rotary().unwrap().unwrap();
+    let home = design.home.unwrap();
+    let angles = platform.ik(&home).unwrap();
+    assert_eq!(platform.symmetric_pose_count(&angles), Some(28));
+    let tips = platform.at(&angles).unwrap();
+    let place = |p: nalgebra::Point3<f64>| num_complex::Complex64::new(p.x, p.y);
+    let legs = tips.legs();
+    let ([a1, a2], [b1, b2]) =
+        ([0, 1].map(|i: usize| place(legs[i].base)), [0, 1].map(|i: usize| place(legs[i].platform)));
+    let (a, b, alpha, beta) =
+        (a1.norm(), b1.norm(), 0.5 * (a1.arg() - a2.arg()), 0.5 * (b1.arg() - b2.arg()));
+    let sine = (alpha - beta).sin();
+    let k1 = b * (alpha + 2.0 * beta).sin() / (2.0 * sine);
+    let k2 = a * (2.0 * alpha + beta).sin() / (2.0 * sine);
+    let (c, k) = (a * b * (alpha - beta).cos(), a * a + b * b - 85.0 * 85.0);
+    // squares of the height over the tips, each with how many poses it is of
+    let mut squares = vec![(2.0 * c - k, 2), (-2.0 * c - k, 2)];
+    for (sign, s) in [(1.0, k1 + k2), (-1.0, k2 - k1)] {
+        let (x, y, z) =
+            (sign * (2.0 * c - 4.0 * k1 * k2), -k - 4.0 * k1 * k1 + sign * 4.0 * k1 * s + s * s, -s * s);
+        let root = (y * y - 4.0 * x * z).sqrt();
+        for e in [(-y + root) / (2.0 * x), (-y - root) / (2.0 * x)] {
+            squares.push((sign * 2.0 * c * e - k - 4.0 * k1 * k1 * (1.0 - e).powi(2), 6));
+        }
+    }
+    let found = platform.fk(&angles, &equipod::methods::fk::FkOptions::new()).unwrap();
+    assert_eq!((found.roots.len(), found.is_complete()), (28, false), "the doubles have more, far out");
+    let heights: Vec<_> = found.roots.iter().map(|r| (r.pose.position.z - legs[0].base.z).powi(2)).collect();
+    for (square, count) in squares {
+        let near = heights.iter().filter(|h| (*h - square).norm() < 1e-8 * square.abs()).count();
+        assert_eq!(near, count, "{square}: {heights:?}");
+    }
+    // the answer says so, and does not where there is no symmetry
+    let text = angles.map(|x| format!("{:?}", x.to_degrees())).join(",");
+    let (code, doc) = asked(&["fk", HEAD, "--angles", &text]);
+    assert_eq!((code, &doc["symmetric_finite"], &doc["finite_count"]), (Some(3), &28.into(), &28.into()));
+    let mut other = angles;
+    other[3] += 1e-6;
+    assert_eq!(platform.symmetric_pose_count(&other), None);
+}
+
+#[test]
+fn cranks_and_legs_stand_side_by_side() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("c.html");
+    let args = ["compare", HEAD, "designs/presets/bench-l16.toml", "--points", "30", "--sine", "z:2:1"];
+    let (code, doc) = asked(&[&args[..], &["--accuracy", "0.1,0.1", "-o", page.to_str().unwrap()]].concat());
+    assert_eq!(code, Some(0), "{doc}");
+    let [head, bench] = doc["designs"].as_array().unwrap().as_slice() else { panic!("{doc}") };
+    assert!(head["stroke"].is_null() && head["force"].is_null() && bench["stroke"].is_number());
+    assert!(
+        bench.get("cranks").is_none() && head["no_tolerance"].as_str().unwrap().contains("cranks"),
+        "{head}"
+    );
+    let cranks = &head["cranks"];
+    let of = |key: &str| cranks[key].as_f64().unwrap_or_else(|| panic!("{key}: {cranks}"));
+    assert!(of("least_deg") < -35.0 && of("greatest_deg") > 35.0 && of("transmission_deg") > 10.0);
+    assert!(
+        of("torque") > 0.0
+            && of("torque") < 520.0
+            && of("motion_torque") > 0.0
+            && of("motion_speed_deg") > 0.0
+    );
+    assert!(head["conditioning"].as_f64().unwrap() > 0.0 && head["different_legs"] == 1);
+    assert!(std::fs::read_to_string(&page).unwrap().contains("least transmission angle"));
+}
+
+/// Margins of cranks less their reserves, as rows of the answer.
+#[test]
+fn reserves_of_cranks_are_taken_off_their_margins() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("r.toml");
+    let text = SERVOS.replace("max_torque = 1500", LIMITS).replace(
+        "[speed]\nlinear = 50",
+        "[workspace]\ntranslation = [3, 3, 3]\nrotation_deg = [2, 2, 2]\n[limits.reserve]\nrod_too_short = 0.5\ncrank_transmission = \"10%\"\ncrank_angle = 4\ncrank_torque = \"50%\"\ntip_swing = \"25%\"\ncrank_speed = 400\n[speed]\nlinear = 50\nangular_deg = 30",
+    );
+    // angles about those at home, which are 150 degrees
+    let text = text.replace("angle_deg = [-80, \"60 + half\"]", "angle_deg = [100, 190]");
+    let text = text.replace("max_speed_deg = 300", "max_speed_deg = 500");
+    std::fs::write(&path, text).unwrap();
+    let args = ["assess", path.to_str().unwrap(), "--cells", "250", "--points", "50", "--searches", "1"];
+    let (code, doc) = asked(&args);
+    let row = |name: &str| {
+        let rows = doc["requirements"].as_array().unwrap_or_else(|| panic!("{doc}"));
+        rows.iter().find(|r| r["name"] == name).unwrap_or_else(|| panic!("{name}: {doc}"))
+    };
+    // shares are of what the limit is: 20 degrees, 1500 force mm, 40 degrees
+    for (name, reserve) in [
+        ("rod_too_short", 0.5),
+        ("crank_transmission", 2.0),
+        ("crank_angle", 4.0),
+        ("crank_torque", 750.0),
+        ("tip_swing", 10.0),
+        ("crank_speed", 400.0),
+        ("rod_too_long", 0.0),
+    ] {
+        let row = row(name);
+        let of = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key}: {row}"));
+        assert!((of("reserve") - reserve).abs() < 1e-12, "{row}");
+        assert!((of("margin_with_reserve") - (of("margin") - reserve)).abs() < 1e-9, "{row}");
+        // kept where that is proved, not kept where the margin found is less; the limits themselves are met
+        assert_eq!(row["reserve_kept"] == false, of("margin") < reserve, "{row}");
+        assert!(row["status"] != "violated", "{row}");
+    }
+    // the margin of a speed is positive, and less than what is to be left
+    assert!(row("crank_speed")["margin"].as_f64().unwrap() > 0.0, "{doc}");
+    assert_eq!((&row("crank_speed")["reserve_kept"], &doc["reserve_kept"]), (&false.into(), &false.into()));
+    assert_eq!(row("rod_too_short")["reserve_kept"], true, "{doc}");
+    assert!(matches!(code, Some(0 | 3)), "{doc}");
 }
 
 /// Everything that limits cranks and rods.

@@ -15,6 +15,7 @@ from playwright.sync_api import sync_playwright
 import access
 import begin
 import behaviour
+import cranks
 import fresh
 import hostile
 import limits
@@ -103,6 +104,28 @@ def general(chromium, program, folder, pictures):
             behaviour.modes_for_the_lengths_of_the_file(shown, program, DESIGNS / f"{name}.toml")
             access.names(shown)
             picture(shown, pictures, name)
+            shown.quiet()
+
+
+def rods(chromium, program, folder, pictures):
+    """Rods on cranks, light and dark, wide and narrow."""
+    path = program.page(cranks.HEAD, folder / "rods.html")
+    with Opened(chromium, path) as shown:
+        assert shown.ready == "live" and not shown.page.is_visible("#locus-label")
+        cranks.as_ik(shown, program)
+        cranks.beyond_reach(shown)
+        cranks.modes_of_angles(shown, program)
+        cranks.required(shown, program)
+        access.names(shown)
+        access.contrast(shown)
+        picture(shown, pictures, "rods")
+        shown.quiet()
+    for width, dark in ((360, False), (390, True), (1360, True)):
+        with Opened(chromium, path, width=width, height=780, dark=dark, touch=width < 1000) as shown:
+            if width < 1000:
+                access.narrow(shown)
+            access.contrast(shown)
+            picture(shown, pictures, f"rods-{width}-{'dark' if dark else 'light'}")
             shown.quiet()
 
 
@@ -360,7 +383,7 @@ def main():
         args.pictures.mkdir(parents=True, exist_ok=True)
     program, failed = Program(args.program), 0
     checks = [
-        octahedral, equivalent, spaces, singular, general, required, first, hidden, lengths, whole, shared, start, slow, phone, recorded, printed, reported, foreign, faults,
+        octahedral, equivalent, spaces, singular, general, rods, required, first, hidden, lengths, whole, shared, start, slow, phone, recorded, printed, reported, foreign, faults,
     ]
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, browser(playwright) as chromium:
         folder = Path(folder)

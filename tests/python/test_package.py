@@ -311,6 +311,107 @@ def test_margins_at_a_pose_are_signed_distances_to_limits():
     assert batch.values.shape == (3, len(margins.names))
 
 
+def test_cranks_have_angles_in_place_of_lengths(tmp_path):
+    head = equipod.Design.load(DESIGNS / "presets/reachy-mini.toml")
+    assert head.drive == "rotary" and equipod.Design.preset("reachy-mini") == head
+    assert equipod.Design.loads(head.dumps("json"), "json") == head and pickle.loads(pickle.dumps(head)) == head
+    assert equipod.Design.load(DESIGNS / "rbt-octahedral.toml").drive == "prismatic"
+    rng = np.random.default_rng(3)
+    shifts = head.home[:3, 3] + rng.uniform(-8, 8, (6, 3))
+    poses = equipod.pose(shifts, rpy=rng.uniform(-6, 6, (6, 3)), degrees=True)
+    angles = head.ik(poses)
+    # what the maker's own data give at home
+    assert np.allclose(np.degrees(head.ik(head.home)), 35.898 * np.array([1, -1] * 3), atol=0.01)
+    assert angles.shape == (6, 6) and head.ik(poses.reshape(2, 3, 4, 4)).shape == (2, 3, 6)
+    assert np.array_equal(head.ik(poses.tolist()), angles)
+
+    # both sides put the tip of the crank a rod away from the platform joint
+    found = head.crank_angles(poses)
+    assert np.array_equal(found.kept, angles) and np.all(found.limit_margin > 0)
+    joints = head.joints
+    tips = np.einsum("nij,kj->nki", poses[:, :3, :3], joints.platform_ends) + poses[:, None, :3, 3]
+    turn = [equipod.pose(rpy=[0, 0, k * 120], degrees=True)[:3, :3] for k in (2, 2, 0, 0, 1, 1)]
+    for side in (found.kept, found.other):
+        for leg in range(6):
+            sign = 1 if leg % 2 == 0 else -1
+            zero, across = turn[leg] @ [0, sign, 0], turn[leg] @ [0, 0, sign]
+            at = joints.base_ends[leg] + 40 * (np.cos(side[:, leg, None]) * zero + np.sin(side[:, leg, None]) * across)
+            assert np.allclose(np.linalg.norm(tips[:, leg] - at, axis=1), 85.0, rtol=1e-12)
+    assert np.all(np.sign(found.transmission) == np.array([1, -1] * 3))
+
+    # the Jacobian is the derivative of the angles
+    h = 1e-6
+    rows = head.jacobian(poses[0])
+    for k in range(3):
+        ahead, behind = poses[0].copy(), poses[0].copy()
+        ahead[k, 3] += h
+        behind[k, 3] -= h
+        assert np.allclose((head.ik(ahead) - head.ik(behind)) / (2 * h), rows[:, k], atol=1e-7)
+    assert np.allclose(head.jacobian(poses[0], characteristic_length=10.0)[:, 3:] * 10.0, rows[:, 3:])
+
+    solutions = head.fk(angles[0])
+    assert solutions.certified.all() and np.allclose(solutions.nearest(poses[0]).transform, poses[0], atol=1e-8)
+    record = solutions.record
+    assert np.allclose(record.angles_deg, np.degrees(angles[0]))
+    kept = [s.real_pose.elbow_kept for s in record.solutions if s.real_pose is not None]
+    assert [True] * 6 in kept
+    batch = head.fk_batch(angles[:2])
+    assert len(batch) == 2 and batch.counts()[0] == len(solutions) and np.array_equal(batch[0].T, solutions.T)
+    tracker = head.tracker()
+    track = tracker.follow(angles)
+    assert track.status == "tracked" and np.allclose(track.T, poses, atol=1e-7)
+    assert tracker.step(angles[0]).status == "tracked" and np.allclose(tracker.T, poses[0], atol=1e-7)
+
+    # beyond reach
+    far = head.home.copy()
+    far[2, 3] += 100
+    assert np.isnan(head.ik(far)).all() and np.isnan(head.jacobian(far)).all()
+    assert np.isnan(head.crank_angles(far).other).all()
+    for refused in (lambda: head.tracker(far), lambda: head.fk([np.nan] * 6)):
+        with pytest.raises(equipod.DesignError):
+            refused()
+
+    margins = head.margins(poses)
+    names = {"rod_too_short", "rod_too_long", "crank_transmission", "crank_angle", "crank_torque"}
+    assert set(margins.least) == names and min(margins.least.values()) > 0
+    left = margins.values[:, [k for k, name in enumerate(margins.names) if name == "crank_angle"]]
+    assert np.allclose(left, np.degrees(found.limit_margin))
+    answer = head.assess(points=50, searches=1, cells=250)
+    assert {row.name for row in answer.requirements} == names and answer.met is not False
+    assert "platform.xml" in head.export("mjcf")
+
+    # what has no meaning for cranks says so
+    octahedral = equipod.Design.load(DESIGNS / "rbt-octahedral.toml")
+    for refused in (
+        head.check,
+        lambda: head.equivalent([0.2] * 6),
+        lambda: equipod.leg_map(octahedral, head),
+        lambda: equipod.verify(head, octahedral),
+        lambda: octahedral.crank_angles(octahedral.home),
+    ):
+        with pytest.raises(equipod.DesignError) as caught:
+            refused()
+        assert caught.value.code in ("design::rotary", "no_cranks")
+
+
+def test_limits_and_motions_of_cranks():
+    head = equipod.Design.preset("reachy-mini")
+    limits = head.limits()
+    up = next(axis for axis in limits.axes if axis.axis == "z").forth
+    assert limits.allowed and up.binds is not None and up.value > head.home[2, 3] + 10
+    run = head.motion(sine=["z:8:1"]).motions[0]
+    assert run.met and not run.legs and run.unreached_at_s is None
+    times = np.linspace(0, 1, 361)
+    poses = np.tile(head.home, (361, 1, 1))
+    poses[:, 2, 3] += 8 * np.sin(2 * np.pi * times)
+    angles = np.degrees(head.ik(poses))
+    assert np.allclose([c.least_deg.value for c in run.cranks], angles.min(axis=0), atol=1e-9)
+    assert np.allclose([c.greatest_deg.value for c in run.cranks], angles.max(axis=0), atol=1e-9)
+    assert all(abs(c.torque.value) >= c.rms_torque > 0 for c in run.cranks)
+    servos = equipod.compare([head], options=["--points", "20"]).designs[0]
+    assert servos.name == head.name and servos.stroke is None and servos.cranks.least_deg < servos.cranks.greatest_deg
+
+
 def test_long_work_answers_reports_and_can_be_interrupted(octahedral):
     lines = []
     best, answer = octahedral.optimize(progress=lines.append)

@@ -16,6 +16,8 @@ use crate::design::Design;
 use crate::dynamics::Manoeuvre;
 use crate::entrance::{FigureOptions, PlatformMotion};
 use crate::export::LengthUnit;
+use crate::geom::Pose;
+use crate::manipulator::Manipulator;
 use crate::manufacture::ErrorBound;
 use crate::plot::thumbnail;
 use crate::records::{AccuracyRecord, CompareAnswer, FigureCell, FiguresRecord};
@@ -70,7 +72,7 @@ impl Asked {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let mut designs = Vec::new();
     for path in &args.designs {
-        designs.push((files::shown(path), context.load(path)?));
+        designs.push((files::shown(path), context.load_ideal(path)?));
     }
     let asked = asked(args, context)?;
     let mut comparison = compare(&designs, &asked)?;
@@ -159,9 +161,18 @@ pub(super) fn compare(designs: &[(String, Design)], asked: &Asked) -> Result<Com
             accuracy: asked.accuracy,
         });
         out.answer.designs.push(FiguresRecord::new(design, path.clone(), &found));
-        out.thumbnails.push(thumbnail(design.manipulator(), &home, &design.name));
+        out.thumbnails.push(thumbnail(&drawn(design, &home), &home, &design.name));
     }
     Ok(out)
+}
+
+/// The legs to draw at a pose: rods from the tips of cranks that reach.
+fn drawn(design: &Design, pose: &Pose) -> Manipulator {
+    let tips = design.rotary().ok().flatten().and_then(|platform| {
+        let angles = platform.ik(pose).ok()?;
+        platform.at(&angles).ok()
+    });
+    tips.unwrap_or_else(|| design.manipulator().clone())
 }
 
 /// Width of the names of figures and of the columns of designs.

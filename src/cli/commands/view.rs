@@ -39,7 +39,7 @@ pub(crate) struct Args {
 /// Writes the page.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let mut session = match &args.design {
-        Some(path) => Session::new(context.load(path)?),
+        Some(path) => Session::new(context.load_ideal(path)?),
         None => Session::without_design().map_err(|e| Failure::internal(e.to_string()))?,
     };
     if let Some(offsets) = &args.offsets {

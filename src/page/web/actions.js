@@ -244,7 +244,7 @@ Object.assign(App.prototype, {
   /** All poses for lengths that somebody typed; the real one nearest to the pose shown is shown. */
   findFor(lengths) {
     if (!lengths) {
-      $("lengths-state").textContent = "Give six positive numbers.";
+      $("lengths-state").textContent = this.cranks ? "Give six numbers." : "Give six positive numbers.";
       return;
     }
     this.player.rest(0);
@@ -265,7 +265,7 @@ Object.assign(App.prototype, {
         this.legFields.typed = false;
       } else if (!found.error && !found.modes.length) {
         this.listed = "typed";
-        $("lengths-state").textContent = "No real pose with these lengths was found.";
+        $("lengths-state").textContent = `No real pose with these ${this.cranks ? "angles" : "lengths"} was found.`;
       }
       this.listModes();
       this.soon();
@@ -295,7 +295,7 @@ Object.assign(App.prototype, {
     const count = modes.solution_set === "positive_dimensional"
       ? `For exactly these lengths ${of} has a whole curve of complex poses; ${modes.modes.length ? `${modes.modes.length} real ones on it are listed` : "no real one was found on it"}. Isolated poses beside the curve (the one shown may be one) are not listed: move the platform a little and ask again.`
       : `${modes.modes.length} real of ${modes.finite} finite complex poses of ${of}, by the ${modes.method} method; the list is ${modes.proved ? "proved complete" : "not proved complete"}, ${modes.modes.filter((m) => m.certified).length} real ones are certified.`;
-    return this.listed === "stale" ? `${count} These are the poses for the lengths at which they were found; the platform has moved since.` : count;
+    return this.listed === "stale" ? `${count} These are the poses for the ${this.cranks ? "angles" : "lengths"} at which they were found; the platform has moved since.` : count;
   },
 
   captionGhost() {

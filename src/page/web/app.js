@@ -53,6 +53,11 @@ class App {
     this.remembered = { [open.start ? open.start.pattern : ""]: this.offsets };
   }
 
+  /** Whether the legs are rods on cranks. */
+  get cranks() {
+    return this.open.kind === "cranks";
+  }
+
   get chosen() {
     return this.pattern ? { pattern: this.pattern.id, offsets: this.offsets } : null;
   }
@@ -103,10 +108,17 @@ class App {
       octahedral: "Octahedral platform and its kinematic equivalents: the same poses, squared leg lengths related by s′ = A s + c",
       equivalent: "Platform without shared joints and its octahedral original",
       general: "Six legs without octahedral original",
+      cranks: "Rods of constant length on six cranks",
     };
     $("kind").textContent = kinds[open.kind];
     $("caption-first").replaceChildren(el("b", {}, pattern ? "Original" : "Platform"), ` ${pattern ? "octahedral" : open.name} `, el("span", { class: "chip", id: "regular-first" }));
-    $("regular-first").title = open.reason || "some pose holds the platform: proved in exact arithmetic";
+    const { cranks } = this;
+    $("regular-first").title = open.reason || (cranks ? "" : "some pose holds the platform: proved in exact arithmetic");
+    $("pose-title").textContent = cranks ? "Pose and crank angles" : "Pose and leg lengths";
+    $("pose-help").textContent = `Move a slider or type a number, and the ${cranks ? "crank angles" : "leg lengths"} follow. Type ${cranks ? "angles" : "leg lengths"} (or paste all six into one field) to find their poses.`;
+    $("lengths-what").textContent = cranks ? "Crank angles" : "Leg lengths";
+    $("lengths-title").textContent = cranks ? "Cranks" : "Leg lengths";
+    $("locus-label").hidden = cranks;
     $("figure-second").hidden = !pattern;
     document.querySelector(".views").classList.toggle("one", !pattern);
     document.querySelector("main").classList.toggle("plain", !pattern);
@@ -117,12 +129,12 @@ class App {
     skip.textContent = `Skip to the ${pattern ? "offsets" : "assembly modes"}`;
     this.poseFields.build(open, this.home(), enabled);
     this.legFields.build(open, enabled);
-    $("lengths-units").textContent = inUnits(open.units);
+    $("lengths-units").textContent = cranks ? " [°]" : inUnits(open.units);
     $("whose-label").hidden = !pattern;
     $("whose").value = this.whose;
     $("of-file").hidden = !open.lengths;
     for (const id of ["find", "confirm", "solve", "as-shown", "of-file", "whose", "share", "pattern", "restart", "linked", "axis-x", "axis-y", "axis-z", "locus"]) $(id).disabled = !enabled;
-    const paths = [["workspace", open.trajectory ? "trajectory of the design" : "through the workspace"], ["motion", "self-motion"]];
+    const paths = [["workspace", open.trajectory ? "trajectory of the design" : "through the workspace"], ...(cranks ? [] : [["motion", "self-motion"]])];
     $("path").replaceChildren(...paths.map(([value, words]) => el("option", { value, selected: value === this.path }, words)));
     if (pattern) this.rebuildPattern();
     $("locus").checked = false;
@@ -236,7 +248,8 @@ class App {
     // those of a regular equivalent are the same
     const same = state.map && !Limits.nearlyZero(state.map.det);
     if (second) this.views[1].draw(second, { original: first, ghost: ghosts[1], names, hardware, locus: same ? locus : null });
-    const place = (p) => `3D view of ${p.name}: leg lengths ${p.lengths.map((x) => show(x, 4)).join(", ")}${unit(this.open.units)}. Arrow keys turn it.`;
+    const what = (p) => (this.cranks ? `crank angles ${Cranks.angles(p)?.map((x) => show(x, 4)).join(", ") || "none"} degrees` : `leg lengths ${p.lengths.map((x) => show(x, 4)).join(", ")}${unit(this.open.units)}`);
+    const place = (p) => `3D view of ${p.name}: ${what(p)}. Arrow keys turn it.`;
     this.views.forEach((v, k) => state.platforms[k] && v.canvas.setAttribute("aria-label", place(state.platforms[k])));
     if (this.pattern) {
       this.sliders.update(this.offsets, state.map.zeros);
@@ -248,8 +261,9 @@ class App {
       if ($("feasible-words").textContent !== words) $("feasible-words").textContent = words;
     }
     this.poseFields.update(this.pose, state);
-    this.legFields.update(this.platformOfLengths().lengths);
-    Tables.lengths(state, this.open.units);
+    this.legFields.update(this.cranks ? Cranks.angles(first) : this.platformOfLengths().lengths);
+    if (this.cranks) Cranks.table(first.cranks, this.open.units);
+    else Tables.lengths(state, this.open.units);
     Tables.margins(this, state);
     this.tiles();
     this.badges();
@@ -312,6 +326,7 @@ class App {
     const closest = (body) => (second ? `${pair}: ${second.spacing[body]?.joints.join(", ")}` : first.spacing[body]?.joints.join(", "));
     list.push({ name: `closest base joints${inUnits(open.units)}`, id: "spacing-base", value: both(near(first.spacing.base), second && near(second.spacing.base)), unit: closest("base") });
     list.push({ name: `closest platform joints${inUnits(open.units)}`, id: "spacing-platform", value: both(near(first.spacing.platform), second && near(second.spacing.platform)), unit: closest("platform") });
+    if (this.cranks) list.push(...Cranks.tiles(first.cranks));
     list.push({ name: "sign of det J here", id: "sign", value: both(sign(first.sign), second && sign(second.sign)), unit: pair });
     Tables.tiles(list);
   }

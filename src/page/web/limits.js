@@ -26,6 +26,7 @@ const Limits = {
   /** What the figures say of each platform by itself. */
   regularity({ app, state, k }) {
     const { open } = app;
+    if (app.cranks) return Cranks.reached(state.platforms[0].cranks);
     if (k === 0) return open.singular ? ["bad", "architecturally singular"] : ["good", "architecturally regular"];
     const { det } = state.map;
     if (open.singular || Limits.nearlyZero(det)) return ["bad", "architecturally singular"];

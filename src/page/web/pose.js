@@ -38,7 +38,10 @@ class PoseFields {
     values[k] = value;
     const pose = this.place(values);
     // what was typed stays as it is: two triples of angles can be one rotation
-    if (pose) this.own = { pose, values };
+    if (!pose) return;
+    this.own = { pose, values };
+    // the next number may be typed before the page is drawn again
+    this.values = values;
   }
 
   update(pose, state) {
@@ -87,29 +90,45 @@ class LegFields {
     this.touched();
   }
 
-  /** The six lengths, or `null` where one of them is none. */
+  /** The six lengths, or angles of cranks, or `null` where one of them is none. */
   read() {
     const list = this.fields.map((field) => Number(field.value.trim() || "none"));
-    return list.every((l) => Number.isFinite(l) && l > 0) ? list : null;
+    return list.every((l) => Number.isFinite(l) && (l > 0 || this.open.angles_deg)) ? list : null;
   }
 
+  /** `null`: a rod does not reach, and there are no angles. */
   update(lengths) {
     if (this.typed) return;
     this.fields.forEach((field, k) => {
-      field.value = plain(lengths[k]);
-      field.classList.toggle("bad", this.beyond(lengths[k]));
+      field.value = lengths ? plain(lengths[k]) : "";
+      field.classList.toggle("bad", lengths !== null && this.beyond(lengths[k], k));
     });
     this.say(lengths);
   }
 
-  beyond(length) {
+  beyond(length, k) {
+    if (this.open.angles_deg) {
+      const range = this.open.angles_deg[k];
+      return range !== null && (length < range[0] || length > range[1]);
+    }
     const { lengths } = this.open.hardware;
     return lengths !== null && (length < lengths[0] || length > lengths[1]);
   }
 
+  sayAngles(angles) {
+    const out = (angles || []).flatMap((angle, k) => (this.beyond(angle, k) ? [k + 1] : []));
+    this.words.textContent = !angles ? "A rod does not reach from its crank to the platform at this pose."
+      : !this.open.angles_deg.some(Boolean) ? "The design sets no limits of angles."
+      : out.length ? `Beyond its limits: crank ${out.join(", ")}.` : "All six are within their limits.";
+  }
+
   say(lengths) {
     if (this.typed) {
-      this.words.textContent = "These lengths are typed in and not yet those of a pose.";
+      this.words.textContent = `These ${this.open.angles_deg ? "angles" : "lengths"} are typed in and not yet those of a pose.`;
+      return;
+    }
+    if (this.open.angles_deg) {
+      this.sayAngles(lengths);
       return;
     }
     const { lengths: limits } = this.open.hardware;

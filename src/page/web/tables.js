@@ -7,6 +7,8 @@ const REQUIREMENTS = {
   base_first_angle: "angle about the first axes, base joints", base_second_angle: "angle about the second axes, base joints",
   platform_first_angle: "angle about the first axes, platform joints",
   platform_second_angle: "angle about the second axes, platform joints",
+  rod_too_short: "rods, long enough to reach", rod_too_long: "rods, short enough to close", crank_transmission: "transmission angle of the cranks",
+  crank_angle: "angle of the cranks", tip_swing: "lean of the rods at the tips", crank_torque: "torque of the cranks", crank_speed: "speed of the cranks",
   leg_clearance: "gap between legs", keep_out: "gap to the keep-outs", leg_force: "leg force", leg_speed: "leg speed",
   base_spacing: "gap between base joints", platform_spacing: "gap between platform joints",
 };
@@ -75,17 +77,18 @@ const Tables = {
   modes(open, found, shown, compared, choose) {
     const radio = (name, k, on, words) =>
       el("input", { type: "radio", name, checked: on, "aria-label": `${words} mode ${k + 1}`, change: () => choose(name, k) });
+    const turns = open.kind === "cranks";
     const rows = found.modes.map((mode, k) => {
       // what rounding leaves of a zero is one
       const p = mode.pose.p.map((x) => show(Math.abs(x) < 1e-9 * open.size ? 0 : x, 3)).join(", ");
       const cells = [[radio("mode", k, k === shown, "show"), `${k + 1}`], [radio("ghost", k, k === compared, "compare with")],
-        { 1: "+", 0: "0", "-1": "−" }[mode.sign], show(mode.inverse_condition, 3), `${fixed(mode.turn_deg, 0)}°`, `(${p})`];
+        { 1: "+", 0: "0", "-1": "−" }[mode.sign], ...(turns ? [mode.elbows_kept ? "yes" : "no"] : []), show(mode.inverse_condition, 3), `${fixed(mode.turn_deg, 0)}°`, `(${p})`];
       return row(cells, { class: k === shown ? "on" : null });
     });
     const none = radio("ghost", -1, compared < 0, "compare with no");
     none.setAttribute("aria-label", "compare with none");
-    const last = row(["", [none, " none"], "", "", "", ""]);
-    $("modes").replaceChildren(heading(["show", "ghost", "det\u00a0J", "σ₆/σ₁", "turned", `position p${inUnits(open.units)}`]), el("tbody", {}, ...rows, last));
+    const last = row(["", [none, " none"], "", "", "", "", ...(turns ? [""] : [])]);
+    $("modes").replaceChildren(heading(["show", "ghost", "det\u00a0J", ...(turns ? ["elbows kept"] : []), "σ₆/σ₁", "turned", `position p${inUnits(open.units)}`]), el("tbody", {}, ...rows, last));
   },
 
   /** The live numbers. */

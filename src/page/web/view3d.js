@@ -72,7 +72,8 @@ class View {
     const mean = (list) => list.reduce((sum, p) => sum + p.depth, 0) / list.length;
     const parts = plates.map(([list, colour]) => ({ depth: mean(list), draw: () => this.plate(list, style(colour), plain) }));
     if (original) parts.push({ depth: Infinity, draw: () => this.triangles(original) });
-    platform.legs.forEach(([a, b], k) => {
+    if (platform.cranks) parts.push(...Cranks.parts(this, platform, plain));
+    else platform.legs.forEach(([a, b], k) => {
       const ends = [platform.base[a].at, platform.platform[b].at];
       parts.push({ depth: mean(ends.map(this.project)), draw: () => this.leg(ends, k + 1, plain) });
     });

@@ -8,7 +8,7 @@
 (True, True)
 
 Poses are 4 x 4 homogeneous matrices ``[[R, p], [0, 1]]`` of float64, batch first ``(..., 4, 4)``, from platform to base frame; leg lengths have the shape
-``(..., 6)``; lengths are in the unit of the design, angles in radians unless an argument says degrees. The tour is ``docs/python.md`` of the sources.
+``(..., 6)``, and so have the angles of cranks; lengths are in the unit of the design, angles in radians unless an argument says degrees. The tour is ``docs/python.md`` of the sources.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from __future__ import annotations
 from ._core import __version__
 from ._design import (
     Calibrated,
+    CrankAngles,
     Design,
     Equivalent,
     Joints,
@@ -38,6 +39,7 @@ __all__ = [
     "BatchSolutions",
     "Calibrated",
     "CommandError",
+    "CrankAngles",
     "Design",
     "DesignError",
     "Equivalent",

@@ -50,7 +50,7 @@ def presets() -> tuple[str, ...]:
 def _lengths(lengths: npt.ArrayLike) -> Floats:
     array = np.ascontiguousarray(lengths, dtype=np.float64)
     if array.ndim < 1 or array.shape[-1] != 6:
-        raise DesignError(f"leg lengths have the shape (..., 6), not {array.shape}", code="shape")
+        raise DesignError(f"leg lengths, or angles of cranks, have the shape (..., 6), not {array.shape}", code="shape")
     return array
 
 
@@ -198,8 +198,30 @@ class Margins:
         return pa.table({title: np.ascontiguousarray(values[:, k]) for k, title in enumerate(titles)})
 
 
+@dataclass(frozen=True)
+class CrankAngles:
+    """Angles of cranks at poses; NaN at a pose where a rod does not reach.
+
+    Attributes
+    ----------
+    kept : ndarray, float64, shape (..., 6)
+        Radians, on the side that the design keeps; what `Design.ik` gives.
+    other : ndarray, float64, shape (..., 6)
+        The angles on the other sides, which hold the platform as well.
+    transmission : ndarray, float64, shape (..., 6)
+        ``u . (n x t)`` of the unit vectors u along the rod, n along the axis and t along the crank, from -1 to 1; 0 at a singular crank, where both angles are one.
+    limit_margin : ndarray, float64, shape (..., 6)
+        Radians: what remains of the limits of the angle, negative beyond them; infinite where there are none.
+    """
+
+    kept: Floats
+    other: Floats
+    transmission: Floats
+    limit_margin: Floats
+
+
 class Track(NamedTuple):
-    """What became of following poses through lengths.
+    """What became of following poses through lengths, or through angles of cranks.
 
     Attributes
     ----------
@@ -210,7 +232,7 @@ class Track(NamedTuple):
     residual : float or ndarray, shape (n,)
         Largest errors of the leg equations over the squared size.
     fraction : float
-        How far on the straight line of squared lengths to the last ones, 1 where they were reached.
+        How far on the straight line of squared lengths, or of angles, to the last ones, 1 where they were reached.
     reason : str or None
         Why the pose was lost.
     """
@@ -223,7 +245,10 @@ class Track(NamedTuple):
 
 
 class Tracker:
-    """Follows one real pose from lengths to lengths, never to another assembly mode; where a singularity is in the way it stays where it was."""
+    """Follows one real pose from lengths to lengths, never to another assembly mode; where a singularity is in the way it stays where it was.
+
+    Of a design whose drive is rotary it takes angles of the cranks where it says lengths.
+    """
 
     def __init__(self, native: _core.Tracker) -> None:
         self._native = native
@@ -355,6 +380,11 @@ class Design:
         return self._native.units
 
     @property
+    def drive(self) -> str:
+        """``"prismatic"``: legs change their lengths; ``"rotary"``: the legs are rods of constant length on cranks."""
+        return self._native.drive
+
+    @property
     def home(self) -> Floats:
         """The home pose, shape (4, 4); above the base where the design names none."""
         return self._native.home()
@@ -366,7 +396,7 @@ class Design:
 
     @property
     def joints(self) -> Joints:
-        """The joints and which of them each leg joins."""
+        """The joints and which of them each leg joins; of a design whose drive is rotary the base joints are the centres of the cranks."""
         return Joints(
             base=self._native.joints("base"),
             platform=self._native.joints("platform"),
@@ -381,7 +411,7 @@ class Design:
         return self._native.characteristic_length()
 
     def ik(self, poses: PoseLike) -> Floats:
-        """Inverse kinematics: leg lengths ``|R b_i + p - a_i|``.
+        """Inverse kinematics: leg lengths ``|R b_i + p - a_i|``, or angles of the cranks.
 
         Parameters
         ----------
@@ -390,6 +420,8 @@ class Design:
         Returns
         -------
         ndarray, float64, shape (..., 6)
+            Of a design whose drive is rotary radians, each angle on the side that the design keeps, and NaN at a pose where a rod does not reach;
+            `crank_angles` has the other sides too.
 
         Raises
         ------
@@ -399,8 +431,27 @@ class Design:
         found = self._native.ik(poses)
         return given(self._native.ik(as_matrices(poses))) if found is None else found
 
+    def crank_angles(self, poses: PoseLike) -> CrankAngles:
+        """Both angles of each crank, transmissions, and what remains of the limits, of a design whose drive is rotary.
+
+        Parameters
+        ----------
+        poses : array_like, shape (..., 4, 4)
+
+        Returns
+        -------
+        CrankAngles
+
+        Raises
+        ------
+        DesignError
+            Matrices that are no poses; a design without cranks.
+        """
+        found = self._native.crank_angles(poses)
+        return CrankAngles(*(given(self._native.crank_angles(as_matrices(poses))) if found is None else found))
+
     def jacobian(self, poses: PoseLike, *, characteristic_length: float = 1.0) -> Floats:
-        """Leg speeds by the velocity of the platform origin and the angular velocity, base frame.
+        """Leg speeds, or speeds of the cranks, by the velocity of the platform origin and the angular velocity, base frame.
 
         Parameters
         ----------
@@ -411,7 +462,8 @@ class Design:
         Returns
         -------
         ndarray, float64, shape (..., 6, 6)
-            Row ``i`` is ``[u_i, ((R b_i) x u_i) / L]`` with the unit vector ``u_i`` of leg ``i`` (Merlet 2006, sec. 5.3).
+            Row ``i`` is ``[u_i, ((R b_i) x u_i) / L]`` with the unit vector ``u_i`` of leg ``i`` (Merlet 2006, sec. 5.3). For a crank of length ``r`` and
+            transmission ``g`` the row of its rod is over ``r g`` and gives radians per second; NaN where a crank is singular or a rod does not reach.
         """
         found = self._native.jacobian(poses, characteristic_length)
         return given(self._native.jacobian(as_matrices(poses), characteristic_length)) if found is None else found
@@ -422,6 +474,7 @@ class Design:
         Parameters
         ----------
         lengths : array_like, shape (6,)
+            Of a design whose drive is rotary the angles of the cranks in radians; certificates hold for the tips of the cranks as doubles.
         seed : int
             Of generic constants; the same input and seed give the same answer.
         method : str, optional
@@ -442,6 +495,7 @@ class Design:
         Parameters
         ----------
         lengths : array_like, shape (n, 6)
+            Of a design whose drive is rotary the angles of the cranks in radians; nothing can be prepared for these.
         threads : int, optional
             One for each processor when absent; the answer does not depend on it.
 
@@ -456,7 +510,7 @@ class Design:
         return BatchSolutions(self._native.fk_batch(array, threads))
 
     def tracker(self, start: PoseLike | None = None) -> Tracker:
-        """Follows one real pose from lengths to lengths, from `start` (home when absent)."""
+        """Follows one real pose from lengths to lengths, from `start` (home when absent); where the drive is rotary from angles to angles."""
         pose = self.home if start is None else as_matrices(start)
         return Tracker(self._native.tracker(np.ascontiguousarray(pose).reshape(1, 4, 4)))
 

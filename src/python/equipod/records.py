@@ -795,6 +795,47 @@ class CovarianceRecord(Record):
     matrix: tuple[tuple[Union[float, None], ...], ...]
 
 
+class CrankFiguresRecord(Record):
+    """What cranks do over the poses that all rods reach."""
+
+    #: Least angle; null: no pose is reached.
+    least_deg: Union[float, None]
+    #: Greatest angle.
+    greatest_deg: Union[float, None]
+    #: Least transmission angle: 0 at a singular crank.
+    transmission_deg: Union[float, None]
+    #: Greatest torque under the payload and the loads, one at a time, force units times design units.
+    torque: Union[float, None]
+    #: Greatest speed under the speed that the platform has to have, degrees per second.
+    speed_deg: Union[float, None]
+    #: Greatest torque along the manoeuvres.
+    motion_torque: Union[float, None]
+    #: Greatest speed along the manoeuvres, degrees per second.
+    motion_speed_deg: Union[float, None]
+
+
+class CrankMotionRecord(Record):
+    """A crank along a motion."""
+
+    #: From 1.
+    leg: int
+    #: Least angle.
+    least_deg: ExtremeRecord
+    #: Greatest angle.
+    greatest_deg: ExtremeRecord
+    #: Speed of the greatest size, degrees per second.
+    speed_deg: ExtremeRecord
+    #: Acceleration of the greatest size, degrees per second squared.
+    acceleration_deg: ExtremeRecord
+    #: Torque of the greatest size about the axis, force units times design units; null: no masses are
+    #: known, or torques are not determined. Cranks and rods count as massless.
+    torque: Union[ExtremeRecord, None]
+    #: Root of the mean square of the torque over time.
+    rms_torque: Union[float, None]
+    #: Power of the greatest size, watts; negative where the drive brakes.
+    power_w: Union[ExtremeRecord, None]
+
+
 class DependencyRecord(Record):
     """A dependency of leg vectors: `sum c_i v_i = 0`."""
 
@@ -1584,13 +1625,14 @@ class FiguresRecord(Record):
     assessment: Union[AssessAnswer, None]
     #: Poses looked at.
     poses: int
-    #: Least leg length.
+    #: Least leg length; null where the legs are rods on cranks.
     shortest: Union[float, None]
-    #: Greatest leg length.
+    #: Greatest leg length; null where the legs are rods on cranks.
     longest: Union[float, None]
     #: The difference.
     stroke: Union[float, None]
-    #: Lengths at home that differ by more than a millionth of the size.
+    #: Lengths at home that differ by more than a millionth of the size; of rods on cranks the lengths of
+    #: the rods.
     different_legs: int
     #: Greatest leg force under the payload and the loads, one at a time.
     force: Union[float, None]
@@ -1622,6 +1664,8 @@ class FiguresRecord(Record):
     joint_tolerance: Union[float, None]
     #: Why there is no such tolerance; null: there is one, or none was asked for.
     no_tolerance: Union[str, None]
+    #: What the cranks do, where the legs are rods on cranks.
+    cranks: Union[CrankFiguresRecord, None]
 
 
 class FileSourceRecord(Record):
@@ -1678,6 +1722,10 @@ class FkAnswer(Record):
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
     #: cranks, as doubles, to the platform, and certificates hold for these tips.
     angles_deg: Union[tuple[float, ...], None]
+    #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
+    #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
+    #: tips as doubles are so far out that their rounding decides whether there are any.
+    symmetric_finite: Union[int, None]
     #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
     #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
@@ -1735,6 +1783,10 @@ class FkOneAnswer(Record):
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
     #: cranks, as doubles, to the platform, and certificates hold for these tips.
     angles_deg: Union[tuple[float, ...], None]
+    #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
+    #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
+    #: tips as doubles are so far out that their rounding decides whether there are any.
+    symmetric_finite: Union[int, None]
     #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
     #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
@@ -1797,6 +1849,10 @@ class FkRowRecord(Record):
     unproved: Union[tuple[SolutionRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
+    #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
+    #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
+    #: tips as doubles are so far out that their rounding decides whether there are any.
+    symmetric_finite: Union[int, None]
     #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
     #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
@@ -2498,12 +2554,16 @@ class MotionRunRecord(Record):
     duration_s: float
     #: As in the answer, of this motion.
     met: bool
-    #: By leg; empty where a leg has no length at some instant.
+    #: By leg; empty where a leg has no length at some instant, and where the legs are rods on cranks.
     legs: tuple[LegMotionRecord, ...]
     #: The least margin of each kind of requirement, force and speed by this motion.
     requirements: tuple[TimedMarginRecord, ...]
     #: When forces are not determined, since the pose is singular; null: at no instant.
     singular_at_s: Union[float, None]
+    #: By leg, where the legs are rods on cranks; empty where a rod does not reach at some instant.
+    cranks: Union[tuple[CrankMotionRecord, ...], None]
+    #: When a rod first does not reach from its crank to the platform, where one does not.
+    unreached_at_s: Union[float, None]
 
 
 class MovesFoundRecord(Record):

@@ -97,6 +97,7 @@ pub(super) fn run(
         FkAnswer::One(answer) => {
             text.push_str(&render::text(&design.name, &answer.solved));
             text.push_str(&render::elbows(&answer.solved));
+            text.push_str(&symmetric(answer));
         }
         FkAnswer::Rows(answer) if args.near.is_none() => {
             text.push_str("line  method         finite  real  complete\n");
@@ -106,6 +107,20 @@ pub(super) fn run(
     }
     let text = table.text(design, &answer).unwrap_or(text);
     Ok(Answer::new(exit, answer, text))
+}
+
+/// What a theorem says of symmetric tips.
+fn symmetric(answer: &FkOneAnswer) -> String {
+    let Some(count) = answer.symmetric_finite else { return String::new() };
+    let certified = answer.solved.solutions.iter().filter(|s| s.certified).count();
+    let listed = if certified == count {
+        "that many are certified here; poses that the tips as doubles have besides are due to rounding"
+    } else {
+        "not all of them are certified here"
+    };
+    format!(
+        "Tips and joints have the symmetry of three turns, to rounding: the exactly symmetric platform has {count} finite poses, and {listed}.\n"
+    )
 }
 
 /// A machine with cranks, of which poses are asked for.
@@ -126,7 +141,8 @@ impl CrankMachine<'_> {
         let tips = self.tips(&angles)?;
         let solved = SolvedRecord::from(&found).with_real_poses(&tips, &self.home);
         let solved = solved.with_elbows(self.platform, &angles);
-        Ok((exit_of(&found), FkOneAnswer { angles_deg: Some(*degrees), ..solved.into() }))
+        let symmetric_finite = self.platform.symmetric_pose_count(&angles);
+        Ok((exit_of(&found), FkOneAnswer { angles_deg: Some(*degrees), symmetric_finite, ..solved.into() }))
     }
 
     fn tips(&self, angles: &[f64; 6]) -> Result<Manipulator, Failure> {

@@ -125,7 +125,7 @@ const BAD_TRAJECTORY: &str = "motion::bad_trajectory";
 
 /// Exit 1 where a limit is exceeded at an instant looked at, or forces are not determined.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let design = context.load(&args.design)?;
+    let design = context.load_ideal(&args.design)?;
     refuse_without_effect(args, &design, context)?;
     let chosen = ChosenMotions::of(args);
     let motions = chosen.motions(&design, context)?;
@@ -199,6 +199,13 @@ fn stiffness(
 ) -> Result<Option<StiffnessRecord>, Failure> {
     if !args.stiffness {
         return Ok(None);
+    }
+    if design.has_cranks() {
+        let message =
+            "the legs are rods on cranks, and stiffness is computed of legs that change their lengths";
+        return Err(Failure::refused("motion::no_stiffness", message).with_help(
+            "leave out --stiffness; `equipod ik` gives the torques that hold the loads at a pose",
+        ));
     }
     let found = design.stiffness_at(&about(&args.about, design)?, masses).ok_or_else(|| {
         Failure::refused("motion::no_stiffness", "the design does not say how stiff its legs are")
@@ -282,7 +289,9 @@ fn assumptions(design: &Design) -> Vec<String> {
             if payload.inertia.is_none() {
                 out.push("The payload has no inertia: it is taken as a point mass.".into());
             }
-            if design.hardware.leg_masses.is_none() {
+            if design.has_cranks() {
+                out.push("Cranks and rods are taken as massless.".into());
+            } else if design.hardware.leg_masses.is_none() {
                 out.push("The legs have no masses in [hardware]: they are taken as massless.".into());
             }
             if design.mass_units.is_none() {

@@ -7,7 +7,9 @@ use crate::cli::poses;
 use crate::cli::table::{column_unit, csv_line, number};
 use crate::design::Design;
 use crate::entrance::MotionReport;
-use crate::records::{ExtremeRecord, MotionAnswer, MotionRunRecord, StiffnessRecord, TimedMarginRecord};
+use crate::records::{
+    CrankMotionRecord, ExtremeRecord, MotionAnswer, MotionRunRecord, StiffnessRecord, TimedMarginRecord,
+};
 
 /// The sentence, and for each motion a table of legs and one of requirements.
 pub(super) fn text(answer: &MotionAnswer) -> String {
@@ -24,7 +26,10 @@ pub(super) fn text(answer: &MotionAnswer) -> String {
             if motion.instants == 1 { "instant" } else { "instants" },
             short(motion.duration_s)
         );
-        legs(&mut out, answer, motion);
+        match &motion.cranks {
+            Some(list) => cranks(&mut out, answer, motion, list),
+            None => legs(&mut out, answer, motion),
+        }
         requirements(&mut out, motion);
     }
     if let Some(found) = &answer.stiffness {
@@ -39,7 +44,9 @@ pub(super) fn text(answer: &MotionAnswer) -> String {
 fn sentence(answer: &MotionAnswer) -> String {
     let missed = |m: &MotionRunRecord| {
         let of = m.requirements.iter().filter(|r| r.margin.violates()).map(|r| r.margin.name.code());
-        of.chain(m.singular_at_s.map(|_| "singularity")).collect::<Vec<_>>()
+        of.chain(m.singular_at_s.map(|_| "singularity"))
+            .chain(m.unreached_at_s.map(|_| "reach"))
+            .collect::<Vec<_>>()
     };
     let mut all: Vec<&str> = answer.motions.iter().flat_map(missed).collect();
     all.sort_unstable();
@@ -97,6 +104,52 @@ fn legs(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord) {
         let _ = writeln!(
             out,
             "At {} s the pose is singular: no forces of the legs give this motion.",
+            short(time)
+        );
+    }
+}
+
+fn cranks(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord, list: &[CrankMotionRecord]) {
+    let torque = format!("{} {}", answer.force_unit, answer.length_unit);
+    let titles = [
+        "least deg".to_string(),
+        "greatest deg".to_string(),
+        "speed deg/s".to_string(),
+        "acc. deg/s^2".to_string(),
+        format!("torque {torque}"),
+        format!("rms {torque}"),
+        "power W".to_string(),
+    ];
+    if !list.is_empty() {
+        let _ = write!(out, "crank");
+        for title in &titles {
+            let _ = write!(out, " {title:>14}");
+        }
+        out.push('\n');
+    }
+    for crank in list {
+        let _ = write!(out, "{:<5}", crank.leg);
+        let found = |x: &Option<ExtremeRecord>| x.map_or("-".to_string(), |x| short(x.value.0));
+        for cell in [
+            short(crank.least_deg.value.0),
+            short(crank.greatest_deg.value.0),
+            short(crank.speed_deg.value.0),
+            short(crank.acceleration_deg.value.0),
+            found(&crank.torque),
+            crank.rms_torque.map_or("-".to_string(), |x| short(x.0)),
+            found(&crank.power_w),
+        ] {
+            let _ = write!(out, " {cell:>14}");
+        }
+        out.push('\n');
+    }
+    if let Some(time) = motion.unreached_at_s {
+        let _ = writeln!(out, "At {} s a rod does not reach from its crank to the platform.", short(time));
+    }
+    if let Some(time) = motion.singular_at_s {
+        let _ = writeln!(
+            out,
+            "At {} s the pose or a crank is singular: no torques of the cranks give this motion.",
             short(time)
         );
     }
@@ -173,13 +226,24 @@ pub(super) fn csv(design: &Design, motions: &[(String, MotionReport)]) -> String
     let mut header: Vec<String> = ["motion", "t_s"].map(String::from).to_vec();
     header.extend(["x", "y", "z"].map(|axis| format!("{axis}_{unit}")));
     header.extend(["qw", "qx", "qy", "qz"].map(String::from));
-    for (name, unit) in [
-        ("length", unit.clone()),
-        ("speed", format!("{unit}_per_s")),
-        ("acceleration", format!("{unit}_per_s2")),
-        ("force", force.to_string()),
-        ("power", "W".to_string()),
-    ] {
+    let columns = if design.has_cranks() {
+        [
+            ("crank", "deg".to_string()),
+            ("speed", "deg_per_s".to_string()),
+            ("acceleration", "deg_per_s2".to_string()),
+            ("torque", format!("{force}_{unit}")),
+            ("power", "W".to_string()),
+        ]
+    } else {
+        [
+            ("length", unit.clone()),
+            ("speed", format!("{unit}_per_s")),
+            ("acceleration", format!("{unit}_per_s2")),
+            ("force", force.to_string()),
+            ("power", "W".to_string()),
+        ]
+    };
+    for (name, unit) in columns {
         header.extend((1..=6).map(|leg| format!("{name}_{leg}_{unit}")));
     }
     let mut out = csv_line(&header);
@@ -187,9 +251,11 @@ pub(super) fn csv(design: &Design, motions: &[(String, MotionReport)]) -> String
         for at in &found.instants {
             let mut cells = vec![name.clone(), number(at.time)];
             cells.extend(poses::csv_fields(&at.state.pose).split(',').map(str::to_string));
-            cells.extend(at.legs.iter().map(|leg| number(leg.length)));
-            cells.extend(at.legs.iter().map(|leg| number(leg.speed)));
-            cells.extend(at.legs.iter().map(|leg| number(leg.acceleration)));
+            // of a crank whose rod does not reach nothing is known
+            let cell = |x: f64| if x.is_nan() { String::new() } else { number(x) };
+            cells.extend(at.legs.iter().map(|leg| cell(leg.length)));
+            cells.extend(at.legs.iter().map(|leg| cell(leg.speed)));
+            cells.extend(at.legs.iter().map(|leg| cell(leg.acceleration)));
             match &at.drives {
                 Some((forces, powers)) => cells.extend(forces.iter().chain(powers).map(|x| number(*x))),
                 None => cells.extend(std::iter::repeat_n(String::new(), 12)),
