@@ -7,6 +7,7 @@ use super::plate::Plate;
 use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, mass};
 use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
+use crate::coupled::CoupledLegs;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
@@ -132,6 +133,8 @@ pub struct Export {
     pub legs: [ExportLeg; 6],
     /// The cranks of the legs; `None` where these change their lengths.
     pub cranks: Option<ExportCranks>,
+    /// Legs whose joints are not ideal; `None` where drives are as long as the distances of their joints.
+    pub coupled: Option<CoupledLegs>,
     /// What the length that each leg shows is longer than the distance of its joints, design units, where the design was calibrated.
     pub leg_offsets: Option<[f64; 6]>,
     /// Least and greatest length of a leg, design units, where the design limits them.
@@ -200,6 +203,8 @@ impl Export {
         let platform = joints(design.platform_names(), m.platform_joints());
         let newtons = design.force_units.unwrap_or(ForceUnit::Newton).newtons();
         let cranks = ExportCranks::of(design, &home, newtons * unit.metres)?;
+        let coupled = hardware.is_coupled().then(|| CoupledLegs::new(m, hardware, &home)).transpose();
+        let coupled = coupled.map_err(|why| NoExport::Joints(format!("at home {why}")))?;
         let mut ends = m.pairs().map(|(a, b)| (base[a].at, home.transform(&platform[b].at)));
         if let Some(cranks) = &cranks {
             for (i, end) in ends.iter_mut().enumerate() {
@@ -264,6 +269,7 @@ impl Export {
             bodies,
             legs,
             cranks,
+            coupled,
             leg_offsets: design.calibration.as_ref().map(|table| table.offsets),
             leg_range: hardware.leg_length.map(|l| l.range()),
             workspace,
@@ -290,10 +296,14 @@ impl Export {
     /// The files of a format.
     ///
     /// # Errors
-    /// What the format cannot express: [`Unsupported::Cranks`] for rods on cranks, where it does not [take them](Writer::takes_cranks).
+    /// What the format cannot express: [`Unsupported::Cranks`] for rods on cranks, where it does not [take them](Writer::takes_cranks), and [`Unsupported::NotIdeal`] for joints that
+    /// are not ideal.
     pub fn files(&self, writer: &dyn Writer) -> Result<Vec<ExportedFile>, Unsupported> {
         if self.cranks.is_some() && !writer.takes_cranks() {
             return Err(Unsupported::Cranks);
+        }
+        if self.coupled.is_some() && !writer.takes_coupled() {
+            return Err(Unsupported::NotIdeal);
         }
         writer.files(self)
     }

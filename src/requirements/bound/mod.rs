@@ -13,8 +13,11 @@ mod force;
 mod frame;
 mod gap;
 mod hinge;
+mod joint_offsets;
 mod local;
 mod stiffness;
+#[cfg(test)]
+mod offset_tests;
 #[cfg(test)]
 mod tests;
 
@@ -24,6 +27,7 @@ use self::cone::{Sector, SwingCone};
 use self::crank::CrankFrames;
 use self::frame::{CellFrame, enclosed};
 use self::hinge::{HingeFrame, HingeLimit};
+use self::joint_offsets::JointOffsets;
 use self::local::Bounded;
 use self::stiffness::SoftestMotion;
 use super::Requirements;
@@ -37,7 +41,7 @@ use crate::geom::enclosed::{IntervalVector, dot};
 use crate::geom::{Chart, ChartCell, PoseSpace, arc_cosine, degrees, radians};
 use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
-use crate::num::jet::Jet;
+use crate::num::jet::{Jet, norm_squared};
 use crate::num::parallel::parallel;
 
 pub use crank::{RodRegularity, regular_rods};
@@ -174,10 +178,12 @@ pub fn prove(
     let home = Chart::of_pose(&space.home);
     let cranks = CrankFrames::new(required);
     let cranks = cranks.as_ref();
-    let axes = axes(m, required, cranks, &home);
+    let joints = JointOffsets::new(m, required, &home);
+    let joints = joints.as_ref();
+    let axes = axes(m, required, cranks, joints, &home);
     // more cells are for what is undecided, and need not come close
     let patient =
-        CellJudge { m, required, terms: &terms, cranks, axes, charts: charts.clone(), close: false };
+        CellJudge { m, required, terms: &terms, cranks, joints, axes, charts: charts.clone(), close: false };
     let judge = CellJudge { charts, close: o.close, ..patient };
     let threads =
         o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
@@ -202,9 +208,15 @@ pub fn prove(
 /// Axes from which swing is measured, at the base in the base frame and at the platform in the platform frame, and their lengths.
 type Axes = [[(IntervalVector, Interval); 6]; 2];
 
-fn axes(m: &Manipulator, required: &Requirements, cranks: Option<&CrankFrames<'_>>, home: &Chart) -> Axes {
+fn axes(
+    m: &Manipulator,
+    required: &Requirements,
+    cranks: Option<&CrankFrames<'_>>,
+    joints: Option<&JointOffsets>,
+    home: &Chart,
+) -> Axes {
     use super::hardware::JointAxes;
-    let frame = CellFrame::over(home, &home.root, false);
+    let frame = CellFrame::over(home, &home.root, false).with_joints(joints);
     std::array::from_fn(|body| {
         let chosen = required.hardware.axes(Body::BOTH[body]);
         std::array::from_fn(|i| {
@@ -292,6 +304,8 @@ struct CellJudge<'a> {
     terms: &'a Terms<'a>,
     /// Cranks, where they could be enclosed.
     cranks: Option<&'a CrankFrames<'a>>,
+    /// Joints that are not ideal, where they could be enclosed.
+    joints: Option<&'a JointOffsets>,
     axes: Axes,
     charts: Vec<Chart>,
     /// Whether bounds go on when they have decided.
@@ -394,7 +408,7 @@ impl CellJudge<'_> {
             }
         }
         let second = !matches!(function, Function::Load(_) | Function::Platform(_));
-        let over = CellFrame::over(chart, cell, second);
+        let over = CellFrame::over(chart, cell, second).with_joints(self.joints);
         let mut out = Evaluated {
             bounded: Bounded { below: f64::NEG_INFINITY, ..Bounded::nothing(cell) },
             upper: f64::INFINITY,
@@ -403,7 +417,7 @@ impl CellJudge<'_> {
             loose_sector: 0.0,
         };
         for (number, z) in points.into_iter().enumerate() {
-            let at = CellFrame::over(chart, &ChartCell::point(z), false);
+            let at = CellFrame::over(chart, &ChartCell::point(z), false).with_joints(self.joints);
             let found = self.at_point(function, chart, cell, sector, &z, (&at, &over));
             if number == 0 {
                 (out.bounded, out.rest, out.loose_sector) = (found.bounded, found.rest, found.loose_sector);
@@ -426,7 +440,7 @@ impl CellJudge<'_> {
     fn follow(&self, (kind, i): (TermKind, usize), chart: &Chart, mut slope: [f64; 6], out: &mut Evaluated) {
         for _ in 0..STEPS {
             let y = farthest(chart, &slope);
-            let there = CellFrame::over(chart, &ChartCell::point(y), false);
+            let there = CellFrame::over(chart, &ChartCell::point(y), false).with_joints(self.joints);
             let Some(value) = self.leg_value(kind, i, &there) else { return };
             let upper = self.margin((kind, i), value.value).hi();
             if !(chart.scale_of(&y) <= 1.0 && upper < out.upper) {
@@ -454,6 +468,9 @@ impl CellJudge<'_> {
         frames: (&CellFrame<'_>, &CellFrame<'_>),
     ) -> AtPoint {
         let nothing = AtPoint::nothing(cell);
+        if self.required.hardware.is_coupled() && self.joints.is_none() {
+            return nothing;
+        }
         match function {
             Function::Leg(kind, i) => {
                 let slopes = |at: &Jet| Some(std::array::from_fn(|k| at.slope(k).centre_and_radius().0));
@@ -506,7 +523,7 @@ impl CellJudge<'_> {
                 AtPoint { bounded, upper, ..nothing }
             }
             Function::Platform(kind) => {
-                let Some(softest) = SoftestMotion::new(self.m, self.required, kind) else { return nothing };
+                let Some(softest) = SoftestMotion::new(self.m, self.required, self.terms, kind) else { return nothing };
                 let (bounded, upper) = softest.bounds(chart, cell, z, frames);
                 AtPoint { bounded, upper, ..nothing }
             }
@@ -646,7 +663,7 @@ impl CellJudge<'_> {
     /// A function of a joint that grows with the room left to a side of the envelope: the negative square of the distance from the axis of a cylinder, the distance from a side
     /// of a box.
     fn joint_value(&self, leg: usize, end: usize, side: Side, frame: &CellFrame<'_>) -> Option<Jet> {
-        let leg = frame.leg(self.m, leg);
+        let leg = frame.bare_leg(self.m, leg);
         let at = |k: usize| if end == 0 { leg.base[k] } else { leg.line[k] + leg.base[k] };
         let constant = |x: f64| frame.constant(Interval::from(x));
         Some(match (self.required.envelopes.machine?, side) {
@@ -682,6 +699,14 @@ impl CellJudge<'_> {
             let speed = self.required.platform_speed.unwrap_or_default();
             return self.cranks?.value((kind, i), self.m, speed, &self.axes[1][i], frame);
         }
+        if let Some(joints) = self.joints.filter(|joints| joints.have_lead()) {
+            match kind {
+                TermKind::LegTooShort => return joints.drive(frame, self.m, i),
+                TermKind::LegTooLong => return Some(-joints.drive(frame, self.m, i)?),
+                TermKind::LegSpeed => return self.screw_speed(joints, i, frame),
+                _ => {}
+            }
+        }
         let leg = frame.leg(self.m, i);
         Some(match kind {
             TermKind::LegTooShort => leg.square,
@@ -697,6 +722,21 @@ impl CellJudge<'_> {
             TermKind::LegSpeed => -leg.lever_squared()?,
             kind => return self.hinge(kind, i)?.plain(frame),
         })
+    }
+
+    /// Minus the greatest speed of a drive whose screw is turned by its leg: over all velocities and angular velocities up to the greatest.
+    fn screw_speed(&self, joints: &JointOffsets, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
+        let speed = self.required.platform_speed.unwrap_or_default();
+        let [x, y, z, a, b, c] = joints.rates(frame, self.m, i)?;
+        let mut fastest = frame.constant(Interval::ZERO);
+        for (row, greatest) in
+            [([x, y, z], Interval::from(speed.linear)), ([a, b, c], radians(speed.angular_deg))]
+        {
+            if greatest != Interval::ZERO {
+                fastest = fastest + norm_squared(&row).root()?.times(greatest);
+            }
+        }
+        Some(-fastest)
     }
 
     /// The margin for a value of the function of a leg, which it increases with.
@@ -720,6 +760,15 @@ impl CellJudge<'_> {
             }
         });
         let swing = |s: Option<super::Swing>| Interval::from(s.map_or(f64::INFINITY, |s| s.limit_deg));
+        if self.joints.is_some_and(JointOffsets::have_lead) {
+            let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));
+            match kind {
+                TermKind::LegTooShort => return value - limits.0,
+                TermKind::LegTooLong => return limits.1 + value,
+                TermKind::LegSpeed => return greatest + value,
+                _ => {}
+            }
+        }
         match kind {
             TermKind::LegTooShort => root(value) - limits.0,
             TermKind::LegTooLong => limits.1 - root(-value),
