@@ -43,7 +43,7 @@ pub use presets::{PRESETS, Preset, PresetClass};
 pub(crate) use scale::{micrometres, unit_of_millimetres};
 pub use schema::SCHEMA;
 #[cfg(feature = "cli")]
-pub(crate) use table::InvalidPointTable;
+pub(crate) use table::{InvalidPointTable, RigSheet, SheetDialect};
 pub(crate) use table::{
     DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidSeries, PointTable, SeriesKind, SeriesRow,
     TimeSeries,

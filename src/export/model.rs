@@ -11,7 +11,7 @@ use crate::coupled::CoupledLegs;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
-use crate::requirements::{ForceUnit, Hardware, LegMasses, MassUnit, plate_normal};
+use crate::requirements::{ForceUnit, Hardware, KeepOutShape, LegMasses, MassUnit, plate_normal};
 use crate::rotary::RotaryPlatform;
 
 /// A joint of a body.
@@ -147,6 +147,8 @@ pub struct Export {
     pub mass: f64,
     /// Whether the design says what the platform carries.
     pub payload: bool,
+    /// The room that the payload takes up, platform frame, design units, where the design says it.
+    pub payload_shape: Option<KeepOutShape>,
     /// Centre of mass of the platform with its payload, platform frame, design units, where the design says it.
     pub center_of_mass: Option<Point3<f64>>,
     /// Inertia about the centre of mass, axes of the platform frame, kg m^2, where the design says it.
@@ -276,6 +278,7 @@ impl Export {
             trajectory,
             mass,
             payload: design.payload.is_some(),
+            payload_shape: design.payload.as_ref().and_then(|p| p.shape),
             center_of_mass: carried.map(|p| p.center),
             inertia,
             gravity: carried.map_or_else(|| Vector3::new(0.0, 0.0, -9.81), |p| p.gravity),
