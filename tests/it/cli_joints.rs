@@ -52,7 +52,9 @@ fn assess_judges_drives_whose_joints_are_not_ideal() {
     let folder = tempfile::tempdir().unwrap();
     let hexapod = std::fs::read_to_string(DESIGN).unwrap();
     assert!(hexapod.contains("translation = [60.0, 60.0, 60.0]"));
-    let small = hexapod.replace("[60.0, 60.0, 60.0]", "[20.0, 20.0, 20.0]").replace("[10.0, 10.0, 10.0]", "[3.0, 0.0, 3.0]");
+    let small = hexapod
+        .replace("[60.0, 60.0, 60.0]", "[20.0, 20.0, 20.0]")
+        .replace("[10.0, 10.0, 10.0]", "[3.0, 0.0, 3.0]");
     let assessed = |name: &str, limits: &str, joints: &str| {
         let path = folder.path().join(name);
         std::fs::write(&path, format!("{small}leg_length = {limits}\n{joints}")).unwrap();
@@ -92,7 +94,8 @@ fn drives_of_poses_lead_back_to_the_poses() {
         let meant = distances[i] + offsets[i] - 8.0 / 360.0 * twists[i];
         assert!((drives[i] - meant).abs() < 1e-9 && (drives[i] - distances[i]).abs() > 1.0, "{one}");
     }
-    let kinds: Vec<&str> = one["margins"].as_array().unwrap().iter().filter_map(|m| m["name"].as_str()).collect();
+    let kinds: Vec<&str> =
+        one["margins"].as_array().unwrap().iter().filter_map(|m| m["name"].as_str()).collect();
     assert!(kinds.contains(&"leg_clearance"), "legs from second axis to second axis: {one}");
     // the table of one command is read by the other
     let table = folder.path().join("drives.csv");

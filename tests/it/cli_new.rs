@@ -201,7 +201,8 @@ fn refusals_of_general_designs_name_what_takes_them() {
 
 /// The parameters of a rig with cranks as a sheet of either program has them.
 fn sheet(folder: &Path, name: &str, [l3, l4]: [f64; 2]) -> String {
-    let mut text = format!("L1 = 700\nL2 = 120\nL3 = {l3}\nL4 = {l4}\ncrank = 90\nrod = 600\nmiddle_angle = 10\n");
+    let mut text =
+        format!("L1 = 700\nL2 = 120\nL3 = {l3}\nL4 = {l4}\ncrank = 90\nrod = 600\nmiddle_angle = 10\n");
     for (i, angle) in [180, 0, 300, 120, 60, 240].into_iter().enumerate() {
         text += &format!("crank_angle_{} = {angle}\n", i + 1);
     }
@@ -228,10 +229,21 @@ fn sheets_of_either_dialect_give_one_design_and_the_wrong_dialect_is_refused() {
             assert_eq!(wrote.status.code(), Some(0), "{}", String::from_utf8_lossy(&wrote.stderr));
             let text = std::fs::read_to_string(&out).unwrap();
             let value = |name: &str| -> f64 {
-                let line = text.lines().find_map(|l| l.strip_prefix(&format!("{name} = "))).unwrap_or_else(|| panic!("{text}"));
+                let line = text
+                    .lines()
+                    .find_map(|l| l.strip_prefix(&format!("{name} = ")))
+                    .unwrap_or_else(|| panic!("{text}"));
                 line.parse().unwrap()
             };
-            for (name, meant) in [("L1", 700.0), ("L2", 120.0), ("L3", l3), ("L4", l4), ("crank", 90.0), ("rod", 600.0), ("middle_angle", 10.0)] {
+            for (name, meant) in [
+                ("L1", 700.0),
+                ("L2", 120.0),
+                ("L3", l3),
+                ("L4", l4),
+                ("crank", 90.0),
+                ("rod", 600.0),
+                ("middle_angle", 10.0),
+            ] {
                 assert!((value(name) - meant).abs() < 1e-9, "{name}: {text}");
             }
             let turn = (value("crank_angle_3") - 300.0).to_radians();
@@ -251,6 +263,15 @@ fn sheets_of_either_dialect_give_one_design_and_the_wrong_dialect_is_refused() {
     assert!(code == "new::bad_sheet" && help.contains("motion4sim"), "{code} {help}");
     assert_eq!(equipod(&["new", "--sheet", &path, "--dialect", "mover"]).status.code(), Some(2));
     // a design that a sheet does not hold
-    let out = equipod(&["design", "convert", "designs/general-6-6.toml", "--dialect", "motion4sim", "-o", "-", "--json"]);
+    let out = equipod(&[
+        "design",
+        "convert",
+        "designs/general-6-6.toml",
+        "--dialect",
+        "motion4sim",
+        "-o",
+        "-",
+        "--json",
+    ]);
     assert_eq!((out.status.code(), &document(&out)["error"]["code"]), (Some(2), &"convert::no_sheet".into()));
 }

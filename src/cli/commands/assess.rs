@@ -38,7 +38,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             "{}: `natural_frequency_hz` counts masses of legs, and how these move about joints that are not ideal (`offset`, `screw_lead`) is not known",
             design.name
         );
-        let help = "without `offset` and `screw_lead`, or without masses of the legs, the frequency is judged";
+        let help =
+            "without `offset` and `screw_lead`, or without masses of the legs, the frequency is judged";
         return Err(Failure::refused("design::not_ideal", message).with_help(help));
     }
     if design.workspace.trajectory.is_none() {

@@ -177,7 +177,9 @@ pub(crate) enum InvalidRigSheet {
         by: f64,
     },
     /// Cranks that hold the platform at different heights.
-    #[error("with these angles of the axes the cranks hold the joints of the platform at heights from {0} to {1}: no platform is level on them at the middle angle")]
+    #[error(
+        "with these angles of the axes the cranks hold the joints of the platform at heights from {0} to {1}: no platform is level on them at the middle angle"
+    )]
     Uneven(f64, f64),
     /// A design whose joints are not in pairs on circles.
     #[error("{0}")]
@@ -249,7 +251,8 @@ impl RigSheet {
             }
             let line = k + 1;
             let pair = content.split_once(['=', ':', ',', '\t', ';']);
-            let number = pair.and_then(|(_, value)| value.trim().parse::<f64>().ok()).filter(|x| x.is_finite());
+            let number =
+                pair.and_then(|(_, value)| value.trim().parse::<f64>().ok()).filter(|x| x.is_finite());
             let (Some((name, _)), Some(value)) = (pair, number) else {
                 return Err(InvalidRigSheet::Line { line, text: content.into() });
             };
@@ -268,7 +271,11 @@ impl RigSheet {
         };
         let positive = |name: &str| {
             let value = get(name)?;
-            if value > 0.0 { Ok(value) } else { Err(InvalidRigSheet::NotPositive { name: name.into(), value }) }
+            if value > 0.0 {
+                Ok(value)
+            } else {
+                Err(InvalidRigSheet::NotPositive { name: name.into(), value })
+            }
         };
         let [l1, l2, l3, l4] = [positive("L1")?, positive("L2")?, positive("L3")?, positive("L4")?];
         if l1 < l2 {
@@ -280,7 +287,9 @@ impl RigSheet {
         }
         let legs = if found.iter().any(|(n, _)| LINEAR.contains(n)) {
             if let Some((name, _)) = found.iter().find(|(n, _)| CRANKS.contains(n)) {
-                let message = format!("`{name}` is about rods on cranks, `middle` and `range` about legs that change their lengths: give one kind");
+                let message = format!(
+                    "`{name}` is about rods on cranks, `middle` and `range` about legs that change their lengths: give one kind"
+                );
                 return Err(InvalidRigSheet::NotSymmetric(message));
             }
             SheetLegs::Linear { middle: positive("middle")?, range: positive("range")? }
@@ -321,7 +330,8 @@ impl RigSheet {
                 line("range", range);
             }
             SheetLegs::Cranks { crank, rod, middle_deg, axes_deg } => {
-                for (name, x) in CRANKS.into_iter().zip([crank, rod, middle_deg].into_iter().chain(axes_deg)) {
+                for (name, x) in CRANKS.into_iter().zip([crank, rod, middle_deg].into_iter().chain(axes_deg))
+                {
                     line(name, x);
                 }
             }
@@ -350,7 +360,8 @@ impl RigSheet {
             }
             *height = tip.z + (length * length - across * across).sqrt();
         }
-        let [least, most] = [f64::min, f64::max].map(|f: fn(f64, f64) -> f64| heights.into_iter().fold(heights[0], f));
+        let [least, most] =
+            [f64::min, f64::max].map(|f: fn(f64, f64) -> f64| heights.into_iter().fold(heights[0], f));
         if most - least > ROUNDED * size {
             return Err(InvalidRigSheet::Uneven(least, most));
         }
@@ -369,7 +380,8 @@ impl RigSheet {
         let mut out = sizes.to_toml(name, units);
         match self.legs {
             SheetLegs::Linear { middle, range } => {
-                let _ = write!(out, "\n[hardware]\nleg_length = [{:?}, {:?}]\n", middle - range, middle + range);
+                let _ =
+                    write!(out, "\n[hardware]\nleg_length = [{:?}, {:?}]\n", middle - range, middle + range);
             }
             SheetLegs::Cranks { crank, rod, middle_deg, axes_deg } => {
                 out = out.replacen("\nlegs = ", "\ndrive = \"rotary\"\nlegs = ", 1);
@@ -407,44 +419,70 @@ impl RigSheet {
         let size = m.size();
         let near = |a: f64, b: f64| (a - b).abs() <= ROUNDED * 1e-3 * size;
         let mut sides = [[0.0; 2]; 2];
-        for (k, at) in [legs.map(|l| l.base), legs.map(|l| home.transform(&l.platform))].into_iter().enumerate() {
+        for (k, at) in
+            [legs.map(|l| l.base), legs.map(|l| home.transform(&l.platform))].into_iter().enumerate()
+        {
             let body = ["base", "platform"][k];
             // legs in order around the axis: sides inside a pair and from pair to pair by turns
             let side = |i: usize| (at[(i + 1) % 6] - at[i]).norm();
             let flat = (0..6).all(|i| near(at[i].z, at[0].z));
-            let turned = (0..6).all(|i| near(side(i), side(i % 2)) && near(at[i].coords.xy().norm(), at[0].coords.xy().norm()));
+            let turned = (0..6).all(|i| {
+                near(side(i), side(i % 2)) && near(at[i].coords.xy().norm(), at[0].coords.xy().norm())
+            });
             if !flat || !turned {
-                return Err(no(&format!("the joints of the {body} are not six in three pairs on a level circle about z, in the order of the legs")));
+                return Err(no(&format!(
+                    "the joints of the {body} are not six in three pairs on a level circle about z, in the order of the legs"
+                )));
             }
             sides[k] = [side(0).max(side(1)), side(0).min(side(1))];
             let is_short = side(0) <= side(1);
             let first = at[0].y.atan2(at[0].x) + at[1].y.atan2(at[1].x);
             // pairs of the base about x, those of the platform between them
-            let placed = if k == 0 { is_short && near(first * size, 0.0) } else { !is_short && near(first * size, 0.0) };
+            let placed = if k == 0 {
+                is_short && near(first * size, 0.0)
+            } else {
+                !is_short && near(first * size, 0.0)
+            };
             if !placed {
-                return Err(no(&format!("the pairs of the {body} are not where a sheet has them: those of the base about 0, 120 and 240 degrees with legs 1 and 2 from the first, those of the platform between them")));
+                return Err(no(&format!(
+                    "the pairs of the {body} are not where a sheet has them: those of the base about 0, 120 and 240 degrees with legs 1 and 2 from the first, those of the platform between them"
+                )));
             }
         }
         let [base, platform] = sides;
         let legs = match cranks {
             None => {
-                let (least, greatest) = design.hardware.leg_length.map(|l| l.range()).ok_or_else(|| no("`leg_length` is missing, which gives `middle` and `range`"))?;
+                let (least, greatest) = design
+                    .hardware
+                    .leg_length
+                    .map(|l| l.range())
+                    .ok_or_else(|| no("`leg_length` is missing, which gives `middle` and `range`"))?;
                 SheetLegs::Linear { middle: 0.5 * (least + greatest), range: 0.5 * (greatest - least) }
             }
             Some(rotary) => {
                 let all = rotary.legs();
-                let angles = rotary.ik(&home).map_err(|why| no(&format!("the cranks do not hold the home pose: {why}")))?;
+                let angles = rotary
+                    .ik(&home)
+                    .map_err(|why| no(&format!("the cranks do not hold the home pose: {why}")))?;
                 let mut axes_deg = [0.0; 6];
                 for (i, leg) in all.iter().enumerate() {
                     let [zero, up] = rotary.directions()[i];
-                    let level = near(leg.crank.axis.z * size, 0.0) && near((up - Vector3::z()).norm() * size, 0.0);
+                    let level =
+                        near(leg.crank.axis.z * size, 0.0) && near((up - Vector3::z()).norm() * size, 0.0);
                     let equal = near(leg.crank.length, all[0].crank.length) && near(leg.rod, all[0].rod);
                     if !level || !equal || !near((angles[i] - angles[0]) * size, 0.0) {
-                        return Err(no("a sheet has equal cranks and rods, level axes, angles from the plane of the base upwards, and one middle angle for all at home"));
+                        return Err(no(
+                            "a sheet has equal cranks and rods, level axes, angles from the plane of the base upwards, and one middle angle for all at home",
+                        ));
                     }
                     axes_deg[i] = (-zero.x).atan2(zero.y).to_degrees();
                 }
-                SheetLegs::Cranks { crank: all[0].crank.length, rod: all[0].rod, middle_deg: angles[0].to_degrees(), axes_deg }
+                SheetLegs::Cranks {
+                    crank: all[0].crank.length,
+                    rod: all[0].rod,
+                    middle_deg: angles[0].to_degrees(),
+                    axes_deg,
+                }
             }
         };
         Ok(Self { platform, base, legs })
@@ -481,19 +519,26 @@ mod tests {
         for dialect in SheetDialect::ALL {
             let text = back.text(dialect, &design);
             let again = RigSheet::read(text.as_bytes(), dialect).unwrap();
-            for (a, b) in again.base.iter().chain(&again.platform).zip(sheet.base.iter().chain(&sheet.platform)) {
+            for (a, b) in
+                again.base.iter().chain(&again.platform).zip(sheet.base.iter().chain(&sheet.platform))
+            {
                 assert!((a - b).abs() < 1e-9, "{text}");
             }
             // the other dialect refuses it, and says which one it is
             let why = RigSheet::read(text.as_bytes(), dialect.other()).unwrap_err();
-            assert!(matches!(why, InvalidRigSheet::Dialect { .. }) && why.help().contains(dialect.name()), "{why}");
+            assert!(
+                matches!(why, InvalidRigSheet::Dialect { .. }) && why.help().contains(dialect.name()),
+                "{why}"
+            );
         }
     }
 
     #[test]
     fn a_sheet_of_cranks_holds_the_platform_at_the_middle_angle() {
         // axes radial, the two of a pair reversed: cranks point away from each other
-        let mut text = String::from("L1 = 700\nL2 = 120\nL3 = 900\nL4 = 250\ncrank = 90\nrod = 600\nmiddle_angle = 10\n");
+        let mut text = String::from(
+            "L1 = 700\nL2 = 120\nL3 = 900\nL4 = 250\ncrank = 90\nrod = 600\nmiddle_angle = 10\n",
+        );
         for (i, angle) in [0, 180, 120, 300, 240, 60].into_iter().enumerate() {
             let _ = writeln!(text, "crank_angle_{} = {}", i + 1, angle + 180);
         }
@@ -506,7 +551,9 @@ mod tests {
             assert!((angle.to_degrees() - 10.0).abs() < 1e-9, "{angles:?}\n{toml}");
         }
         let back = RigSheet::of(&design, Some(&rotary)).unwrap();
-        let (SheetLegs::Cranks { axes_deg: a, middle_deg, .. }, SheetLegs::Cranks { axes_deg: b, .. }) = (back.legs, sheet.legs) else {
+        let (SheetLegs::Cranks { axes_deg: a, middle_deg, .. }, SheetLegs::Cranks { axes_deg: b, .. }) =
+            (back.legs, sheet.legs)
+        else {
             panic!("{back:?}")
         };
         assert!((middle_deg - 10.0).abs() < 1e-9);
@@ -515,25 +562,39 @@ mod tests {
         }
         // axes that all turn the same way hold no level platform
         let uneven = text.replace("crank_angle_2 = 360", "crank_angle_2 = 180");
-        let why = RigSheet::read(uneven.as_bytes(), SheetDialect::DrSimManager).unwrap().to_toml("rig", "mm").unwrap_err();
+        let why = RigSheet::read(uneven.as_bytes(), SheetDialect::DrSimManager)
+            .unwrap()
+            .to_toml("rig", "mm")
+            .unwrap_err();
         assert!(matches!(why, InvalidRigSheet::Uneven(..)), "{why}");
     }
 
     #[test]
     fn what_is_no_sheet_is_refused_with_its_place() {
-        let why = |text: &str| RigSheet::read(text.as_bytes(), SheetDialect::Motion4Sim).unwrap_err().to_string();
+        let why =
+            |text: &str| RigSheet::read(text.as_bytes(), SheetDialect::Motion4Sim).unwrap_err().to_string();
         assert_eq!(why("L1 = 900\nL2\n"), "line 2: `L2` is not `name = number`");
         assert_eq!(why("L1 = 900\nL9 = 3\n"), "line 2: `L9` is no parameter of a sheet");
         assert_eq!(why("L1 = 900\nl1 = 3\n"), "line 2: `L1` is given twice");
         assert_eq!(why(&LINEAR_SHEET.replace("L4 = 1100\n", "")), "`L4` is missing");
-        assert_eq!(why(&LINEAR_SHEET.replace("range = 150", "range = -1")), "`range` is -1, not a positive number");
-        assert_eq!(why(&LINEAR_SHEET.replace("L1 = 900", "L1 = 90")), "L1 = 90 is shorter than L2 = 150: L1 is the long side of the platform");
+        assert_eq!(
+            why(&LINEAR_SHEET.replace("range = 150", "range = -1")),
+            "`range` is -1, not a positive number"
+        );
+        assert_eq!(
+            why(&LINEAR_SHEET.replace("L1 = 900", "L1 = 90")),
+            "L1 = 90 is shorter than L2 = 150: L1 is the long side of the platform"
+        );
         assert_eq!(
             why(&LINEAR_SHEET.replace("L3, 200", "L3, 2000")),
             "L3 = 2000 and L4 = 1100: in the dialect motion4sim L4 is the long side of the base"
         );
         assert!(why(&format!("{LINEAR_SHEET}crank = 4\n")).contains("give one kind"));
-        let short = RigSheet::read(LINEAR_SHEET.replace("middle = 900", "middle = 90").as_bytes(), SheetDialect::Motion4Sim).unwrap();
+        let short = RigSheet::read(
+            LINEAR_SHEET.replace("middle = 900", "middle = 90").as_bytes(),
+            SheetDialect::Motion4Sim,
+        )
+        .unwrap();
         assert!(matches!(short.to_toml("rig", "mm"), Err(InvalidRigSheet::OutOfReach { leg: 1, .. })));
         assert!("flypt".parse::<SheetDialect>().is_err());
     }

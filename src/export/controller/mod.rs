@@ -213,7 +213,8 @@ impl SwingAxes {
     /// Axes that are not given are along the legs at home.
     fn of(export: &Export) -> Self {
         let home: &Pose = &export.home;
-        let mut at_home = export.manipulator.legs().map(|l| (home.transform(&l.platform) - l.base).normalize());
+        let mut at_home =
+            export.manipulator.legs().map(|l| (home.transform(&l.platform) - l.base).normalize());
         if let Some(Ok(states)) = export.coupled.as_ref().map(|legs| legs.states(home)) {
             at_home = states.map(|state| state.line.normalize());
         }

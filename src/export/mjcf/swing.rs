@@ -37,7 +37,9 @@ pub(super) struct SwingTendon {
 impl SwingTendon {
     /// `None` where nothing limits the swing.
     pub(super) fn of(export: &Export, leg: &ExportLeg) -> Result<Option<Self>, Unsupported> {
-        let (Some(swing), Some(most)) = (export.hardware.platform_swing, limit(export)) else { return Ok(None) };
+        let (Some(swing), Some(most)) = (export.hardware.platform_swing, limit(export)) else {
+            return Ok(None);
+        };
         let axis = match swing.axes {
             JointAxes::Given(axes) => axes[leg.number - 1].into_inner(),
             JointAxes::Home | JointAxes::Optimize => export.home.rotation.inverse() * leg.direction()?,
@@ -52,14 +54,21 @@ impl SwingTendon {
     pub(super) fn at_rod(&self, out: &mut String, scale: &Scale) {
         let at = scale.at(&Vector3::new(0.0, 0.0, -self.away));
         let size = real(0.01 * scale.size);
-        let _ = writeln!(out, "            <site name=\"rod{}_swing\" pos=\"{at}\" size=\"{size}\"/>", self.number);
+        let _ = writeln!(
+            out,
+            "            <site name=\"rod{}_swing\" pos=\"{at}\" size=\"{size}\"/>",
+            self.number
+        );
     }
 
     /// Its site on the platform.
     pub(super) fn at_platform(&self, out: &mut String, scale: &Scale) {
         let (at, size) = (scale.at(&self.seat), real(0.01 * scale.size));
-        let _ =
-            writeln!(out, "              <site name=\"platform{}_swing\" pos=\"{at}\" size=\"{size}\"/>", self.number);
+        let _ = writeln!(
+            out,
+            "              <site name=\"platform{}_swing\" pos=\"{at}\" size=\"{size}\"/>",
+            self.number
+        );
     }
 }
 

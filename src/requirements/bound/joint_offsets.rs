@@ -149,7 +149,9 @@ impl JointOffsets {
                 }
             }
             for end in 0..2 {
-                ends[end] = std::array::from_fn(|k| own[end][k].widened(order, &widths[end]).with_value(found[end][k]));
+                ends[end] = std::array::from_fn(|k| {
+                    own[end][k].widened(order, &widths[end]).with_value(found[end][k])
+                });
             }
         }
         Some(ends)

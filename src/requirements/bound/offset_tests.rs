@@ -5,9 +5,10 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use super::joint_offsets::JointOffsets;
 use super::tests::{everything, poses_of, quick, random_platform, sampled};
 use super::*;
-use crate::geom::{Pose, PoseSpace, Region};
+use crate::geom::{ChartCell, Pose, PoseSpace, Region};
 use crate::num::Rng;
 use crate::requirements::coupled::CoupledLegs;
+use crate::requirements::term::TermKind;
 use crate::requirements::{
     Hardware, JointAxes, LengthLimits, PlatformSpeed, PlatformStiffness, Swing, UniversalJoint,
 };
@@ -80,12 +81,16 @@ fn derivatives_over_cells_are_those_of_doubles() {
                     let slope = (moved(&[(k, 1.0)]) - moved(&[(k, -1.0)])) / (2.0 * h);
                     let (middle, radius) = at.slope(k).centre_and_radius();
                     // two offsets leave an interval even at a point
-                    assert!((middle - slope).abs() <= radius + 1e-6, "{sort:?} {i} {k}: {middle} {radius} {slope}");
+                    assert!(
+                        (middle - slope).abs() <= radius + 1e-6,
+                        "{sort:?} {i} {k}: {middle} {radius} {slope}"
+                    );
                     assert!(radius < 0.05, "{sort:?} {radius}");
                     assert!(all.slope(k).lo() <= slope + 1e-6 && slope - 1e-6 <= all.slope(k).hi());
                     for j in 0..6 {
                         let s = |a: f64, b: f64| moved(&[(k, a), (j, b)]);
-                        let curve = (s(1.0, 1.0) - s(1.0, -1.0) - s(-1.0, 1.0) + s(-1.0, -1.0)) / (4.0 * h * h);
+                        let curve =
+                            (s(1.0, 1.0) - s(1.0, -1.0) - s(-1.0, 1.0) + s(-1.0, -1.0)) / (4.0 * h * h);
                         for jet in [&at, &all] {
                             let c = jet.curve(k, j);
                             assert!(
@@ -165,7 +170,9 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
                 leg_length: Some(LengthLimits::Range(0.1, longest)),
                 max_leg_speed: Some(speed),
                 base_universal: offsets.base_universal.map(|j| UniversalJoint { limits_deg: None, ..j }),
-                platform_universal: offsets.platform_universal.map(|j| UniversalJoint { limits_deg: None, ..j }),
+                platform_universal: offsets
+                    .platform_universal
+                    .map(|j| UniversalJoint { limits_deg: None, ..j }),
                 screw_lead: offsets.screw_lead,
                 ..Hardware::default()
             },
@@ -174,7 +181,8 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
         };
         let wide = with(1000.0, 1000.0);
         let found = prove(&m, &wide, &space, &AssessOptions { points: 300, searches: 2, ..quick() }, 100);
-        let worst = |kind| 1000.0 - found.bounds.iter().find(|b| b.found.term.kind == kind).unwrap().found.value;
+        let worst =
+            |kind| 1000.0 - found.bounds.iter().find(|b| b.found.term.kind == kind).unwrap().found.value;
         let (longest, fastest) = (worst(TermKind::LegTooLong), worst(TermKind::LegSpeed));
         let judged = |factor: f64| {
             prove(&m, &with(longest * factor, fastest * factor), &space, &quick(), 600).all_met()
@@ -187,7 +195,8 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
             ..Requirements::default()
         };
         let ideal = prove(&m, &ideal, &space, &quick(), 100);
-        let ideal = 1000.0 - ideal.bounds.iter().find(|b| b.found.term.kind == TermKind::LegTooLong).unwrap().found.value;
+        let ideal = 1000.0
+            - ideal.bounds.iter().find(|b| b.found.term.kind == TermKind::LegTooLong).unwrap().found.value;
         assert!((ideal - longest).abs() > 1e-3 * longest, "{sort:?} {ideal} {longest}");
     }
 }

@@ -270,7 +270,8 @@ fn along_drive(
     let [x, y, z, a, b, c] = *rates;
     let back = |row: JetVector| -> JetVector { std::array::from_fn(|j| dot_jets(&axes[j], &row)) };
     let (shifts, turns) = (back([x, y, z]), back([a, b, c]));
-    let along = |row: &JetVector, v: &IntervalVector| row[0].times(v[0]) + row[1].times(v[1]) + row[2].times(v[2]);
+    let along =
+        |row: &JetVector, v: &IntervalVector| row[0].times(v[0]) + row[1].times(v[1]) + row[2].times(v[2]);
     columns.map(|(v, w)| along(&shifts, &v) + along(&turns, &w))
 }
 

@@ -2,14 +2,18 @@
 
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
+use super::fixed::{housing_gap, room_inside};
+use super::frame::enclosed;
 use super::*;
 use crate::manipulator::Body;
 use std::collections::BTreeMap;
 
 use crate::geom::{Pose, Region};
 use crate::num::Rng;
+use crate::requirements::hardware::Housing;
+use crate::requirements::term::TermKind;
 use crate::requirements::{
-    Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart,
+    Envelope, Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart,
     LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness, Reserve, Reserves, Swing,
     UniversalJoint, VibratingMasses,
 };

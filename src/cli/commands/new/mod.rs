@@ -159,7 +159,8 @@ fn read_back(toml: String) -> Result<Made, Failure> {
 fn from_sheet(args: &Args) -> Result<Made, Failure> {
     let path = args.sheet.as_deref().unwrap_or(std::path::Path::new("-"));
     let Some(dialect) = args.dialect else {
-        let message = "--sheet needs --dialect: programs disagree on which of L3 and L4 is the long side of the base";
+        let message =
+            "--sheet needs --dialect: programs disagree on which of L3 and L4 is the long side of the base";
         let help = "--dialect motion4sim where L4 is the long side (Motion4Sim, FlyPT Mover), --dialect dr-sim-manager where L3 is";
         return Err(Failure::refused("new::no_dialect", message).with_help(help));
     };
@@ -247,7 +248,8 @@ fn from_table(args: &Args, path: &std::path::Path, context: &Context) -> Result<
 fn finish(made: Made, output: Option<&OutputPath>) -> Result<Answer, Failure> {
     let Made { mut design, toml, guesses } = made;
     let home = design.home_or_default();
-    let mut lengths = home.lengths(design.manipulator()).ok_or_else(|| bad("the lengths at home overflow"))?.get();
+    let mut lengths =
+        home.lengths(design.manipulator()).ok_or_else(|| bad("the lengths at home overflow"))?.get();
     let mut toml = toml;
     let mut singular = false;
     if let Some(platform) = Context::cranks_of(&design)? {
@@ -292,7 +294,11 @@ fn summary(path: &str, design: &Design, home: &Pose, lengths: [f64; 6], singular
         p.x, p.y, p.z
     );
     let listed = lengths.map(|l| format!("{l:.3}")).join(", ");
-    let _ = writeln!(out, "{}: {listed} {units}", if design.has_cranks() { "rods" } else { "leg lengths at home" });
+    let _ = writeln!(
+        out,
+        "{}: {listed} {units}",
+        if design.has_cranks() { "rods" } else { "leg lengths at home" }
+    );
     if singular {
         out.push_str("ARCHITECTURALLY SINGULAR: the leg lines are dependent at every pose; `equipod check` explains why\n");
     }
