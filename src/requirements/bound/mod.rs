@@ -32,6 +32,7 @@ use std::num::NonZeroUsize;
 use self::crank::CrankFrames;
 use self::frame::CellFrame;
 use self::joint_offsets::JointOffsets;
+use self::verdict::ReserveBound;
 use super::Requirements;
 use super::assess::{AssessOptions, Assessment, Margin, assess};
 use super::term::Terms;
@@ -42,7 +43,7 @@ use crate::num::interval::Interval;
 use crate::num::parallel::parallel;
 
 pub use crank::{RodRegularity, regular_rods};
-pub use verdict::{MarginBound, MarginProof, MarginVerdict, ReserveBound};
+pub use verdict::{MarginBound, MarginProof, MarginVerdict};
 
 /// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind, and by [`AssessOptions::patient_cells`] more where these leave it undecided and nothing is violated.
 ///
