@@ -13,7 +13,6 @@ use super::files;
 use super::rows;
 use crate::coupled::CoupledLegs;
 use crate::design::{Design, Format, Violation, Warning, parse, parse_ideal, parse_with_cranks};
-use crate::geom::Pose;
 use crate::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 use crate::rotary::RotaryPlatform;
 

@@ -2,11 +2,11 @@
 
 use nalgebra::Matrix6;
 
-use super::leg::{PlacedLeg, Vec3, unit};
 use super::{CoupledLegs, DriveState};
 use crate::geom::enclosed::{IntervalMatrix, IntervalVector, Rotation, apply, exact_rotation, times};
 use crate::geom::{Pose, arc_cosine};
 use crate::num::interval::Interval;
+use crate::requirements::coupled::{PlacedLeg, Vec3, unit};
 
 /// How far the pose of the machine is from the one found, at most.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,8 +5,10 @@ use nalgebra::{Matrix6, Point3, Rotation3, Unit, Vector3, Vector6};
 
 use super::*;
 use crate::fk::NearSolver;
+use crate::geom::Pose;
+use crate::manipulator::{Body, Manipulator};
 use crate::num::Rng;
-use crate::requirements::{JointAxes, UniversalJoint};
+use crate::requirements::{Hardware, JointAxes, UniversalJoint};
 
 /// A leg as it is built: base, turn about x, offset along z, turn about y, length along z, turn about z, turn about y, offset along z, turn about x.
 #[derive(Debug, Clone, Copy)]

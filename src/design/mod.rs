@@ -42,12 +42,12 @@ pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
 pub use presets::{PRESETS, Preset, PresetClass};
 pub(crate) use scale::{micrometres, unit_of_millimetres};
 pub use schema::SCHEMA;
-#[cfg(feature = "cli")]
-pub(crate) use table::InvalidPointTable;
 pub(crate) use table::{
     DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidSeries, PointTable, SeriesKind, SeriesRow,
     TimeSeries,
 };
+#[cfg(feature = "cli")]
+pub(crate) use table::{InvalidPointTable, RigSheet, SheetDialect};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 

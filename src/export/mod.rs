@@ -108,6 +108,11 @@ pub enum Unsupported {
     /// The format is about legs that change their lengths.
     #[error("the format holds legs that change their lengths, and those of the design are rods on cranks")]
     Cranks,
+    /// The format takes drives to be as long as the distances of their joints.
+    #[error(
+        "the joints are not ideal (`offset` of universal joints or `screw_lead` in [hardware]), and the format has drives as long as the distances of their joints"
+    )]
+    NotIdeal,
     /// A rod is along the axis of its crank at home.
     #[error("the rod of leg {leg} is along the axis of its crank at home, where the crank does not move it")]
     RodAlongAxis {
@@ -137,6 +142,11 @@ pub trait Writer: std::fmt::Debug + Sync {
 
     /// Whether it holds rods on cranks too.
     fn takes_cranks(&self) -> bool {
+        false
+    }
+
+    /// Whether it holds drives that are not as long as the distances of their joints.
+    fn takes_coupled(&self) -> bool {
         false
     }
 

@@ -7,10 +7,11 @@ use super::plate::Plate;
 use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, mass};
 use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
+use crate::coupled::CoupledLegs;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
-use crate::requirements::{ForceUnit, Hardware, LegMasses, MassUnit, plate_normal};
+use crate::requirements::{ForceUnit, Hardware, KeepOutShape, LegMasses, MassUnit, plate_normal};
 use crate::rotary::RotaryPlatform;
 
 /// A joint of a body.
@@ -132,6 +133,8 @@ pub struct Export {
     pub legs: [ExportLeg; 6],
     /// The cranks of the legs; `None` where these change their lengths.
     pub cranks: Option<ExportCranks>,
+    /// Legs whose joints are not ideal; `None` where drives are as long as the distances of their joints.
+    pub coupled: Option<CoupledLegs>,
     /// What the length that each leg shows is longer than the distance of its joints, design units, where the design was calibrated.
     pub leg_offsets: Option<[f64; 6]>,
     /// Least and greatest length of a leg, design units, where the design limits them.
@@ -144,6 +147,8 @@ pub struct Export {
     pub mass: f64,
     /// Whether the design says what the platform carries.
     pub payload: bool,
+    /// The room that the payload takes up, platform frame, design units, where the design says it.
+    pub payload_shape: Option<KeepOutShape>,
     /// Centre of mass of the platform with its payload, platform frame, design units, where the design says it.
     pub center_of_mass: Option<Point3<f64>>,
     /// Inertia about the centre of mass, axes of the platform frame, kg m^2, where the design says it.
@@ -200,6 +205,8 @@ impl Export {
         let platform = joints(design.platform_names(), m.platform_joints());
         let newtons = design.force_units.unwrap_or(ForceUnit::Newton).newtons();
         let cranks = ExportCranks::of(design, &home, newtons * unit.metres)?;
+        let coupled = hardware.is_coupled().then(|| CoupledLegs::new(m, hardware, &home)).transpose();
+        let coupled = coupled.map_err(|why| NoExport::Joints(format!("at home {why}")))?;
         let mut ends = m.pairs().map(|(a, b)| (base[a].at, home.transform(&platform[b].at)));
         if let Some(cranks) = &cranks {
             for (i, end) in ends.iter_mut().enumerate() {
@@ -264,12 +271,14 @@ impl Export {
             bodies,
             legs,
             cranks,
+            coupled,
             leg_offsets: design.calibration.as_ref().map(|table| table.offsets),
             leg_range: hardware.leg_length.map(|l| l.range()),
             workspace,
             trajectory,
             mass,
             payload: design.payload.is_some(),
+            payload_shape: design.payload.as_ref().and_then(|p| p.shape),
             center_of_mass: carried.map(|p| p.center),
             inertia,
             gravity: carried.map_or_else(|| Vector3::new(0.0, 0.0, -9.81), |p| p.gravity),
@@ -290,10 +299,14 @@ impl Export {
     /// The files of a format.
     ///
     /// # Errors
-    /// What the format cannot express: [`Unsupported::Cranks`] for rods on cranks, where it does not [take them](Writer::takes_cranks).
+    /// What the format cannot express: [`Unsupported::Cranks`] for rods on cranks, where it does not [take them](Writer::takes_cranks), and [`Unsupported::NotIdeal`] for joints that
+    /// are not ideal.
     pub fn files(&self, writer: &dyn Writer) -> Result<Vec<ExportedFile>, Unsupported> {
         if self.cranks.is_some() && !writer.takes_cranks() {
             return Err(Unsupported::Cranks);
+        }
+        if self.coupled.is_some() && !writer.takes_coupled() {
+            return Err(Unsupported::NotIdeal);
         }
         writer.files(self)
     }

@@ -127,6 +127,9 @@ pub enum NoExport {
     /// The legs are rods on cranks, which hold no pose at home, or make no platform.
     #[error("{0}")]
     Cranks(String),
+    /// Joints that are not ideal and hold no pose at home.
+    #[error("{0}")]
+    Joints(String),
     /// A size that nothing can be made of.
     #[error("{what} is {value}: {why}")]
     BadSize {

@@ -255,8 +255,9 @@ fn a_simulation_has_six_actuators_and_five_loops() {
     let text = text_of(&limited, "mjcf", "platform.xml");
     let home = limited.legs[0].length();
     let range = format!(" range=\"{} {}\"/>", real((198.0 - home) * 1e-3), real((298.0 - home) * 1e-3));
-    // six slides, and the twelve hinges of base joints that swing by so much from the leg at home
-    assert_eq!((text.matches(" range=").count(), text.contains(&range)), (18, true));
+    // six slides, the twelve hinges of base joints that swing by so much from the leg at home, and six tendons for the swing at the platform
+    assert_eq!((text.matches(" range=").count(), text.contains(&range)), (24, true));
+    assert_eq!(text.matches("<spatial name=\"swing").count(), 6);
     let swing = real(limited.hardware.base_swing.unwrap().limit_deg.to_radians());
     assert_eq!(text.matches(&format!(" range=\"-{swing} {swing}\"")).count(), 12);
 }

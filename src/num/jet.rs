@@ -38,6 +38,16 @@ impl Jet {
         Self { slope, ..Self::constant(value, variables, second) }
     }
 
+    /// A constant in the same variables.
+    pub(crate) fn alike(&self, value: Interval) -> Self {
+        Self::constant(value, self.variables, self.second)
+    }
+
+    /// A function of which nothing is known, in the same variables.
+    pub(crate) fn unknown(&self) -> Self {
+        Self { value: Interval::WHOLE, slope: [Interval::WHOLE; 6], curve: [Interval::WHOLE; PAIRS], ..*self }
+    }
+
     /// First derivatives.
     pub(crate) fn slope(&self, k: usize) -> Interval {
         self.slope[k]
@@ -46,6 +56,41 @@ impl Jet {
     /// Second derivatives; zero where they are not kept.
     pub(crate) fn curve(&self, i: usize, j: usize) -> Interval {
         self.curve[place(i.min(j), i.max(j))]
+    }
+
+    /// With other values and the same derivatives.
+    pub(crate) fn with_value(self, value: Interval) -> Self {
+        Self { value, ..self }
+    }
+
+    /// The lengths of the derivatives of a vector, of first or of second order, rounded up, at their places.
+    pub(crate) fn sizes(v: &JetVector, order: usize) -> [Interval; PAIRS] {
+        std::array::from_fn(|k| {
+            let part = |x: &Self| match order {
+                1 => x.slope.get(k).copied().unwrap_or(Interval::ZERO),
+                _ => x.curve[k],
+            };
+            let square = part(&v[0]).square() + part(&v[1]).square() + part(&v[2]).square();
+            Interval::from(square.sqrt().map_or(f64::INFINITY, Interval::hi))
+        })
+    }
+
+    /// With derivatives of first or of second order that may differ by as much, at their places, and no others of that order or above.
+    pub(crate) fn widened(mut self, order: usize, widths: &[Interval; PAIRS]) -> Self {
+        let wide = |x: Interval, width: Interval| x + Interval::about_zero(width.hi());
+        if order == 1 {
+            for (x, width) in self.slope.iter_mut().zip(widths).take(self.variables) {
+                *x = wide(*x, *width);
+            }
+            self.curve = [Interval::ZERO; PAIRS];
+        } else if self.second {
+            for i in 0..self.variables {
+                for j in i..self.variables {
+                    self.curve[place(i, j)] = wide(self.curve[place(i, j)], widths[place(i, j)]);
+                }
+            }
+        }
+        self
     }
 
     /// `f` of it, from values of `f`, `f'` and `f''` over its values.
@@ -77,6 +122,13 @@ impl Jet {
         let f1 = -f0.checked_div(self.value * Interval::from(2.0))?;
         let f2 = (f0 * Interval::from(0.75)).checked_div(self.value.square())?;
         Some(self.composed([f0, f1, f2]))
+    }
+
+    /// `1 / x`, `None` where it may be zero.
+    pub(crate) fn inverse(&self) -> Option<Self> {
+        let f0 = Interval::from(1.0).checked_div(self.value)?;
+        let square = f0.square();
+        Some(self.composed([f0, -square, Interval::from(2.0) * f0 * square]))
     }
 
     /// `sqrt(x)`, `None` unless it is positive.

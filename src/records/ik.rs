@@ -168,7 +168,6 @@ impl IkRecord {
         self.jacobian = std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)])));
         let scaled = CoupledLegs::jacobian(states, design.characteristic_length());
         self.inverse_condition = Number(inverse_condition(&scaled));
-        self.margins.clear();
         // they bend about centres of ideal joints
         self.flexures = None;
         self.drives = Some(drives);

@@ -265,7 +265,7 @@ impl Terms<'_> {
     }
 }
 
-/// As [`least_conditioning`](super::least_conditioning), for the rods of a design with cranks; `None` where it has none.
+/// As [`least_conditioning`](super::least_conditioning), for the rods of a design with cranks and for drives whose joints are not ideal; `None` for other designs.
 #[must_use]
 pub fn least_rod_conditioning(
     terms: &Terms<'_>,
@@ -273,8 +273,13 @@ pub fn least_rod_conditioning(
     o: &super::AssessOptions,
     characteristic_length: f64,
 ) -> Option<LeastConditioning> {
-    let cranks = terms.required.cranks.as_ref()?;
-    Some(super::conditioning::least_over(space, o, |pose| {
-        terms.rod_conditioning(cranks, pose, characteristic_length)
-    }))
+    let of_drives = |pose: &Pose| {
+        terms.drive_rows(pose, characteristic_length).map_or(0.0, |rows| inverse_condition(&rows))
+    };
+    match &terms.required.cranks {
+        Some(cranks) => Some(super::conditioning::least_over(space, o, |pose| {
+            terms.rod_conditioning(cranks, pose, characteristic_length)
+        })),
+        None => terms.are_coupled().then(|| super::conditioning::least_over(space, o, of_drives)),
+    }
 }

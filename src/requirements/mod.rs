@@ -8,6 +8,7 @@ mod assess;
 mod bodies;
 mod bound;
 mod conditioning;
+pub(crate) mod coupled;
 mod cranks;
 mod envelope;
 mod flexure;
@@ -143,6 +144,14 @@ impl Requirements {
             ..Self::default()
         };
         [drives, rest]
+    }
+
+    /// `true` where a natural frequency is asked for whose legs have masses and joints that are not ideal: how such legs move is not known, and the frequency is not judged.
+    #[must_use]
+    pub(crate) fn leaves_out_moving_legs(&self) -> bool {
+        let wanted = self.platform_stiffness.is_some_and(|s| s.natural_frequency.is_some());
+        let moving = self.vibrating.as_ref().is_some_and(|v| v.bodies.leg != LegMasses::default());
+        wanted && moving && self.hardware.is_coupled()
     }
 
     /// The least stiffness or natural frequency asked for, in the unit of its margin; `None` where none is, and for other kinds.

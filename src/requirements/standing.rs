@@ -3,7 +3,7 @@
 use super::term::{Quantity, TermKind, Terms};
 use super::universal::HingeAngle;
 use crate::geom::Pose;
-use crate::manipulator::{Body, inverse_condition, jacobian};
+use crate::manipulator::{Body, inverse_condition};
 
 /// Rounding of a length over the sum of the lengths it is computed from: some ten operations on coordinates that are rounded themselves, each
 /// good to half of `eps`, and room to spare.
@@ -87,7 +87,8 @@ impl Terms<'_> {
         let farthest =
             |joints: &[nalgebra::Point3<f64>]| joints.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
         let away = pose.map_or(0.0, |p| p.position.norm());
-        let reach = farthest(m.base_joints()) + farthest(m.platform_joints()) + away;
+        let aside = Body::BOTH.map(|body| self.required.hardware.universal(body).map_or(0.0, |j| j.offset));
+        let reach = farthest(m.base_joints()) + farthest(m.platform_joints()) + away + aside[0] + aside[1];
         let turn = || {
             if let (Some(cranks), Some(pose)) = (&self.required.cranks, pose) {
                 return self.crank_rounding(cranks, pose, SHARE * reach).min(MOST);
@@ -100,7 +101,7 @@ impl Terms<'_> {
             let length = m.platform_rms_radius();
             match &self.required.cranks {
                 Some(cranks) => self.rod_conditioning(cranks, pose, length),
-                None => inverse_condition(&jacobian(m, pose, length)),
+                None => self.drive_rows(pose, length).map_or(0.0, |rows| inverse_condition(&rows)),
             }
         };
         let most = |of: fn(&super::Cranks) -> Option<f64>| {

@@ -1,15 +1,16 @@
 //! The terms: what is required of a manipulator at a pose, and by how much it is met.
 
-use nalgebra::{Point3, Unit, Vector3};
+use nalgebra::{Matrix6, Point3, Unit, Vector3};
 
 use super::Requirements;
+use super::coupled::{CoupledLegs, DriveState, NoDriveLength};
 use super::envelope::{ball, room};
 use super::hardware::{JointAxes, LegBody};
 use super::keep_out::KeepOut;
-use super::load::leg_forces;
+use super::load::forces_along;
 use super::plate::PlateSolid;
 use super::universal::{Hinge, HingeAngle};
-use super::vibration::{least_stiffness_at, lowest_frequency};
+use super::vibration::{lowest_of, mass_matrix, softest_of};
 use crate::geom::{Pose, segment_distance};
 use crate::manipulator::{Body, Manipulator, jacobian};
 
@@ -274,6 +275,20 @@ pub struct Terms<'a> {
     hinges: [Option<[Hinge; 6]>; 2],
     /// The plates of the base and of the platform.
     plates: [Option<PlateSolid>; 2],
+    /// Legs whose joints are not ideal, or why they are none.
+    coupled: Option<Result<CoupledLegs, NoDriveLength>>,
+}
+
+/// The legs at a pose.
+struct LegsAt {
+    /// Where the bodies of the legs begin and end: at the joints, or at their second axes where these do not meet the first ones.
+    ends: [(Point3<f64>, Point3<f64>); 6],
+    /// Lengths of the drives; minus infinity plays no part in what is longer and in what is shorter.
+    lengths: [f64; 6],
+    /// Legs that are not determined: everything about them is violated.
+    missing: [bool; 6],
+    /// Rates of the drives, where the joints are not ideal and all legs are determined.
+    states: Option<[DriveState; 6]>,
 }
 
 /// A part of a leg: a segment and its radius.
@@ -327,7 +342,16 @@ impl<'a> Terms<'a> {
     #[must_use]
     pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
         let legs = required.pushing_legs(&manipulator.legs(), home);
-        let at_home = legs.map(|l| (home.transform(&l.platform) - l.base).normalize());
+        let mut at_home = legs.map(|l| (home.transform(&l.platform) - l.base).normalize());
+        let coupled =
+            required.hardware.is_coupled().then(|| CoupledLegs::new(manipulator, &required.hardware, home));
+        if let Some(Ok(coupled)) = &coupled {
+            for (i, u) in at_home.iter_mut().enumerate() {
+                // an axis of no direction violates its limits
+                let line = coupled.state_of(i, home).map(|state| state.line);
+                *u = line.map_or(Vector3::repeat(f64::NAN), |line| line.normalize());
+            }
+        }
         let axes =
             |body: Body, turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| match required.hardware.axes(body) {
                 Some(JointAxes::Given(axes)) => axes.map(Unit::into_inner),
@@ -344,7 +368,7 @@ impl<'a> Terms<'a> {
             let housing = required.hardware.housing(body);
             required.plates.of(body).map(|plate| PlateSolid::of(plate, manipulator, body, housing, home))
         });
-        Self { manipulator, required, axes: [base, platform], hinges, plates }
+        Self { manipulator, required, axes: [base, platform], hinges, plates, coupled }
     }
 
     /// The universal joint at an end (0 base, 1 platform) of a leg.
@@ -457,48 +481,94 @@ impl<'a> Terms<'a> {
             self.cranks(cranks, pose, &mut out);
             return out;
         }
-        let ends: [(Point3<f64>, Point3<f64>); 6] =
+        let joints: [(Point3<f64>, Point3<f64>); 6] =
             self.manipulator.legs().map(|l| (l.base, pose.transform(&l.platform)));
-        self.lengths_and_swing(&ends, pose, &mut out);
-        self.clearances(&ends, pose, &mut out);
-        self.drives(pose, &mut out);
-        self.machine(&ends, &mut out);
+        let legs = self.legs_at(&joints, pose);
+        self.lengths_and_swing(&legs, pose, &mut out);
+        self.clearances(&legs.ends, pose, &mut out);
+        for (term, margin) in &mut out {
+            let two = term.kind == TermKind::LegClearance && legs.missing[term.second];
+            if legs.missing[term.first] || two {
+                *margin = f64::NEG_INFINITY;
+            }
+        }
+        self.drives(&legs, pose, &mut out);
+        self.machine(&joints, &mut out);
         self.stiffness(pose, &mut out);
         out
+    }
+
+    /// The legs at a pose, whatever their joints are.
+    fn legs_at(&self, joints: &[(Point3<f64>, Point3<f64>); 6], pose: &Pose) -> LegsAt {
+        let mut out = LegsAt {
+            ends: *joints,
+            lengths: joints.map(|(a, b)| (b - a).norm()),
+            missing: [false; 6],
+            states: None,
+        };
+        let Some(coupled) = &self.coupled else { return out };
+        let found: [Option<DriveState>; 6] =
+            std::array::from_fn(|i| coupled.as_ref().ok().and_then(|legs| legs.state_of(i, pose).ok()));
+        for (i, state) in found.iter().enumerate() {
+            let Some(state) = state else {
+                out.missing[i] = true;
+                continue;
+            };
+            let start = joints[i].0 + state.start;
+            out.ends[i] = (start, start + state.line);
+            out.lengths[i] += state.correction;
+        }
+        let all: Option<Vec<DriveState>> = found.into_iter().collect();
+        out.states = all.and_then(|all| all.try_into().ok());
+        out
+    }
+
+    /// Rates of the drives by rows, moments over a length; `None` where the joints are not ideal and a leg is not determined.
+    pub(super) fn drive_rows(&self, pose: &Pose, length: f64) -> Option<Matrix6<f64>> {
+        match &self.coupled {
+            None => Some(jacobian(self.manipulator, pose, length)),
+            Some(Ok(coupled)) => Some(CoupledLegs::jacobian(&coupled.states(pose).ok()?, length)),
+            Some(Err(_)) => None,
+        }
+    }
+
+    /// `true` where the joints are not ideal.
+    pub(super) fn are_coupled(&self) -> bool {
+        self.coupled.is_some()
     }
 
     /// How stiff the platform is on its legs, and how slowly it vibrates.
     fn stiffness(&self, pose: &Pose, out: &mut Vec<(Term, f64)>) {
         let Some(wanted) = self.required.platform_stiffness else { return };
+        let rows = self.drive_rows(pose, self.manipulator.size());
         let mut keep = |kind, value: f64, least: f64| {
             out.push((Term { kind, first: 0, second: 0 }, value - least));
         };
         if wanted.linear.is_some() || wanted.angular.is_some() {
             let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
-            let found = least_stiffness_at(self.manipulator, pose, leg);
+            let found = softest_of(rows.as_ref(), self.manipulator.size(), leg);
             let _ = wanted.linear.map(|least| keep(TermKind::LinearStiffness, found.linear, least));
             let _ = wanted.angular.map(|least| keep(TermKind::AngularStiffness, found.angular, least));
         }
-        if let (Some(least), Some(masses)) = (wanted.natural_frequency, &self.required.vibrating) {
-            keep(TermKind::NaturalFrequency, lowest_frequency(self.manipulator, pose, masses), least);
+        if let (Some(least), Some(masses), false) =
+            (wanted.natural_frequency, &self.required.vibrating, self.required.leaves_out_moving_legs())
+        {
+            let mass = mass_matrix(self.manipulator, &masses.bodies, pose);
+            let lowest = lowest_of(rows.as_ref(), self.manipulator.size(), &mass, masses.leg);
+            keep(TermKind::NaturalFrequency, lowest, least);
         }
     }
 
-    fn lengths_and_swing(
-        &self,
-        ends: &[(Point3<f64>, Point3<f64>); 6],
-        pose: &Pose,
-        out: &mut Vec<(Term, f64)>,
-    ) {
+    fn lengths_and_swing(&self, legs: &LegsAt, pose: &Pose, out: &mut Vec<(Term, f64)>) {
         let hardware = &self.required.hardware;
         let back = pose.rotation.inverse();
-        for (i, (a, b)) in ends.iter().enumerate() {
+        for (i, (a, b)) in legs.ends.iter().enumerate() {
             let line = b - a;
             let own = |kind| Term { kind, first: i, second: i };
             if let Some(limits) = hardware.leg_length {
                 let (least, greatest) = limits.range();
-                out.push((own(TermKind::LegTooShort), line.norm() - least));
-                out.push((own(TermKind::LegTooLong), greatest - line.norm()));
+                out.push((own(TermKind::LegTooShort), legs.lengths[i] - least));
+                out.push((own(TermKind::LegTooLong), greatest - legs.lengths[i]));
             }
             if let Some(swing) = hardware.base_swing {
                 out.push((own(TermKind::BaseSwing), swing.limit_deg - angle_deg(&line, &self.axes[0][i])));
@@ -572,11 +642,12 @@ impl<'a> Terms<'a> {
         }
     }
 
-    fn drives(&self, pose: &Pose, out: &mut Vec<(Term, f64)>) {
+    fn drives(&self, legs: &LegsAt, pose: &Pose, out: &mut Vec<(Term, f64)>) {
         let (hardware, m) = (&self.required.hardware, self.manipulator);
         if let Some(greatest) = hardware.max_leg_force {
+            let rows = self.drive_rows(pose, m.size());
             for (k, load) in self.required.loads.iter().enumerate() {
-                let forces = leg_forces(m, pose, &load.wrench(pose), m.size());
+                let forces = rows.and_then(|rows| forces_along(&rows, &load.wrench(pose), m.size()));
                 for i in 0..6 {
                     let margin = forces.map_or(f64::NEG_INFINITY, |f| greatest - f[i].abs());
                     out.push((Term { kind: TermKind::LegForce, first: i, second: k }, margin));
@@ -585,10 +656,15 @@ impl<'a> Terms<'a> {
         }
         if let (Some(greatest), Some(speed)) = (hardware.max_leg_speed, self.required.platform_speed) {
             // u.v + (R b x u).w over all |v| <= linear, |w| <= angular
-            let rows = jacobian(m, pose, 1.0);
+            let rows = if self.are_coupled() { None } else { Some(jacobian(m, pose, 1.0)) };
+            let rows = rows.or_else(|| legs.states.as_ref().map(|states| CoupledLegs::jacobian(states, 1.0)));
             for i in 0..6 {
-                let moment = rows.fixed_view::<1, 3>(i, 3).norm();
-                let fastest = speed.linear + moment * speed.angular_deg.to_radians();
+                let fastest = rows.map_or(f64::INFINITY, |rows| {
+                    let moment = rows.fixed_view::<1, 3>(i, 3).norm();
+                    // lines of legs are unit vectors, screws that turn with them are more
+                    let line = if self.are_coupled() { rows.fixed_view::<1, 3>(i, 0).norm() } else { 1.0 };
+                    speed.linear * line + moment * speed.angular_deg.to_radians()
+                });
                 let own = Term { kind: TermKind::LegSpeed, first: i, second: i };
                 out.push((own, greatest - fastest));
             }

@@ -167,9 +167,13 @@ impl VibratingMasses {
 /// singular pose.
 #[must_use]
 pub fn least_stiffness_at(m: &Manipulator, pose: &Pose, leg: f64) -> LeastStiffness {
+    softest_of(Some(&jacobian(m, pose, m.size())), m.size(), leg)
+}
+
+/// As [`least_stiffness_at`], from rates of drives by rows with their moments over `size`; zero where there are none.
+pub(super) fn softest_of(rows: Option<&Matrix6<f64>>, size: f64, leg: f64) -> LeastStiffness {
     let none = LeastStiffness { linear: 0.0, angular: 0.0 };
-    let size = m.size();
-    let Some(inverse) = jacobian(m, pose, size).transpose().try_inverse() else { return none };
+    let Some(inverse) = rows.and_then(|rows| rows.transpose().try_inverse()) else { return none };
     let softest = |at: usize| -> Option<f64> {
         let forces = inverse.fixed_columns::<3>(at).into_owned();
         let greatest = singular_values(&forces)?.max();
@@ -185,12 +189,16 @@ pub fn least_stiffness_at(m: &Manipulator, pose: &Pose, leg: f64) -> LeastStiffn
 /// frequency. Zero at a singular pose.
 #[must_use]
 pub fn lowest_frequency(m: &Manipulator, pose: &Pose, masses: &VibratingMasses) -> f64 {
-    let size = m.size();
-    let Some(inverse) = jacobian(m, pose, size).try_inverse() else { return 0.0 };
-    let mass = scaled_mass(&mass_matrix(m, &masses.bodies, pose), size);
+    lowest_of(Some(&jacobian(m, pose, m.size())), m.size(), &mass_matrix(m, &masses.bodies, pose), masses.leg)
+}
+
+/// As [`lowest_frequency`], from rates of drives by rows with their moments over `size`; zero where there are none.
+pub(super) fn lowest_of(rows: Option<&Matrix6<f64>>, size: f64, mass: &Matrix6<f64>, leg: f64) -> f64 {
+    let Some(inverse) = rows.and_then(|rows| rows.try_inverse()) else { return 0.0 };
+    let mass = scaled_mass(mass, size);
     let form = inverse.transpose() * mass * inverse;
     let greatest = singular_values(&form).map_or(f64::INFINITY, |s| s.max());
-    (masses.leg / greatest).sqrt() / std::f64::consts::TAU
+    (leg / greatest).sqrt() / std::f64::consts::TAU
 }
 
 /// A mass matrix for twists `(v, L w)`.

@@ -30,6 +30,13 @@ DESIGNS = [
     # rods on cranks, with functions of their own
     ("presets/reachy-mini", []),
 ]
+# the symmetric hexapod with joints that are not ideal: axes that do not meet at both ends, at one, and screws
+AXES = "[[0, 1, 0], [0, 1, 0], [-0.866, -0.5, 0], [-0.866, -0.5, 0], [0.866, -0.5, 0], [0.866, -0.5, 0]]"
+JOINTS = {
+    "offsets at both ends": (14, 9, 0),
+    "offsets at the base": (14, 0, 0),
+    "offsets and screws": (14, 9, 8),
+}
 STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wconversion", "-Wdouble-promotion"]
 SANITIZE = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 SOURCES = ["equipod.c", "equipod_design.c"]
@@ -70,6 +77,19 @@ def export(program, design, options, folder):
         sys.exit(f"the program does not export {design}: {out}")
 
 
+def not_ideal(program, offsets, folder):
+    """The files of the symmetric hexapod with universal joints of these offsets and a lead."""
+    base, platform, lead = offsets
+    text = (ROOT / "designs/symmetric-hexapod.toml").read_text() + f"leg_length = [200, 600]\nscrew_lead = {lead}\n"
+    for body, offset in (("base", base), ("platform", platform)):
+        text += f'{body}_joint = {{ model = "universal", first_axis = {AXES}, offset = {offset} }}\n'
+    folder.mkdir()
+    (folder / "design.toml").write_text(text)
+    code, out = run(program, "export", folder / "design.toml", "--to", "c", "-o", folder)
+    if code != 0:
+        sys.exit(f"the program does not export joints that are not ideal: {out}")
+
+
 def faulty(folder, to):
     """The same files with one expected number, a squared length or an angle, off by a hundredth."""
     shutil.copytree(folder, to)
@@ -91,8 +111,8 @@ def host(folder, wrong, name):
                 if not good and options != ["-O2"]:
                     continue
                 binary = place / "selftest"
-                cranks = ["equipod_cranks.c"] if (place / "equipod_cranks.c").exists() else []
-                sources = [place / s for s in [*SOURCES, *cranks, "equipod_selftest.c"]]
+                more = [s for s in ("equipod_cranks.c", "equipod_drives.c") if (place / s).exists()]
+                sources = [place / s for s in [*SOURCES, *more, "equipod_selftest.c"]]
                 code, out = run(compiler, *STRICT, "-ffp-contract=off", *real, *options, *sources, "-lm", "-o", binary)
                 if not told(code == 0, f"{label} compiles", out):
                     continue
@@ -233,6 +253,12 @@ def main():
                 board(folder, wrong, design, args.table)
                 if args.table:
                     operations(folder)
+        for name, offsets in JOINTS.items():
+            folder, wrong = top / name.replace(" ", "-"), top / f"{name.replace(' ', '-')}-wrong"
+            not_ideal(program, offsets, folder)
+            faulty(folder, wrong)
+            host(folder, wrong, name)
+        cmake(folder)
         linuxcnc(program, top / "linuxcnc")
     print(f"{len(passed)} passed, {len(failed)} failed" + (f", not installed: {', '.join(missing)}" if missing else ""))
     sys.exit(1 if failed or (missing and not args.allow_missing) else 0)

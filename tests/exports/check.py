@@ -23,6 +23,7 @@ from motion import check_equivalent, check_poses
 from schemas import check_schemas
 from solids import check_step, check_stl
 from standing import check_standing
+from swing import check_swing
 from texts import check_csv, check_hal, check_json, check_matlab
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -72,6 +73,7 @@ def main():
     check_dynamics(program, top / "dynamics")
     check_cranks(program, top / "cranks", ROOT / "designs/presets/reachy-mini.toml")
     check_standing(program, top / "standing", ROOT / "designs/worked/simulator-300kg-built.toml")
+    check_swing(program, top / "swing", ROOT / "designs/worked/simulator-300kg-built.toml")
     check_equivalent(program, top, ROOT / "designs/rbt-octahedral.toml")
     if not args.keep:
         shutil.rmtree(top)

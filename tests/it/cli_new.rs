@@ -198,3 +198,80 @@ fn refusals_of_general_designs_name_what_takes_them() {
         }
     }
 }
+
+/// The parameters of a rig with cranks as a sheet of either program has them.
+fn sheet(folder: &Path, name: &str, [l3, l4]: [f64; 2]) -> String {
+    let mut text =
+        format!("L1 = 700\nL2 = 120\nL3 = {l3}\nL4 = {l4}\ncrank = 90\nrod = 600\nmiddle_angle = 10\n");
+    for (i, angle) in [180, 0, 300, 120, 60, 240].into_iter().enumerate() {
+        text += &format!("crank_angle_{} = {angle}\n", i + 1);
+    }
+    let path = folder.join(name);
+    std::fs::write(&path, text).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn sheets_of_either_dialect_give_one_design_and_the_wrong_dialect_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let sheets = [("dr-sim-manager", [900.0, 250.0]), ("motion4sim", [250.0, 900.0])];
+    let mut designs = Vec::new();
+    for (dialect, sides) in sheets {
+        let path = sheet(folder.path(), dialect, sides);
+        let design = folder.path().join(format!("{dialect}.toml")).display().to_string();
+        let made = new(&["--sheet", &path, "--dialect", dialect, "-o", &design]);
+        assert_eq!(made["lengths"][0], 600.0, "rods: {made}");
+        designs.push(std::fs::read_to_string(&design).unwrap());
+        // back to a sheet of the same program, and to one of the other
+        for (other, [l3, l4]) in sheets {
+            let out = folder.path().join("back").display().to_string();
+            let wrote = equipod(&["design", "convert", &design, "--dialect", other, "-o", &out]);
+            assert_eq!(wrote.status.code(), Some(0), "{}", String::from_utf8_lossy(&wrote.stderr));
+            let text = std::fs::read_to_string(&out).unwrap();
+            let value = |name: &str| -> f64 {
+                let line = text
+                    .lines()
+                    .find_map(|l| l.strip_prefix(&format!("{name} = ")))
+                    .unwrap_or_else(|| panic!("{text}"));
+                line.parse().unwrap()
+            };
+            for (name, meant) in [
+                ("L1", 700.0),
+                ("L2", 120.0),
+                ("L3", l3),
+                ("L4", l4),
+                ("crank", 90.0),
+                ("rod", 600.0),
+                ("middle_angle", 10.0),
+            ] {
+                assert!((value(name) - meant).abs() < 1e-9, "{name}: {text}");
+            }
+            let turn = (value("crank_angle_3") - 300.0).to_radians();
+            assert!((turn.cos() - 1.0).abs() < 1e-12, "{text}");
+        }
+    }
+    assert_eq!(designs[0], designs[1], "one rig");
+    // angles of the cranks at home are the middle angle
+    let design = folder.path().join("motion4sim.toml").display().to_string();
+    let ik = document(&equipod(&["ik", &design, "--json"]));
+    assert!((ik["angles_deg"][0].as_f64().unwrap() - 10.0).abs() < 1e-9, "{ik}");
+    // no dialect, the wrong one, and none that is known
+    let path = sheet(folder.path(), "sheet", [250.0, 900.0]);
+    let (code, help) = refusal(&["--sheet", &path]);
+    assert!(code == "new::no_dialect" && help.contains("dr-sim-manager"), "{code} {help}");
+    let (code, help) = refusal(&["--sheet", &path, "--dialect", "dr-sim-manager"]);
+    assert!(code == "new::bad_sheet" && help.contains("motion4sim"), "{code} {help}");
+    assert_eq!(equipod(&["new", "--sheet", &path, "--dialect", "mover"]).status.code(), Some(2));
+    // a design that a sheet does not hold
+    let out = equipod(&[
+        "design",
+        "convert",
+        "designs/general-6-6.toml",
+        "--dialect",
+        "motion4sim",
+        "-o",
+        "-",
+        "--json",
+    ]);
+    assert_eq!((out.status.code(), &document(&out)["error"]["code"]), (Some(2), &"convert::no_sheet".into()));
+}

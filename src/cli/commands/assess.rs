@@ -33,13 +33,14 @@ pub(crate) struct Args {
 /// Evaluates the requirements.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
-    if design.hardware.is_coupled() {
+    if Context::coupled_of(&design)?.is_some() && design.requirements().leaves_out_moving_legs() {
         let message = format!(
-            "{}: the joints are not ideal (`offset` of universal joints or `screw_lead`), and the rows take the length of a drive for the distance of its joints",
+            "{}: `natural_frequency_hz` counts masses of legs, and how these move about joints that are not ideal (`offset`, `screw_lead`) is not known",
             design.name
         );
-        return Err(Failure::refused("design::not_ideal", message)
-            .with_help("without `offset` and `screw_lead` the file has the machine with ideal joints"));
+        let help =
+            "without `offset` and `screw_lead`, or without masses of the legs, the frequency is judged";
+        return Err(Failure::refused("design::not_ideal", message).with_help(help));
     }
     if design.workspace.trajectory.is_none() {
         context.no_effect("steps", "the workspace of the design has no trajectory")?;

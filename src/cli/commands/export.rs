@@ -107,10 +107,10 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
 /// Writes every format that can hold the design; exit 1 when one cannot.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
-    if design.hardware.is_coupled() {
-        let message = "the joints are not ideal (`offset` of universal joints or `screw_lead`), and every format has drives as long as the distances of their joints";
-        let help = "`equipod ik` has the lengths to command; without `offset` and `screw_lead` the file has the machine with ideal joints";
-        return Err(Failure::refused("design::not_ideal", message.to_string()).with_help(help));
+    let coupled = Context::coupled_of(&design)?.is_some();
+    if coupled && !wanted(args).iter().any(|f| f.takes_coupled()) {
+        // refused with the place in the file: no format asked for holds such joints
+        context.load(&args.design)?;
     }
     if !args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name()) {
         for option in ["mass", "gravity_compensation"] {
@@ -119,7 +119,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let mut export = model(args, &design)?;
     let controller = wanted(args).iter().any(|f| f.name() == ExportFormat::C.name());
-    if controller && export.cranks.is_none() {
+    if controller && export.cranks.is_none() && !coupled {
         export = export.with_octahedral(octahedral_of_controllers(&design));
     }
     files::make_folder(&args.output)?;

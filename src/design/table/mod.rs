@@ -9,6 +9,8 @@ mod header;
 mod mjcf;
 mod placed;
 mod points;
+#[cfg(feature = "cli")]
+mod rig_sheet;
 mod series;
 mod sheet;
 mod step;
@@ -18,4 +20,6 @@ pub(crate) use drives::{DesignUnits, Drive, DriveTable, InvalidDriveTable};
 #[cfg(feature = "cli")]
 pub(crate) use points::InvalidPointTable;
 pub(crate) use points::PointTable;
+#[cfg(feature = "cli")]
+pub(crate) use rig_sheet::{RigSheet, SheetDialect};
 pub(crate) use series::{InvalidSeries, SeriesKind, SeriesRow, TimeSeries};

@@ -202,6 +202,6 @@ pub(super) fn refuse_coupled(report: &mut Findings<'_>, top: &[Entry], hardware:
     }
     let Some(entry) = find(top, "hardware") else { return };
     let message = "the joints are not ideal (`offset` of universal joints or `screw_lead`), and what is asked for takes the length of a drive for the distance of its joints";
-    let help = "`equipod ik`, `fk --near` and `design convert` take such joints; without `offset` and `screw_lead` the file has the machine with ideal joints";
+    let help = "`equipod ik`, `fk --near`, `assess`, `export --to c` and `design convert` take such joints; without `offset` and `screw_lead` the file has the machine with ideal joints";
     report.refuse(Code::NotIdeal, &entry.key_span, message, help);
 }

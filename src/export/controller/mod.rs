@@ -5,6 +5,7 @@
 //! `equipod_vectors.h` holds numbers of the library that `equipod_selftest.c` compares. What is written here are the numbers of the design.
 
 mod cranks;
+mod drives;
 mod vectors;
 
 use std::fmt::Write as _;
@@ -39,7 +40,14 @@ impl Writer for C {
         true
     }
 
+    fn takes_coupled(&self) -> bool {
+        true
+    }
+
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+        if let Some(coupled) = &export.coupled {
+            return Ok(drives::files(export, coupled));
+        }
         if let Some(cranks) = &export.cranks {
             return Ok(cranks::files(export, cranks));
         }
@@ -205,7 +213,11 @@ impl SwingAxes {
     /// Axes that are not given are along the legs at home.
     fn of(export: &Export) -> Self {
         let home: &Pose = &export.home;
-        let at_home = export.manipulator.legs().map(|l| (home.transform(&l.platform) - l.base).normalize());
+        let mut at_home =
+            export.manipulator.legs().map(|l| (home.transform(&l.platform) - l.base).normalize());
+        if let Some(Ok(states)) = export.coupled.as_ref().map(|legs| legs.states(home)) {
+            at_home = states.map(|state| state.line.normalize());
+        }
         let given = |swing: Option<Swing>| match swing.map(|s| s.axes) {
             Some(JointAxes::Given(axes)) => Some(axes.map(nalgebra::Unit::into_inner)),
             _ => None,

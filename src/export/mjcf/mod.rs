@@ -1,6 +1,7 @@
 //! `MuJoCo` model: six legs of universal joint (two hinges) and slide, or of crank and rod, the platform on leg 1, loops closed by `connect`.
 
 mod cranks;
+mod swing;
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
@@ -11,7 +12,9 @@ use super::text::{one_line, real, reals, scaled, xml_comment};
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Unsupported, Writer};
 use crate::geom::{Pose, any_across};
 use crate::plot::escape;
-use crate::requirements::{JointAxes, LegPart};
+use crate::requirements::{JointAxes, KeepOutShape, LegPart};
+
+use self::swing::SwingTendon;
 
 /// The format `mjcf`.
 #[derive(Debug)]
@@ -27,7 +30,7 @@ impl Writer for Mjcf {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "contacts, friction, limits of speeds, of swing at the platform and of the angles of universal joints"
+        "contacts, friction, limits of speeds, of the swing of rods on cranks and of the angles of universal joints"
     }
 
     fn takes_cranks(&self) -> bool {
@@ -239,6 +242,9 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
         rod,
         capsule(-half.min(length - leg.cylinder.min(length)).max(0.1 * length), 0.0, thin),
     );
+    if let Some(tendon) = SwingTendon::of(export, leg)? {
+        tendon.at_rod(out, scale);
+    }
     if i == 1 {
         // the platform frame seen from the tip of the leg
         let joint = export.bodies[1].joints[leg.platform].at.coords;
@@ -277,8 +283,39 @@ fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, p
         inertial,
         real(0.01 * scale.size),
     );
+    for leg in &export.legs {
+        if let Ok(Some(tendon)) = SwingTendon::of(export, leg) {
+            tendon.at_platform(out, scale);
+        }
+    }
+    payload(out, scale, export);
     shape(out, scale, body, "              ");
     out.push_str("            </body>\n");
+}
+
+/// The room that the payload takes up: it is seen, and touches nothing.
+fn payload(out: &mut String, scale: &Scale, export: &Export) {
+    let half = |x: f64| real(0.5 * x * scale.metres);
+    let geom = match export.payload_shape {
+        None => return,
+        Some(KeepOutShape::Box { center, size }) => format!(
+            "type=\"box\" size=\"{} {} {}\" pos=\"{}\"",
+            half(size.x),
+            half(size.y),
+            half(size.z),
+            scale.at(&center.coords)
+        ),
+        Some(KeepOutShape::Sphere { center, diameter }) => {
+            format!("type=\"sphere\" size=\"{}\" pos=\"{}\"", half(diameter), scale.at(&center.coords))
+        }
+        Some(KeepOutShape::Capsule { from, to, diameter }) => format!(
+            "type=\"capsule\" size=\"{}\" fromto=\"{} {}\"",
+            half(diameter),
+            scale.at(&from.coords),
+            scale.at(&to.coords)
+        ),
+    };
+    let _ = writeln!(out, "              <geom name=\"payload\" {geom} rgba=\"0.5 0.5 0.5 0.3\"/>");
 }
 
 /// The masses in a sentence without its point.
@@ -343,7 +380,13 @@ fn model(export: &Export) -> Result<String, Unsupported> {
         );
     }
     if export.hardware.base_swing.is_some() {
-        text.push_str("  Ranges of the hinges at the base: boxes around the cones in which the design lets legs swing; at the platform nothing limits them.\n");
+        text.push_str("  Ranges of the hinges at the base: boxes around the cones in which the design lets legs swing.\n");
+    }
+    if swing::limit(export).is_some() {
+        text.push_str("  Tendon swingN limits the swing at the platform: it joins a site of rod N to one behind its joint on the axis of the joint, as far from it, so that its length is twice\n  that distance times the sine of half the angle between leg and axis, and that of no turn about the leg.\n");
+    }
+    if export.payload_shape.is_some() {
+        text.push_str("  Geom payload: the room that the payload takes up. It touches nothing, and its mass is that of the platform.\n");
     }
     let mut out = opening(export, &scale, &text);
     shape(&mut out, &scale, &export.bodies[0], "      ");
@@ -358,7 +401,9 @@ fn model(export: &Export) -> Result<String, Unsupported> {
             l.number
         );
     }
-    out.push_str("  </equality>\n  <actuator>\n");
+    out.push_str("  </equality>\n");
+    swing::tendons(&mut out, &scale, export)?;
+    out.push_str("  <actuator>\n");
     let force = export
         .greatest_force
         .map_or_else(String::new, |f| format!(" forcerange=\"{0} {1}\"", real(-f), real(f)));

@@ -3,8 +3,10 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
 
+use super::CellJudge;
 use super::cone::Sector;
-use super::{CellJudge, Function, MarginBound, verdict};
+use super::function::Function;
+use super::verdict::{MarginBound, verdict};
 use crate::geom::{Chart, ChartCell, Covered};
 use crate::num::{Purpose, Rng};
 use crate::requirements::assess::Margin;

@@ -4,6 +4,7 @@
 
 use super::force::{ForceSolver, System};
 use super::frame::{CellFrame, LegOverCell};
+use super::joint_offsets::JointOffsets;
 use crate::geom::enclosed::{IntervalVector, cross as crossed, determinant};
 use crate::geom::{Bisection, Chart, ChartCell, Pose, PoseSpace, arc_cosine, cosine, degrees, radians, sine};
 use crate::manipulator::Manipulator;
@@ -251,8 +252,15 @@ const POINTS: usize = 1500;
 /// Cells of the way from home to a pose with the other sign.
 const WAY: usize = 128;
 
+/// What pushes the platform where it is no leg with ideal joints.
+#[derive(Clone, Copy)]
+enum Pushing<'a> {
+    Rods(&'a CrankFrames<'a>),
+    Drives(&'a JointOffsets),
+}
+
 struct RodsOverChart<'a> {
-    cranks: &'a CrankFrames<'a>,
+    pushing: Pushing<'a>,
     m: &'a Manipulator,
     chart: &'a Chart,
 }
@@ -260,8 +268,19 @@ struct RodsOverChart<'a> {
 impl RodsOverChart<'_> {
     fn lines(&self, cell: &ChartCell) -> Option<System> {
         let frame = CellFrame::over(self.chart, cell, false);
-        let (rods, arms) = self.cranks.rods(self.m, &frame)?;
-        Some(System::of_lines(&frame, self.m, &rods, &arms))
+        match self.pushing {
+            Pushing::Rods(cranks) => {
+                let (rods, arms) = cranks.rods(self.m, &frame)?;
+                Some(System::of_lines(&frame, self.m, &rods, &arms))
+            }
+            Pushing::Drives(joints) => {
+                let frame = frame.with_joints(Some(joints));
+                let lines = System::of_legs(&frame, self.m)?;
+                // legs that are not determined have lines of which nothing is known
+                let known = lines.values().iter().flatten().all(|x| x.magnitude().is_finite());
+                known.then_some(lines)
+            }
+        }
     }
 
     /// The proved sign of the determinant at a point.
@@ -307,7 +326,7 @@ impl RodsOverChart<'_> {
     }
 }
 
-/// Judges the region, the single poses and the trajectory of a workspace by the lines of the rods, on at most `cells` cells for each of its parts, and counts them; `None` for a design without cranks.
+/// Judges the region, the single poses and the trajectory of a workspace by the lines of the rods, or by the rates of drives whose joints are not ideal, on at most `cells` cells for each of its parts, and counts them; `None` for other designs.
 ///
 /// A cell is regular when `|I - K A| <= W` entry by entry for the matrix `A` of its lines, with `W u < u` for a positive vector `u` (Neumaier 1990, sec. 4.1).
 #[must_use]
@@ -318,13 +337,18 @@ pub fn regular_rods(
     cells: usize,
     seed: u64,
 ) -> Option<(RodRegularity, usize)> {
-    required.cranks.as_ref()?;
-    let Some(cranks) = CrankFrames::new(required) else {
+    if required.cranks.is_none() && !required.hardware.is_coupled() {
+        return None;
+    }
+    let cranks = CrankFrames::new(required);
+    let joints = JointOffsets::new(m, required, &Chart::of_pose(&space.home));
+    let rods = cranks.as_ref().map(Pushing::Rods);
+    let Some(pushing) = rods.or(joints.as_ref().map(Pushing::Drives)) else {
         return Some((RodRegularity::Undecided(space.home), 0));
     };
     let (mut doubt, mut tested) = (None, 0);
     for chart in Chart::all(space) {
-        let lines = RodsOverChart { cranks: &cranks, m, chart: &chart };
+        let lines = RodsOverChart { pushing, m, chart: &chart };
         // home, or an end of a step
         let starts = [[0.0; 6], chart.root.hi].map(|x| chart.pulled_inside(x));
         let Some((start, sign)) = starts.iter().find_map(|x| Some((*x, lines.sign_at(x)?))) else {

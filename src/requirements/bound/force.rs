@@ -47,6 +47,30 @@ impl System {
         Self { rows, right: [frame.constant(Interval::ZERO); 6], factors: *factors }
     }
 
+    /// Rates of drives by columns, without a load: what forces along the drives do to the platform.
+    pub(super) fn of_rates(frame: &CellFrame<'_>, m: &Manipulator, rates: &[[Jet; 6]; 6]) -> Self {
+        let unit = unit_of(m);
+        let rows = std::array::from_fn(|r| {
+            std::array::from_fn(|i| if r < 3 { rates[i][r] } else { rates[i][r].times(unit) })
+        });
+        let one = Some(frame.constant(Interval::from(1.0)));
+        Self { rows, right: [frame.constant(Interval::ZERO); 6], factors: [one; 6] }
+    }
+
+    /// The lines of the legs of a frame, or the rates of their drives where screws couple turns to lengths; `None` where those may not be determined.
+    pub(super) fn of_legs(frame: &CellFrame<'_>, m: &Manipulator) -> Option<Self> {
+        if let Some(joints) = frame.joints().filter(|joints| joints.have_lead()) {
+            let mut rates = Vec::with_capacity(6);
+            for i in 0..6 {
+                rates.push(joints.rates(frame, m, i)?);
+            }
+            return Some(Self::of_rates(frame, m, &rates.try_into().ok()?));
+        }
+        let legs: [LegOverCell; 6] = std::array::from_fn(|i| frame.leg(m, i));
+        let factors = std::array::from_fn(|i| legs[i].square.root());
+        Some(Self::of_lines(frame, m, &legs, &factors))
+    }
+
     /// Legs, or rods on cranks; `None` where a rod may not close.
     fn over(
         frame: &CellFrame<'_>,
@@ -55,12 +79,11 @@ impl System {
         load: &Load,
     ) -> Option<Self> {
         let unit = unit_of(m);
-        let (legs, factors) = if let Some(cranks) = cranks {
-            cranks.rods(m, frame)?
+        let lines = if let Some(cranks) = cranks {
+            let (rods, factors) = cranks.rods(m, frame)?;
+            Self::of_lines(frame, m, &rods, &factors)
         } else {
-            let legs: [LegOverCell; 6] = std::array::from_fn(|i| frame.leg(m, i));
-            let factors = std::array::from_fn(|i| legs[i].square.root());
-            (legs, factors)
+            Self::of_legs(frame, m)?
         };
         let turned = |v: &nalgebra::Vector3<f64>| {
             let v: IntervalVector = std::array::from_fn(|k| Interval::from(v[k]));
@@ -77,7 +100,7 @@ impl System {
                     if r < 3 { -force[r] } else { -(torque[r - 3] + lever[r - 3]).times(unit) }
                 },
             );
-        Some(Self { right, ..Self::of_lines(frame, m, &legs, &factors) })
+        Some(Self { right, ..lines })
     }
 
     pub(super) fn values(&self) -> IntervalMatrix {

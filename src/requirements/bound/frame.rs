@@ -2,6 +2,7 @@
 
 use nalgebra::Point3;
 
+use super::joint_offsets::JointOffsets;
 use crate::geom::enclosed::{IntervalVector, apply};
 use crate::geom::{Chart, ChartCell, TurnCoefficients, combination};
 use crate::manipulator::Manipulator;
@@ -18,6 +19,7 @@ pub(super) struct CellFrame<'a> {
     square: Jet,
     first: Jet,
     twice: Jet,
+    joints: Option<&'a JointOffsets>,
 }
 
 impl<'a> CellFrame<'a> {
@@ -45,7 +47,19 @@ impl<'a> CellFrame<'a> {
             square,
             first: square.composed(c.first),
             twice: square.composed(c.second),
+            joints: None,
         }
+    }
+
+    /// The same poses for legs whose joints may not be ideal.
+    pub(super) fn with_joints(mut self, joints: Option<&'a JointOffsets>) -> Self {
+        self.joints = joints;
+        self
+    }
+
+    /// The joints, where they are not ideal.
+    pub(super) fn joints(&self) -> Option<&'a JointOffsets> {
+        self.joints
     }
 
     pub(super) fn constant(&self, x: Interval) -> Jet {
@@ -84,8 +98,18 @@ impl<'a> CellFrame<'a> {
         std::array::from_fn(|k| arm[k] + origin[k])
     }
 
-    /// The legs of a manipulator.
+    /// A leg of a manipulator: from joint to joint, or from second axis to second axis where these do not meet the first ones. Nothing is known of it where those may not be determined.
     pub(super) fn leg(&self, m: &Manipulator, i: usize) -> LegOverCell {
+        let Some(joints) = self.joints else { return self.bare_leg(m, i) };
+        joints.leg(self, m, i).unwrap_or_else(|| {
+            let unknown = self.square.unknown();
+            let all = [unknown; 3];
+            LegOverCell { base: all, arm: all, line: all, square: unknown }
+        })
+    }
+
+    /// A leg from joint to joint.
+    pub(super) fn bare_leg(&self, m: &Manipulator, i: usize) -> LegOverCell {
         let [base, platform] = m.enclosed_ends(i);
         let arm = self.turned(&platform);
         let origin = self.origin();

@@ -17,11 +17,11 @@ use super::frame::{CellFrame, enclosed};
 use super::local::{self, Bounded};
 use crate::geom::enclosed::{IntervalVector, cross, dot};
 use crate::geom::{Chart, ChartCell, radians};
-use crate::manipulator::{Manipulator, jacobian};
+use crate::manipulator::Manipulator;
 use crate::num::interval::Interval;
 use crate::num::jet::{Jet, JetVector, dot as dot_jets};
 use crate::num::small::bounded_svd;
-use crate::requirements::term::TermKind;
+use crate::requirements::term::{TermKind, Terms};
 use crate::requirements::vibration::{mass_matrix, scaled_mass};
 use crate::requirements::{LegMasses, Requirements, VibratingMasses};
 
@@ -40,6 +40,7 @@ enum Compared<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SoftestMotion<'a> {
     m: &'a Manipulator,
+    terms: &'a Terms<'a>,
     compared: Compared<'a>,
     /// Stiffness of a leg.
     leg: f64,
@@ -70,18 +71,23 @@ const EXPLAINED: f64 = 0.2;
 
 impl<'a> SoftestMotion<'a> {
     /// `None` where the design does not ask for this kind.
-    pub(super) fn new(m: &'a Manipulator, required: &'a Requirements, kind: TermKind) -> Option<Self> {
+    pub(super) fn new(
+        m: &'a Manipulator,
+        required: &'a Requirements,
+        terms: &'a Terms<'a>,
+        kind: TermKind,
+    ) -> Option<Self> {
         let least = required.least_stiffness_of(kind)?;
         let leg = required.hardware.leg_stiffness.unwrap_or(0.0);
         let (compared, leg) = match kind {
             TermKind::LinearStiffness => (Compared::Shifts, leg),
             TermKind::AngularStiffness => (Compared::Turns, leg),
             _ => {
-                let masses = required.vibrating.as_ref()?;
+                let masses = required.vibrating.as_ref().filter(|_| !required.leaves_out_moving_legs())?;
                 (Compared::Masses(masses), masses.leg)
             }
         };
-        Some(Self { m, compared, leg, least })
+        Some(Self { m, terms, compared, leg, least })
     }
 
     /// The margin for a value of `s`.
@@ -104,7 +110,7 @@ impl<'a> SoftestMotion<'a> {
         let mut to_base = Matrix6::zeros();
         to_base.fixed_view_mut::<3, 3>(0, 0).copy_from(r);
         to_base.fixed_view_mut::<3, 3>(3, 3).copy_from(r);
-        let rows = jacobian(self.m, &pose, size) * to_base;
+        let rows = self.terms.drive_rows(&pose, size)? * to_base;
         let back = rows.try_inverse()? / self.leg.sqrt();
         let diagonal = |from: usize, unit: f64| {
             Matrix6::from_fn(|i, j| if i == j && (from..from + 3).contains(&i) { unit } else { 0.0 })
@@ -143,6 +149,14 @@ impl<'a> SoftestMotion<'a> {
         });
         let origin = frame.origin();
         for i in 0..6 {
+            if let Some(joints) = frame.joints() {
+                let along = along_drive(&joints.rates(frame, self.m, i)?, &axes, &columns);
+                for (p, q) in (0..6).flat_map(|p| (p..6).map(move |q| (p, q))) {
+                    let product = along[p] * along[q];
+                    k[place(p, q)] = k[place(p, q)] + product.times(Interval::from(self.leg));
+                }
+                continue;
+            }
             let [base, platform] = self.m.enclosed_ends(i);
             let square = frame.leg(self.m, i).square;
             let over = square.inverse_root()?;
@@ -245,6 +259,20 @@ impl<'a> SoftestMotion<'a> {
         let below = self.margin(Interval::from(proved.unwrap_or(0.0))).lo();
         (Bounded { below, loose }, upper)
     }
+}
+
+/// By how much a drive with these rates becomes longer for twists `(v, w)` of the platform frame: `r . (R v, R w)`.
+fn along_drive(
+    rates: &[Jet; 6],
+    axes: &[JetVector; 3],
+    columns: &[(IntervalVector, IntervalVector); 6],
+) -> [Jet; 6] {
+    let [x, y, z, a, b, c] = *rates;
+    let back = |row: JetVector| -> JetVector { std::array::from_fn(|j| dot_jets(&axes[j], &row)) };
+    let (shifts, turns) = (back([x, y, z]), back([a, b, c]));
+    let along =
+        |row: &JetVector, v: &IntervalVector| row[0].times(v[0]) + row[1].times(v[1]) + row[2].times(v[2]);
+    columns.map(|(v, w)| along(&shifts, &v) + along(&turns, &w))
 }
 
 /// `K - s B` over a cell.

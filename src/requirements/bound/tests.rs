@@ -2,19 +2,23 @@
 
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
+use super::fixed::{housing_gap, room_inside};
+use super::frame::enclosed;
 use super::*;
 use crate::manipulator::Body;
 use std::collections::BTreeMap;
 
 use crate::geom::{Pose, Region};
 use crate::num::Rng;
+use crate::requirements::hardware::Housing;
+use crate::requirements::term::TermKind;
 use crate::requirements::{
-    Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart,
+    Envelope, Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart,
     LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness, Reserve, Reserves, Swing,
     UniversalJoint, VibratingMasses,
 };
 
-fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
+pub(super) fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
     let mut joints = |r: f64, turn: f64| -> Vec<Point3<f64>> {
         let mut joint = |i: usize| {
             let side = if i.is_multiple_of(2) { -0.35 } else { 0.35 };
@@ -38,7 +42,7 @@ fn random_space(home: Pose, rng: &mut Rng, region: Region) -> PoseSpace {
 }
 
 /// Poses of a region, by a formula of their own; every other one on the boundary.
-fn poses_of(space: &PoseSpace, count: usize, rng: &mut Rng) -> Vec<Pose> {
+pub(super) fn poses_of(space: &PoseSpace, count: usize, rng: &mut Rng) -> Vec<Pose> {
     let mut draw = |k: usize, half: &Vector3<f64>| {
         let used = half.map(|h| if h > 0.0 { 1.0 } else { 0.0 });
         let u = Vector3::from_fn(|_, _| rng.uniform(-1.0, 1.0)).component_mul(&used);
@@ -64,7 +68,7 @@ fn poses_of(space: &PoseSpace, count: usize, rng: &mut Rng) -> Vec<Pose> {
 }
 
 /// Every kind of requirement, with limits that nothing violates.
-fn everything() -> Requirements {
+pub(super) fn everything() -> Requirements {
     let hardware = Hardware {
         leg_length: Some(LengthLimits::Range(0.5, 60.0)),
         base_swing: Some(Swing { limit_deg: 100.0, axes: JointAxes::Home }),
@@ -109,12 +113,12 @@ fn everything() -> Requirements {
     }
 }
 
-fn quick() -> AssessOptions {
+pub(super) fn quick() -> AssessOptions {
     AssessOptions { points: 30, searches: 1, ..AssessOptions::default() }
 }
 
 /// The least margin of every kind over many poses, in doubles.
-fn sampled(terms: &Terms<'_>, poses: &[Pose]) -> BTreeMap<TermKind, f64> {
+pub(super) fn sampled(terms: &Terms<'_>, poses: &[Pose]) -> BTreeMap<TermKind, f64> {
     let mut out = BTreeMap::new();
     for pose in poses {
         for (term, value) in terms.at(pose) {

@@ -159,9 +159,10 @@ impl Plates {
 }
 
 impl Hardware {
-    /// Distance from the centre of a joint of this body at which its leg begins to be a body that can meet a plate: half the least width of the housing, 0 without one.
+    /// Distance from the centre of a joint of this body at which its leg begins to be a body that can meet a plate: half the least width of the housing, 0 without one, less the offset of the second axis of a universal joint, where its leg begins.
     #[must_use]
     pub fn joint_reach(&self, body: Body) -> f64 {
-        self.housing(body).map_or(0.0, |h| 0.5 * h.least_width())
+        let offset = self.universal(body).map_or(0.0, |joint| joint.offset);
+        (self.housing(body).map_or(0.0, |h| 0.5 * h.least_width()) - offset).max(0.0)
     }
 }

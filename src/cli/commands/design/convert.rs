@@ -1,4 +1,4 @@
-//! `equipod design convert`: a design in the other notation, or in another unit of length.
+//! `equipod design convert`: a design in the other notation, in another unit of length, or as parameters of a motion-simulator program.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
-use crate::design::Format;
+use crate::design::{Format, RigSheet, SheetDialect};
 use crate::records::ConvertAnswer;
 
 /// Arguments of `design convert`.
@@ -21,12 +21,17 @@ pub(crate) struct Args {
     /// Write all lengths in this unit: um, mm, cm, m, in or ft
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
+    /// Write the parameters of a motion-simulator program in place of a design: `motion4sim` (and FlyPT Mover), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
+    #[arg(long, value_name = "DIALECT")]
+    dialect: Option<SheetDialect>,
 }
 
 /// Reads, checks and writes the design. Comments of the input are not kept.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let extension = args.output.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let format = match extension.as_deref() {
+        // a sheet is none of both, and its name is what its reader wants
+        _ if args.dialect.is_some() => Format::Toml,
         _ if files::is_standard(&args.output) => Format::Toml,
         Some("toml") => Format::Toml,
         Some("json") => Format::Json,
@@ -43,7 +48,21 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
                 .with_help("`units` of the design and --units each name one of um, mm, cm, m, in, ft")
         })?;
     }
-    files::write_design(&args.output, &design)?;
+    match args.dialect {
+        Some(dialect) => {
+            if Context::coupled_of(&design)?.is_some() {
+                let message = format!("{}: a sheet has ideal joints", design.name);
+                let help = "without `offset` and `screw_lead` the sheet has the machine with ideal joints";
+                return Err(Failure::refused("design::not_ideal", message).with_help(help));
+            }
+            let cranks = Context::cranks_of(&design)?;
+            let sheet = RigSheet::of(&design, cranks.as_ref()).map_err(|why| {
+                Failure::refused("convert::no_sheet", why.to_string()).with_help(why.help())
+            })?;
+            files::write_text(&args.output, &sheet.text(dialect, &design))?;
+        }
+        None => files::write_design(&args.output, &design)?,
+    }
     let output = args.output.display().to_string();
     let text = format!("wrote {output}\n");
     Ok(Answer::new(Exit::Yes, ConvertAnswer { name: design.name, output, format }, text))

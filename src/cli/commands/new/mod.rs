@@ -1,4 +1,4 @@
-//! `equipod new`: a design from a few sizes, from corners, from a table of points or from a model.
+//! `equipod new`: a design from a few sizes, from corners, from a table of points, from a sheet of parameters or from a model.
 
 mod ask;
 
@@ -12,7 +12,8 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::{
-    Design, Format, HexapodSizes, InvalidPointTable, PointTable, octahedral_toml, parse, with_lengths,
+    Design, Format, HexapodSizes, InvalidPointTable, PointTable, RigSheet, SheetDialect, octahedral_toml,
+    parse_with_cranks, with_lengths,
 };
 use crate::geom::{Angles, Pose};
 use crate::records::{NewAnswer, PresetFile};
@@ -54,6 +55,16 @@ pub(crate) struct Args {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread"]
     )]
     points: Option<PathBuf>,
+    /// The parameters of a motion-simulator program (`-` for standard input): lines `L1 = 900` to `L4`, and `middle` and `range` of legs, or `crank`, `rod`, `middle_angle` and `crank_angle_1` to `crank_angle_6`; --dialect says whose
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "height", "corners", "points"]
+    )]
+    sheet: Option<PathBuf>,
+    /// Whose parameters --sheet has: `motion4sim` (and FlyPT Mover), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
+    #[arg(long, value_name = "DIALECT", requires = "sheet")]
+    dialect: Option<SheetDialect>,
     /// Label of the length unit; that of the table, else mm, when absent
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
@@ -78,6 +89,7 @@ const UNIT: &str = "mm";
 pub(crate) fn run(args: &Args, context: &Context) -> Result<Answer, Failure> {
     let units = args.units.as_deref();
     let (made, asked_output) = match (&args.points, &args.corners) {
+        _ if args.sheet.is_some() => (from_sheet(args)?, None),
         (Some(path), _) => (from_table(args, path, context)?, None),
         (None, Some(corners)) => (from_corners(args, corners)?, None),
         (None, None) if nothing_given(args) => {
@@ -96,7 +108,7 @@ fn nothing_given(args: &Args) -> bool {
 }
 
 /// The ways to say what is wanted, for those who said nothing or too little.
-const WAYS: &str = "give --base-radius, --platform-radius, --base-spread, --platform-spread and --height; or --corners BASE PLATFORM and --height; or --points FILE";
+const WAYS: &str = "give --base-radius, --platform-radius, --base-spread, --platform-spread and --height; or --corners BASE PLATFORM and --height; or --points FILE; or --sheet FILE and --dialect";
 
 /// Questions on a terminal.
 fn asked() -> Result<Asked, Failure> {
@@ -137,10 +149,26 @@ fn from_sizes(sizes: &HexapodSizes, name: &str, units: &str) -> Result<Made, Fai
 
 /// The design that a text of this command says.
 fn read_back(toml: String) -> Result<Made, Failure> {
-    match parse(&toml, Format::Toml) {
+    match parse_with_cranks(&toml, Format::Toml) {
         Ok((design, _)) => Ok(Made { design, toml, guesses: Vec::new() }),
         Err(violations) => Err(Failure::bad_design("the new design".into(), toml, violations)),
     }
+}
+
+/// The parameters of a program.
+fn from_sheet(args: &Args) -> Result<Made, Failure> {
+    let path = args.sheet.as_deref().unwrap_or(std::path::Path::new("-"));
+    let Some(dialect) = args.dialect else {
+        let message =
+            "--sheet needs --dialect: programs disagree on which of L3 and L4 is the long side of the base";
+        let help = "--dialect motion4sim where L4 is the long side (Motion4Sim, FlyPT Mover), --dialect dr-sim-manager where L3 is";
+        return Err(Failure::refused("new::no_dialect", message).with_help(help));
+    };
+    let shown = files::shown(path);
+    let toml = RigSheet::read(&files::read_points(path)?, dialect)
+        .and_then(|sheet| sheet.to_toml(&args.name, args.units.as_deref().unwrap_or(UNIT)))
+        .map_err(|why| Failure::refused("new::bad_sheet", format!("{shown}: {why}")).with_help(why.help()))?;
+    read_back(toml)
 }
 
 fn from_corners(args: &Args, texts: &[String]) -> Result<Made, Failure> {
@@ -220,10 +248,18 @@ fn from_table(args: &Args, path: &std::path::Path, context: &Context) -> Result<
 fn finish(made: Made, output: Option<&OutputPath>) -> Result<Answer, Failure> {
     let Made { mut design, toml, guesses } = made;
     let home = design.home_or_default();
-    let lengths = home.lengths(design.manipulator()).ok_or_else(|| bad("the lengths at home overflow"))?;
-    design.lengths = Some(lengths);
-    let toml = with_lengths(&toml, lengths.get());
-    let singular = Architecture::of(design.manipulator()).is_singular();
+    let mut lengths =
+        home.lengths(design.manipulator()).ok_or_else(|| bad("the lengths at home overflow"))?.get();
+    let mut toml = toml;
+    let mut singular = false;
+    if let Some(platform) = Context::cranks_of(&design)? {
+        // rods have their length everywhere, and their lines begin at the tips of the cranks
+        lengths = platform.legs().map(|leg| leg.rod);
+    } else {
+        design.lengths = home.lengths(design.manipulator());
+        toml = with_lengths(&toml, lengths);
+        singular = Architecture::of(design.manipulator()).is_singular();
+    }
     let (file, text) = match output {
         None => (PresetFile::Given { text: toml.clone() }, toml),
         Some(path) => {
@@ -232,7 +268,7 @@ fn finish(made: Made, output: Option<&OutputPath>) -> Result<Answer, Failure> {
                 Format::Json => files::write_design(path, &design)?,
             }
             let shown = path.display().to_string();
-            let text = summary(&shown, &design, &home, lengths.get(), singular);
+            let text = summary(&shown, &design, &home, lengths, singular);
             (PresetFile::Written { output: shown }, text)
         }
     };
@@ -241,7 +277,7 @@ fn finish(made: Made, output: Option<&OutputPath>) -> Result<Answer, Failure> {
         units: design.units,
         file,
         home: (&home).into(),
-        lengths: lengths.get(),
+        lengths,
         architecturally_singular: singular,
         guesses,
     };
@@ -258,7 +294,11 @@ fn summary(path: &str, design: &Design, home: &Pose, lengths: [f64; 6], singular
         p.x, p.y, p.z
     );
     let listed = lengths.map(|l| format!("{l:.3}")).join(", ");
-    let _ = writeln!(out, "leg lengths at home: {listed} {units}");
+    let _ = writeln!(
+        out,
+        "{}: {listed} {units}",
+        if design.has_cranks() { "rods" } else { "leg lengths at home" }
+    );
     if singular {
         out.push_str("ARCHITECTURALLY SINGULAR: the leg lines are dependent at every pose; `equipod check` explains why\n");
     }

@@ -1,13 +1,16 @@
-//! One leg with joints that are not ideal, in doubles and in intervals by the same formulas.
+//! One leg with joints that are not ideal, in doubles, in intervals and in jets by the same formulas.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use crate::num::interval::Interval;
+use crate::num::jet::Jet;
 
 /// Numbers that the formulas take.
-pub(super) trait LegNumber:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> + From<f64>
+pub(crate) trait LegNumber:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
+    /// A constant of the same kind.
+    fn constant(self, x: f64) -> Self;
     /// `None` where the divisor may be zero.
     fn over(self, divisor: Self) -> Option<Self>;
     /// `None` where it may be negative.
@@ -15,6 +18,10 @@ pub(super) trait LegNumber:
 }
 
 impl LegNumber for f64 {
+    fn constant(self, x: f64) -> Self {
+        x
+    }
+
     fn over(self, divisor: Self) -> Option<Self> {
         (divisor != 0.0).then(|| self / divisor)
     }
@@ -25,6 +32,10 @@ impl LegNumber for f64 {
 }
 
 impl LegNumber for Interval {
+    fn constant(self, x: f64) -> Self {
+        x.into()
+    }
+
     fn over(self, divisor: Self) -> Option<Self> {
         self.checked_div(divisor)
     }
@@ -34,62 +45,76 @@ impl LegNumber for Interval {
     }
 }
 
-pub(super) type Vec3<T> = [T; 3];
+impl LegNumber for Jet {
+    fn constant(self, x: f64) -> Self {
+        self.alike(x.into())
+    }
 
-pub(super) fn dot<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> T {
+    fn over(self, divisor: Self) -> Option<Self> {
+        Some(self * divisor.inverse()?)
+    }
+
+    fn root(self) -> Option<Self> {
+        Jet::root(&self)
+    }
+}
+
+pub(crate) type Vec3<T> = [T; 3];
+
+pub(crate) fn dot<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(super) fn cross<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
+pub(crate) fn cross<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-pub(super) fn minus<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
+pub(crate) fn minus<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-pub(super) fn scaled<T: LegNumber>(a: &Vec3<T>, x: T) -> Vec3<T> {
+pub(crate) fn scaled<T: LegNumber>(a: &Vec3<T>, x: T) -> Vec3<T> {
     a.map(|y| y * x)
 }
 
-pub(super) fn unit<T: LegNumber>(a: &Vec3<T>) -> Option<Vec3<T>> {
+pub(crate) fn unit<T: LegNumber>(a: &Vec3<T>) -> Option<Vec3<T>> {
     let length = dot(a, a).root()?;
     Some([a[0].over(length)?, a[1].over(length)?, a[2].over(length)?])
 }
 
 /// The direction of the part of `v` across an axis.
-pub(super) fn across<T: LegNumber>(axis: &Vec3<T>, v: &Vec3<T>) -> Option<Vec3<T>> {
+pub(crate) fn across<T: LegNumber>(axis: &Vec3<T>, v: &Vec3<T>) -> Option<Vec3<T>> {
     unit(&cross(axis, &cross(v, axis)))
 }
 
 /// A leg at a pose, base frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PlacedLeg<T> {
+pub(crate) struct PlacedLeg<T> {
     /// From base joint to platform joint.
-    pub(super) line: Vec3<T>,
+    pub(crate) line: Vec3<T>,
     /// From the platform origin to the platform joint.
-    pub(super) arm: Vec3<T>,
+    pub(crate) arm: Vec3<T>,
     /// First axes at the base and at the platform, unit vectors; anything where a joint is a ball.
-    pub(super) axes: [Vec3<T>; 2],
+    pub(crate) axes: [Vec3<T>; 2],
     /// From the first axis of a joint to its second one.
-    pub(super) offsets: [T; 2],
+    pub(crate) offsets: [T; 2],
 }
 
 impl<T: LegNumber> PlacedLeg<T> {
     /// Where the second axes are seen from the first ones when the other end is where `other` says: unit vectors across the first axes, from base to platform.
-    pub(super) fn direction(&self, end: usize, other: &Vec3<T>) -> Option<Vec3<T>> {
+    pub(crate) fn direction(&self, end: usize, other: &Vec3<T>) -> Option<Vec3<T>> {
         let reach = scaled(other, self.offsets[1 - end]);
         across(&self.axes[end], &minus(&self.line, &reach))
     }
 
     /// From the second axis at the base to that at the platform.
-    pub(super) fn between(&self, ends: &[Vec3<T>; 2]) -> Vec3<T> {
+    pub(crate) fn between(&self, ends: &[Vec3<T>; 2]) -> Vec3<T> {
         let moved = scaled(&ends[0], self.offsets[0]);
         minus(&minus(&self.line, &moved), &scaled(&ends[1], self.offsets[1]))
     }
 
     /// Sine and cosine of the angle about the leg from the second axis at the base to that at the platform.
-    pub(super) fn twist(&self, ends: &[Vec3<T>; 2]) -> Option<[T; 2]> {
+    pub(crate) fn twist(&self, ends: &[Vec3<T>; 2]) -> Option<[T; 2]> {
         let u = unit(&self.between(ends))?;
         let second = self.second_axes(ends);
         Some([dot(&u, &cross(&second[0], &second[1])), dot(&second[0], &second[1])])
@@ -109,7 +134,7 @@ impl<T: LegNumber> PlacedLeg<T> {
     /// d (e.e') q' + (s.w' + d') q'' = (v + omega x m - omega x s) . e'
     /// psi' = u . omega + (u . b) q'' - (u . a) q'
     /// ```
-    pub(super) fn rates(&self, ends: &[Vec3<T>; 2], with_twist: bool) -> Option<[[T; 6]; 2]> {
+    pub(crate) fn rates(&self, ends: &[Vec3<T>; 2], with_twist: bool) -> Option<[[T; 6]; 2]> {
         let s = self.between(ends);
         let u = unit(&s)?;
         let m = minus(&self.arm, &scaled(&ends[1], self.offsets[1]));
@@ -117,7 +142,7 @@ impl<T: LegNumber> PlacedLeg<T> {
             std::array::from_fn(|k| if k < 3 { force[k] } else { moment[k - 3] })
         };
         let length = row(&u, &cross(&m, &u));
-        let zero = T::from(0.0);
+        let zero = u[0].constant(0.0);
         if !with_twist {
             return Some([length, [zero; 6]]);
         }
