@@ -64,7 +64,7 @@ struct Tail<'a> {
     #[serde(skip_serializing_if = "OptimizeFile::is_empty")]
     optimize: OptimizeFile,
     #[serde(skip_serializing_if = "Option::is_none")]
-    hardware: Option<HardwareTable>,
+    hardware: Option<HardwareTable<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     limits: Option<LimitsFile>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -394,7 +394,7 @@ impl Design {
             home: HomeTable::of(self),
             workspace: self.workspace_table(),
             optimize: OptimizeFile::of(&self.optimize, &self.with_known_joints()),
-            hardware: HardwareTable::of(&self.hardware),
+            hardware: HardwareTable::of(&self.hardware, self.drive_table.as_deref()),
             limits: LimitsFile::of(&self.reserves),
             envelope: EnvelopesTable::of(&self.envelopes),
             holes: self.holes.as_ref().map(HolesTable::from),
@@ -808,7 +808,7 @@ enum AxesValue {
 
 /// `[hardware]`.
 #[derive(Serialize)]
-pub(super) struct HardwareTable {
+pub(super) struct HardwareTable<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     joint_diameter: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -859,6 +859,8 @@ pub(super) struct HardwareTable {
     rod_inertia: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reflected_mass: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drives: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     base_joint: Option<JointTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -926,10 +928,10 @@ fn axes(axes: JointAxes) -> Option<AxesValue> {
     }
 }
 
-impl HardwareTable {
+impl<'a> HardwareTable<'a> {
     /// `None` when nothing is said.
-    pub(super) fn of(h: &Hardware) -> Option<Self> {
-        if *h == Hardware::default() {
+    pub(super) fn of(h: &Hardware, drives: Option<&'a str>) -> Option<Self> {
+        if *h == Hardware::default() && drives.is_none() {
             return None;
         }
         let (mut leg_length, mut drive) = (None, None);
@@ -968,6 +970,7 @@ impl HardwareTable {
             rod_center: rod_body.map(|p| p.center),
             rod_inertia: rod_body.map(|p| p.inertia),
             reflected_mass: h.leg_masses.map(|m| m.reflected).filter(|x| *x > 0.0),
+            drives,
             base_joint: joint(h.base_universal.as_ref(), h.base_bending),
             platform_joint: joint(h.platform_universal.as_ref(), h.platform_bending),
         })

@@ -260,7 +260,7 @@ fn write_opened(
 pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
     let (mut progress, interrupt) =
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
-    let table = args.drives.as_deref().map(|path| drives::table(path, design, context)).transpose()?;
+    let table = drives::asked(args.drives.as_deref(), &args.design, design, context)?;
     let options = options(args, context);
     let mut done = search(design, table.as_ref(), args.extension, &options, &mut |drive, p| {
         let with = drive.map_or_else(String::new, |d| format!("{}: ", d.name));
