@@ -293,6 +293,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return general::run(args, &design, context);
     };
     search::refuse_front(&design)?;
+    search::refuse_options(&design, args.drives.is_some(), context)?;
     if design.holes.is_some() {
         export::plain(&design)?; // units that are no lengths: now, and not after the search
     }

@@ -103,13 +103,17 @@ impl Done {
             self.report.others.iter().zip(list).zip(&self.candidate_paths).map(of).collect()
         };
         let candidates = self.candidates.as_ref().map(all);
+        let found = DimensionalAnswer::new(design, &self.report, found, written);
+        let status = self.status();
+        let optimality = found.optimality.filter(|_| status == DimensionalStatus::Optimal);
         DimensionalAnswer {
-            status: self.status(),
+            status,
+            optimality,
             freedoms: self.freedoms(design),
             symmetry: self.symmetry.map(SymmetryRecord::from),
             drive_search: self.drive_search(),
             candidates,
-            ..DimensionalAnswer::new(design, &self.report, found, written)
+            ..found
         }
     }
 

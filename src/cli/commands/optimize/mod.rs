@@ -22,7 +22,7 @@ use crate::design::{Combination, Design};
 use crate::dimensional::InvalidProblem;
 use crate::entrance::AssessReport;
 use crate::entrance::optimizing::{
-    EXTENSION, asks_for_more, met_or_nothing_required, offset_problem, optimised_design,
+    EXTENSION, asks_for_more, dimensional_problem, met_or_nothing_required, offset_problem, optimised_design,
 };
 use crate::geom::Pose;
 use crate::manipulator::Octahedral;
@@ -117,9 +117,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             "survey",
             "the branches of the offsets are not searched for a design that asks for more",
         )?;
-        if design.search.offset_bounds.is_some() {
-            context.no_effect("extension", "the design says how far its offsets may go (offset_bounds)")?;
-        }
+        refuse_extension(&design, context)?;
         if let Some(Combination::Pareto { points }) = design.search.mode {
             context.no_effect("history", "a front is the result of many runs")?;
             context.no_effect("candidates", "a front is a list of platforms already")?;
@@ -128,7 +126,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             return front::run(&design, points, args, context);
         }
         let done = dimensional::run(&design, args, context)?;
-        if let (Some(path), Some(s)) = (&args.history, done.report.solution()) {
+        let shown = done.report.solution().or(done.report.nearest.as_deref());
+        if let (Some(path), Some(s)) = (&args.history, shown) {
             let of = |h: &crate::dimensional::HistoryStep| {
                 (SearchStep { value: h.gain, violation: h.violation, accepted: h.accepted }, h.radius)
             };
@@ -181,6 +180,17 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         render::text(&design, &record, &done.problem, done.report.solution())
     };
     Ok(Answer::new(exit_of(record.status), OptimizeAnswer::Offsets(Box::new(record)), text))
+}
+
+/// Refuses `--extension` in a search under requirements that does not ask it.
+pub(super) fn refuse_extension(design: &Design, context: &Context) -> Result<(), Failure> {
+    if design.search.offset_bounds.is_some() {
+        context.no_effect("extension", "the design says how far its offsets may go (offset_bounds)")?;
+    }
+    if !dimensional_problem(design, EXTENSION).variables.offsets {
+        context.no_effect("extension", "no offsets are chosen")?;
+    }
+    Ok(())
 }
 
 /// Refuses a design that names a table of drives where none is chosen.
