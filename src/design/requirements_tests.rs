@@ -105,10 +105,10 @@ fn what_contradicts_itself_is_refused() {
         24:1 design::missing_key: `leg_clearance` without `leg_diameter` | add `leg_diameter`, or remove `leg_clearance`
         28:1 design::missing_key: `base_axes` without `base_swing_deg` | add `base_swing_deg` or universal joints, or remove `base_axes`
         28:18 design::out_of_range: `base_swing_deg` is 200 | stay within 180 degrees
-        31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "optimize" or six vectors in leg order
+        31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
         29:58 design::not_positive: an axis of `base_axes` is zero | give a direction
         29:69 design::coordinate_count: an axis of `base_axes` has 2 numbers instead of 3 | give 3 components
-        29:13 design::wrong_type: `base_axes` is not a choice of axes | write "home", "optimize" or six vectors in leg order
+        29:13 design::wrong_type: `base_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
         21:20 design::not_positive: an edge length of -2 | give positive edge lengths
         25:17 design::not_positive: `leg_clearance` is -1 | give 0 or more
         42:10 design::not_positive: `linear` is -20 | give 0 or more

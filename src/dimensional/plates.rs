@@ -195,7 +195,9 @@ impl PlacedPlate<'_> {
     }
 
     fn is_inside(&self, p: &Point2<f64>) -> bool {
-        self.hull.len() > 2 && (0..self.hull.len()).all(|k| self.above_edge(k, p) >= 0.0)
+        // joints on the line of an edge are inside, whatever rounding says
+        let least = -SAME * self.model.size;
+        self.hull.len() > 2 && (0..self.hull.len()).all(|k| self.above_edge(k, p) >= least)
     }
 
     /// The point of the border of the hull nearest to `p`: seats with their weights.
