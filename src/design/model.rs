@@ -55,6 +55,8 @@ pub struct Design {
     pub envelopes: Envelopes,
     /// The plates that carry the joints.
     pub plates: Plates,
+    /// The table of drives from which one is chosen: a file whose name is relative to the folder of the design.
+    pub drive_table: Option<String>,
     /// What has to remain of each limit.
     pub reserves: Reserves,
     /// Where the joints of base and platform can be put; `None`: anywhere. At least one plate has a grid where holes are stated.
@@ -168,6 +170,7 @@ impl Design {
             payload: None,
             envelopes: Envelopes::default(),
             plates: Plates::default(),
+            drive_table: None,
             reserves: Reserves::default(),
             holes: None,
             force_units: None,
@@ -214,6 +217,7 @@ impl Design {
         (self.force_units, self.mass_units) = (other.force_units, other.mass_units);
         self.holes = other.holes;
         self.plates = other.plates.clone();
+        self.drive_table.clone_from(&other.drive_table);
         self
     }
 

@@ -105,10 +105,10 @@ fn what_contradicts_itself_is_refused() {
         24:1 design::missing_key: `leg_clearance` without `leg_diameter` | add `leg_diameter`, or remove `leg_clearance`
         28:1 design::missing_key: `base_axes` without `base_swing_deg` | add `base_swing_deg` or universal joints, or remove `base_axes`
         28:18 design::out_of_range: `base_swing_deg` is 200 | stay within 180 degrees
-        31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "optimize" or six vectors in leg order
+        31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
         29:58 design::not_positive: an axis of `base_axes` is zero | give a direction
         29:69 design::coordinate_count: an axis of `base_axes` has 2 numbers instead of 3 | give 3 components
-        29:13 design::wrong_type: `base_axes` is not a choice of axes | write "home", "optimize" or six vectors in leg order
+        29:13 design::wrong_type: `base_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
         21:20 design::not_positive: an edge length of -2 | give positive edge lengths
         25:17 design::not_positive: `leg_clearance` is -1 | give 0 or more
         42:10 design::not_positive: `linear` is -20 | give 0 or more
@@ -630,4 +630,75 @@ fn plates_that_cannot_be_are_refused_at_their_place() {
     let palms = with_plates().replace("units = \"mm\"", "units = \"palm\"");
     let found = parse(&palms, Format::Toml).unwrap_err();
     assert!(found.iter().any(|v| v.message.contains("mass of a plate needs a known unit")), "{found:?}");
+}
+
+/// The axes of joints are the normal of their plane, one vector, or a list with normals in it; what is read is written as vectors.
+#[test]
+fn axes_are_normals_vectors_or_both() {
+    let with = |base: &str, platform: &str| {
+        let text = GOOD
+            .replacen(
+                "base_axes = [[0, 0, 1], [0, 0, 2], [1, 1, 1], [0, 3, 4], [0.1, 0.2, 0.3], [7, 1, 2]]",
+                base,
+                1,
+            )
+            .replacen("platform_axes = \"optimize\"", platform, 1);
+        parse(&text, Format::Toml).unwrap().0
+    };
+    let given = |swing: Option<crate::requirements::Swing>| {
+        let JointAxes::Given(axes) = swing.unwrap().axes else { panic!("axes are known") };
+        axes.map(nalgebra::Unit::into_inner)
+    };
+    let design = with("base_axes = \"normal\"", "platform_axes = [0, 3, 4]");
+    let h = design.hardware;
+    let home = design.home_or_default();
+    for (leg, normal) in design.manipulator().legs().iter().zip(given(h.base_swing)) {
+        let joints = design.manipulator().base_joints();
+        assert!(joints.iter().all(|p| (p - joints[0]).dot(&normal).abs() < 1e-12), "{normal}");
+        assert!((home.transform(&leg.platform) - leg.base).dot(&normal) > 0.0, "towards the platform");
+    }
+    let tilted = nalgebra::Vector3::new(0.0, 0.6, 0.8);
+    assert!(given(h.platform_swing).iter().all(|axis| (axis - tilted).norm() < 1e-15));
+    // swing counts from them, in `assess` and `ik` alike
+    let required = design.requirements();
+    let terms = crate::requirements::Terms::new(design.manipulator(), &required, &home);
+    let margins = terms.at(&home);
+    for (i, leg) in design.manipulator().legs().iter().enumerate() {
+        let line = home.transform(&leg.platform) - leg.base;
+        let swing = line.angle(&given(h.base_swing)[i]).to_degrees();
+        let margin = margins.iter().find(|(t, _)| t.kind == TermKind::BaseSwing && t.first == i).unwrap().1;
+        assert!((margin - (45.0 - swing)).abs() < 1e-9, "{margin} {swing}");
+    }
+    let mixed = with(
+        "base_axes = [\"normal\", [1, 0, 0], \"normal\", [0, 1, 0], [0, 0, 1], \"normal\"]",
+        "platform_axes = \"normal\"",
+    );
+    let axes = given(mixed.hardware.base_swing);
+    assert_eq!((axes[0], axes[1]), (given(h.base_swing)[0], nalgebra::Vector3::x()));
+    assert_eq!(axes[2], axes[5]);
+    for design in [design, mixed] {
+        assert_eq!(parse(&design.to_toml(), Format::Toml).unwrap().0, design);
+        assert_eq!(parse(&design.to_json(), Format::Json).unwrap().0, design);
+    }
+    let wrong = GOOD.replacen("platform_axes = \"optimize\"", "platform_axes = \"normals\"", 1);
+    assert_eq!(parse(&wrong, Format::Toml).unwrap_err()[0].code, Code::WrongType);
+    // a normal that is the first axis of a universal joint is refused as any other axis is
+    let universal = GOOD.replacen(
+        "platform_axes = \"optimize\"",
+        "platform_axes = \"normal\"\nplatform_joint = { model = \"universal\", first_axis = [0, 0, 1] }",
+        1,
+    );
+    assert!(parse(&universal, Format::Toml).is_err());
+}
+
+/// The name of a table of drives is kept; a design that has a drive of it names none.
+#[test]
+fn a_table_of_drives_is_named() {
+    let text = GOOD.replacen("max_leg_force = 500", "max_leg_force = 500\ndrives = \"struts.csv\"", 1);
+    let design = parse(&text, Format::Toml).unwrap().0;
+    assert_eq!(design.drive_table.as_deref(), Some("struts.csv"));
+    assert_eq!(parse(&design.to_toml(), Format::Toml).unwrap().0, design);
+    assert_eq!(parse(&design.to_json(), Format::Json).unwrap().0, design);
+    let wrong = GOOD.replacen("max_leg_force = 500", "max_leg_force = 500\ndrives = 3", 1);
+    assert_eq!(parse(&wrong, Format::Toml).unwrap_err()[0].code, Code::WrongType);
 }

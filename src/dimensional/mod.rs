@@ -10,6 +10,7 @@ mod merit;
 mod model;
 mod outcome;
 mod pareto;
+mod plates;
 mod population;
 mod problem;
 mod pull;

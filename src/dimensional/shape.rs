@@ -8,7 +8,7 @@ use super::problem::{InvalidProblem, Triangles, Variables};
 use super::pull::Rate;
 use super::skeleton::{Fixed, OctahedralSides, OnFamilies, Room, ScaledBodies, Skeleton};
 use crate::geom::Pose;
-use crate::manipulator::{InvalidManipulator, Manipulator, Octahedral};
+use crate::manipulator::{Body, InvalidManipulator, Manipulator, Octahedral};
 use crate::num::small::symmetric_eigen3;
 
 /// Variables of the joint axes of one body: three components for each leg.
@@ -197,6 +197,16 @@ impl Shape {
             }
         }
         out
+    }
+
+    /// Joints of a body that end no leg and stay in the platform found.
+    pub(crate) fn joints_without_legs(&self, body: Body) -> Vec<Vector3<f64>> {
+        if self.joints != joints_of(&self.original) {
+            return Vec::new();
+        }
+        let used = self.original.pairs().map(|p| body.of(p));
+        let all = self.original.joints(body).iter().enumerate();
+        all.filter(|(k, _)| !used.contains(k)).map(|(_, p)| p.coords).collect()
     }
 
     /// The platform at the variables: legs of the design in their order; shared joints stay shared unless offsets split them.

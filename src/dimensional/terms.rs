@@ -5,6 +5,7 @@
 
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
+use super::plates::{PlacedPlate, PlateModel};
 use super::pull::Gradient;
 use super::shape::{JointEnds, LegJoints, Shape};
 use super::stiffness::{self, RayleighQuotient};
@@ -115,6 +116,7 @@ pub(crate) struct RequirementTerms<'a> {
     pub(crate) joints: LegJoints,
     /// First variables of chosen axes.
     pub(crate) axes: [Option<usize>; 2],
+    plates: Vec<PlateModel<'a>>,
 }
 
 /// Value with which a singular pose violates the limits of forces, in limits.
@@ -122,7 +124,26 @@ const SINGULAR_FORCE: f64 = -10.0;
 
 impl<'a> RequirementTerms<'a> {
     pub(crate) fn new(required: &'a Requirements, size: f64, home: Pose, shape: &Shape) -> Self {
-        Self { required, size, home, joints: shape.joints, axes: shape.axes }
+        let plate = |body: Body| {
+            let joints = shape.joints.map(|p| body.of(p));
+            let plate = required.plates.of(body)?;
+            let others = shape.joints_without_legs(body);
+            Some(PlateModel::new(plate, body, &required.hardware, joints, others, size))
+        };
+        let plates = Body::BOTH.into_iter().filter_map(plate).collect();
+        Self { required, size, home, joints: shape.joints, axes: shape.axes, plates }
+    }
+
+    /// The plates under the joints, on the far side of them from the legs at home.
+    fn placed_plates(&self, ends: &JointEnds) -> impl Iterator<Item = PlacedPlate<'_>> {
+        let line =
+            |i: usize| self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
+        let towards: Vector3<f64> = (0..6).map(line).sum();
+        let (ends, home) = (*ends, self.home.rotation);
+        self.plates.iter().map(move |plate| match plate.body {
+            Body::Base => plate.place(&ends, &towards),
+            Body::Platform => plate.place(&ends, &-(home.inverse() * towards)),
+        })
     }
 
     /// Every requirement at a pose.
@@ -137,6 +158,7 @@ impl<'a> RequirementTerms<'a> {
         self.swing(l, ends, x, see);
         self.hinges(l, ends, see);
         self.clearances(l, see);
+        self.plate_clearances(l, ends, see);
         self.forces(l, see);
         self.speeds(l, see);
         self.machine(l, see);
@@ -356,6 +378,27 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
+    /// Legs clear of both plates: at the plate of an end a leg counts from the housing of its joint on.
+    fn plate_clearances<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+        let h = &self.required.hardware;
+        let Some(leg_body) = h.leg_body else { return };
+        let kind = TermKind::PlateClearance;
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
+        for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
+            let reach = h.joint_reach(model.body);
+            for i in 0..6 {
+                plate.clearances(l, (&leg_body, i, reach), &mut |part, gap, pull: P| {
+                    see(Item {
+                        id: (kind, i, model.body.index(), part),
+                        value: (gap - clearance) / self.size,
+                        pull: pull.scaled(1.0 / self.size),
+                        exact: None,
+                    });
+                });
+            }
+        }
+    }
+
     /// Pairs of legs without a common joint.
     pub(crate) fn separate_legs(&self) -> impl Iterator<Item = (usize, usize)> {
         let joints = self.joints;
@@ -433,19 +476,13 @@ impl<'a> RequirementTerms<'a> {
         self.plates(ends, see);
     }
 
-    /// Holes and feet of neighbouring joints, by the distance of the joints from which on they keep apart however their patterns are turned: more than is needed where patterns
-    /// turn their gaps to each other, so that a platform is not found here that the requirement itself would allow.
+    /// Holes of the plates: far enough from outlines and from each other.
     fn patterns<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
-        for (kind, body) in [(TermKind::BaseHoleGap, Body::Base), (TermKind::PlatformHoleGap, Body::Platform)]
-        {
-            let Some(plate) = self.required.plates.of(body) else { continue };
-            let least = plate.sure_distance() + self.required.reserve(kind);
-            for (i, j) in self.separate_joints(body) {
-                let at = body.of((&ends.base, &ends.platform));
-                let (value, g) = sphere_gap(&(at[j] - at[i]), least);
-                let pull = joint_pull(body, i, j, &(g / self.size));
-                see(Item { id: (kind, i, j, 0), value: value / self.size, pull, exact: None });
-            }
+        for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
+            let edge = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
+            let gap = model.body.of((TermKind::BaseHoleGap, TermKind::PlatformHoleGap));
+            plate.edges(self.required.reserve(edge), see);
+            plate.gaps(self.required.reserve(gap), see);
         }
     }
 
@@ -611,12 +648,12 @@ impl Forces {
 
 /// A part of a leg: from one share of its line to another, with a radius.
 #[derive(Debug, Clone, Copy)]
-struct Part {
-    from: f64,
-    to: f64,
-    radius: f64,
+pub(super) struct Part {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) radius: f64,
     /// The share that is at a fixed distance from the base joint, the end of the cylinder.
-    joint: Option<f64>,
+    pub(super) joint: Option<f64>,
 }
 
 /// A gap with its gradient; `part` tells apart the gaps of a pair of legs.
@@ -628,7 +665,7 @@ pub(crate) struct Gap<P> {
 }
 
 /// The parts of a leg: cylinder and rod, or one.
-fn parts(body: &LegBody, length: f64) -> impl Iterator<Item = Part> + Clone {
+pub(super) fn parts(body: &LegBody, length: f64) -> impl Iterator<Item = Part> + Clone {
     let radius = body.diameter / 2.0;
     let (first, second) = match body.rod {
         Some((cylinder, rod)) if length > cylinder => {
@@ -659,12 +696,12 @@ fn closest(p: &Vector3<f64>, e: &Vector3<f64>, q: &Vector3<f64>, f: &Vector3<f64
 }
 
 impl LegLines {
-    fn at(&self, leg: usize, share: f64) -> Vector3<f64> {
+    pub(super) fn at(&self, leg: usize, share: f64) -> Vector3<f64> {
         self.base[leg] + self.line[leg] * share
     }
 
     /// Adds the gradient of `g . (a + s d)`, where `s` is constant, or `s |d|` is.
-    fn pull_point<P: Gradient>(
+    pub(super) fn pull_point<P: Gradient>(
         &self,
         pull: &mut P,
         leg: usize,

@@ -15,10 +15,10 @@ use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
 use crate::num::Rng;
 use crate::requirements::{
-    AssessOptions, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses,
-    LegPart, LengthLimits, Load, MovingBodies, Objective, PlateDesign, Plates, PlatformSpeed,
-    PlatformStiffness, PoseSpace, Requirements, Swing, TermKind, Terms, UniversalJoint, VariableKind,
-    VibratingMasses, assess,
+    AssessOptions, BoltPattern, BoltsFrom, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape,
+    LegBody, LegMasses, LegPart, LengthLimits, Load, MovingBodies, Objective, PlateDesign, Plates,
+    PlatformSpeed, PlatformStiffness, PoseSpace, Requirements, Swing, TermKind, Terms, UniversalJoint,
+    VariableKind, VibratingMasses, assess,
 };
 
 fn octahedral() -> (Manipulator, Pose) {
@@ -116,6 +116,111 @@ fn tilted(p: &DimensionalProblem, follows: bool) -> HeldPose {
     }
 }
 
+/// Plates whose bolts turn with the joints on the base and not on the platform.
+fn plates() -> Plates {
+    let plate = PlateDesign {
+        thickness: 10.0,
+        margin: 14.0,
+        hole: 8.0,
+        height: Some(20.0),
+        material: None,
+        density: None,
+        edge_distance: 3.0,
+        hole_distance: 2.0,
+        foot: Some(25.0),
+        bolts: None,
+    };
+    let bolts = |from, first_deg| BoltPattern { count: 2, circle: 27.0, hole: 4.0, first_deg, from };
+    Plates {
+        base: Some(PlateDesign { bolts: Some(bolts(BoltsFrom::Centre, 140.0)), ..plate.clone() }),
+        platform: Some(PlateDesign { bolts: Some(bolts(BoltsFrom::Axis, 20.0)), ..plate }),
+    }
+}
+
+/// The least item of each kind of plates is the margin that `assess` has, and below zero where that is; its gradient is that of differences for legs beside and inside plates.
+#[test]
+fn holes_and_plates_are_those_of_the_margins() {
+    let mut p = crowded(&[VariableKind::Offsets, VariableKind::Triangles], JointAxes::Home);
+    p.requirements.plates = plates();
+    let model = Model::new(&p).unwrap();
+    let kinds = [
+        TermKind::BaseHoleEdge,
+        TermKind::PlatformHoleEdge,
+        TermKind::BaseHoleGap,
+        TermKind::PlatformHoleGap,
+        TermKind::PlateClearance,
+    ];
+    let size = p.manipulator.size();
+    let mut rng = Rng::new(11);
+    let (mut beside, mut inside) = (0, 0);
+    for _ in 0..60 {
+        let x: Vec<f64> = model.shape.start.iter().map(|x| x + rng.uniform(-0.3, 0.4)).collect();
+        let turn = |rng: &mut Rng| rng.uniform(-0.9, 0.9);
+        let rotation = Rotation3::from_euler_angles(turn(&mut rng), turn(&mut rng), turn(&mut rng));
+        let by = Vector3::new(rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), rng.uniform(-0.4, 0.1)) * size;
+        let at = HeldPose { pose: Pose { rotation, position: p.space.home.position + by }, follows: true };
+        let least = |x: &[f64]| {
+            let ends = model.shape.ends(x);
+            let mut least = std::collections::BTreeMap::new();
+            let mut keep = |item: super::terms::Item<()>| {
+                let known = least.entry(item.id.0).or_insert(f64::INFINITY);
+                *known = f64::min(*known, item.value);
+            };
+            model.terms.fixed(&ends, &mut keep);
+            model.terms.visit(&super::terms::LegLines::new(&ends, &at), &ends, x, &mut keep);
+            least
+        };
+        let found = least(&x);
+        let m = model.shape.manipulator(&x).unwrap();
+        let terms = Terms::new(&m, &p.requirements, &p.space.home);
+        let margins: Vec<_> = terms.fixed().into_iter().chain(terms.at(&at.pose)).collect();
+        for kind in kinds {
+            let own = margins.iter().filter(|(t, _)| t.kind == kind).map(|(_, x)| *x);
+            let margin = own.fold(f64::INFINITY, f64::min) - p.requirements.reserve(kind);
+            let value = found[&kind] * size;
+            // a leg whose line runs into a plate is at no distance from it, and the search says how deep it is
+            let meets = kind == TermKind::PlateClearance && margin < 0.0;
+            if meets && value < margin - 1e-9 * size {
+                inside += 1;
+            } else {
+                beside += usize::from(kind == TermKind::PlateClearance);
+                assert!((value - margin).abs() < 1e-9 * size, "{kind:?}: {value} {margin}");
+            }
+        }
+        let h = 1e-6;
+        let (poses, task) = ([at], everything(1));
+        let linear = |x: &[f64]| {
+            let all = model.linearise(&poses, x, &task, 1.0, 100.0).unwrap().items;
+            let of = |i: &super::linear::LinearItem| matches!(i.group, ConstraintGroup::Term(kind) if kinds.contains(&kind));
+            all.into_iter()
+                .filter(of)
+                .map(|i| (i.id, (i.value, i.gradient)))
+                .collect::<std::collections::BTreeMap<_, _>>()
+        };
+        let here = linear(&x);
+        for j in 0..x.len() {
+            let moved = |s: f64| {
+                let mut y = x.clone();
+                y[j] += s * h;
+                linear(&y)
+            };
+            let (up, down) = (moved(1.0), moved(-1.0));
+            for (id, (value, gradient)) in &here {
+                let (Some(above), Some(below)) = (up.get(id), down.get(id)) else { continue };
+                let slopes = [(above.0 - value) / h, (value - below.0) / h];
+                // kinks between two edges, or two ends of a leg, are not differentiable
+                if (slopes[0] - slopes[1]).abs() > 1e-3 * (1.0 + slopes[0].abs()) {
+                    continue;
+                }
+                let slope = 0.5 * (slopes[0] + slopes[1]);
+                let error = (slope - gradient[j]).abs();
+                assert!(error < 2e-5 * (1.0 + slope.abs()), "{id:?} {j}: {slope} {}", gradient[j]);
+            }
+        }
+    }
+    assert!(beside > 10 && inside > 5, "{beside} {inside}");
+}
+
 #[test]
 fn gradients_are_those_of_differences() {
     let all = [VariableKind::Offsets, VariableKind::Triangles, VariableKind::HomeHeight];
@@ -135,21 +240,9 @@ fn gradients_are_those_of_differences() {
         let mut p = crowded(&all, axes);
         let h = &mut p.requirements.hardware;
         (h.base_universal, h.platform_universal) = (universal.map(|u| u[0]), universal.map(|u| u[1]));
-        let expected = if universal.is_some() { 24 } else { 20 };
-        // holes and feet of neighbours, and the payload
-        let plate = PlateDesign {
-            thickness: 10.0,
-            margin: 40.0,
-            hole: 8.0,
-            height: Some(20.0),
-            material: None,
-            density: None,
-            edge_distance: 3.0,
-            hole_distance: 2.0,
-            foot: Some(25.0),
-            bolts: None,
-        };
-        p.requirements.plates = Plates { base: Some(plate.clone()), platform: Some(plate) };
+        let expected = if universal.is_some() { 27 } else { 23 };
+        // holes and feet of neighbours, outlines, plates and the payload
+        p.requirements.plates = plates();
         p.requirements.payload_shape =
             Some(KeepOutShape::Sphere { center: Point3::new(3.0, -5.0, 60.0), diameter: 30.0 });
         p.objectives = Objective::ALL.map(|o| (o, 1.0)).to_vec();

@@ -60,6 +60,17 @@ impl DriveFit {
     }
 }
 
+/// What is known of the lightest drive of a table that suffices for a design.
+#[derive(Debug, Clone)]
+pub(crate) struct LightestDrive<'t> {
+    /// The drive; `None` where none is proved to suffice.
+    pub(crate) drive: Option<&'t Drive>,
+    /// Lighter ones, or all others where there is no such drive, of which it is not known.
+    pub(crate) undecided: Vec<&'t Drive>,
+    /// Whether what no drive changes is met.
+    pub(crate) rest: Option<bool>,
+}
+
 impl Design {
     /// What a table of drives has to be read into.
     pub(crate) fn drive_units(&self) -> DesignUnits<'_> {
@@ -75,6 +86,8 @@ impl Design {
     /// Everything else is as it was.
     pub(crate) fn with_drive(&self, drive: &Drive) -> Self {
         let mut out = self.clone();
+        // the drive is chosen
+        out.drive_table = None;
         let h = &mut out.hardware;
         h.leg_length = Some(drive.lengths);
         h.max_leg_force = drive.force.or(h.max_leg_force);
@@ -117,6 +130,33 @@ impl Design {
         let mut all: Vec<DriveFit> = drives.iter().map(one).collect();
         all.sort_by(DriveFit::order);
         all
+    }
+
+    /// The lightest drive of a table that is proved to suffice; those without a mass come last. Drives are looked at by their mass until one suffices.
+    pub(crate) fn lightest_drive<'t>(&self, drives: &'t [Drive], seed: u64) -> LightestDrive<'t> {
+        let mut order: Vec<&Drive> = drives.iter().collect();
+        let mass = |d: &Drive| d.mass.unwrap_or(f64::INFINITY);
+        order.sort_by(|a, b| mass(a).total_cmp(&mass(b)).then(a.line.cmp(&b.line)));
+        let mut out = LightestDrive { drive: None, undecided: Vec::new(), rest: None };
+        let rest = self.assessed_without_drives(seed);
+        out.rest = rest.met();
+        if out.rest == Some(false) {
+            return out;
+        }
+        for drive in order {
+            let design = self.with_drive(drive);
+            let [of_drive, _] = design.requirements().of_drives_and_rest();
+            let proof = design.proved(&of_drive, seed);
+            match proof.all_met() {
+                Some(true) if out.rest == Some(true) => {
+                    out.drive = Some(drive);
+                    break;
+                }
+                Some(false) => {}
+                _ => out.undecided.push(drive),
+            }
+        }
+        out
     }
 
     /// Whether the workspace is free of singular poses, and every requirement that no drive changes.

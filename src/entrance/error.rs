@@ -138,6 +138,12 @@ pub enum Error {
     #[cfg(feature = "optimize")]
     #[error("the design asks for a Pareto front: `equipod::methods::dimensional::pareto` computes fronts")]
     ParetoFront,
+    /// The design names a table of drives to choose from, which a design in memory does not hold.
+    #[cfg(feature = "optimize")]
+    #[error(
+        "the design names a table of drives ({0}), from which `equipod optimize` chooses one: remove `drives` from [hardware], or give the limits of one drive"
+    )]
+    DriveTable(String),
     /// It was cancelled before there was an answer.
     #[error("cancelled")]
     Cancelled,

@@ -9,7 +9,7 @@ use crate::dimensional::{
 };
 use crate::equivalence::VerifyError;
 use crate::manipulator::Octahedral;
-use crate::requirements::{Envelope, LengthLimits, TermKind, VariableKind};
+use crate::requirements::{Envelope, LengthLimits, PlateDesign, TermKind, VariableKind};
 
 /// A freedom that a design does not have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,11 +34,15 @@ pub enum ConflictFreedom {
     PlatformEnvelope,
     /// The envelope of the machine is wider on every side.
     MachineEnvelope,
+    /// The plate of the base is wider on every side: its outline has a greater margin around the joints.
+    BaseMargin,
+    /// The plate of the platform is wider on every side.
+    PlatformMargin,
 }
 
 impl ConflictFreedom {
     /// Every freedom.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::HomeHeight,
         Self::TriangleSizes,
         Self::Triangles,
@@ -46,6 +50,8 @@ impl ConflictFreedom {
         Self::BaseEnvelope,
         Self::PlatformEnvelope,
         Self::MachineEnvelope,
+        Self::BaseMargin,
+        Self::PlatformMargin,
     ];
 
     /// The word for it.
@@ -59,6 +65,8 @@ impl ConflictFreedom {
             Self::BaseEnvelope => "base_envelope",
             Self::PlatformEnvelope => "platform_envelope",
             Self::MachineEnvelope => "machine_envelope",
+            Self::BaseMargin => "base_margin",
+            Self::PlatformMargin => "platform_margin",
         }
     }
 
@@ -79,6 +87,8 @@ impl ConflictFreedom {
             Self::BaseEnvelope => &[TermKind::BaseEnvelope],
             Self::PlatformEnvelope => &[TermKind::PlatformEnvelope],
             Self::MachineEnvelope => &[TermKind::MachineEnvelope],
+            Self::BaseMargin => &[TermKind::BaseHoleEdge],
+            Self::PlatformMargin => &[TermKind::PlatformHoleEdge],
             _ => &[],
         }
     }
@@ -145,6 +155,8 @@ fn closed(design: &Design, report: &DimensionalReport) -> Vec<ConflictFreedom> {
         ConflictFreedom::BaseEnvelope,
         ConflictFreedom::PlatformEnvelope,
         ConflictFreedom::MachineEnvelope,
+        ConflictFreedom::BaseMargin,
+        ConflictFreedom::PlatformMargin,
     ];
     out.extend(limits.into_iter().filter(|f| f.kinds().iter().any(clashes)));
     out
@@ -168,7 +180,14 @@ fn wider(design: &Design, freedom: ConflictFreedom, amount: f64, ends: [f64; 2])
             }
         });
     };
+    let widened = |plate: &mut Option<PlateDesign>| {
+        if let Some(plate) = plate {
+            plate.margin += amount;
+        }
+    };
     match freedom {
+        ConflictFreedom::BaseMargin => widened(&mut out.plates.base),
+        ConflictFreedom::PlatformMargin => widened(&mut out.plates.platform),
         ConflictFreedom::Stroke => {
             out.hardware.leg_length = design.hardware.leg_length.map(|l| match l {
                 LengthLimits::Range(a, b) => {
@@ -191,7 +210,14 @@ fn wider(design: &Design, freedom: ConflictFreedom, amount: f64, ends: [f64; 2])
 fn first_amount(design: &Design, report: &DimensionalReport, freedom: ConflictFreedom) -> (f64, [f64; 2]) {
     let half = |e: Option<Envelope>| e.map_or(0.0, |e| e.half_width());
     let part = |x: f64, whole: f64| if x > 0.0 { x } else { FIRST * whole };
+    let margin = |plate: &Option<PlateDesign>| plate.as_ref().map_or(0.0, |plate| plate.margin);
     match freedom {
+        ConflictFreedom::BaseMargin => {
+            (part(gives(report, TermKind::BaseHoleEdge), margin(&design.plates.base)), [0.0; 2])
+        }
+        ConflictFreedom::PlatformMargin => {
+            (part(gives(report, TermKind::PlatformHoleEdge), margin(&design.plates.platform)), [0.0; 2])
+        }
         ConflictFreedom::Stroke => {
             let range = design.hardware.leg_length.map_or((0.0, 0.0), |l| l.range());
             let [short, long] = [TermKind::LegTooShort, TermKind::LegTooLong].map(|kind| gives(report, kind));

@@ -276,6 +276,9 @@ impl Design {
     /// As [`optimize`](Self::optimize).
     pub fn optimize_with(&self, mut options: OptimizeOptions<'_>) -> Result<OptimizeReport, Error> {
         let (seed, threads) = (options.seed, options.threads.count(MOST_THREADS));
+        if let Some(file) = &self.drive_table {
+            return Err(Error::DriveTable(file.clone()));
+        }
         if asks_for_more(self) {
             if let Some(Combination::Pareto { .. }) = self.search.mode {
                 return Err(Error::ParetoFront);

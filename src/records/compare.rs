@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{AssessAnswer, Number};
+use super::{AssessAnswer, LightestDriveRecord, Number};
 use crate::design::Design;
 use crate::entrance::DesignFigures;
 
@@ -42,6 +42,8 @@ pub struct FiguresRecord {
     pub path: String,
     /// What `assess` says of it; null: it requires nothing.
     pub assessment: Option<AssessAnswer>,
+    /// The lightest drive of the table that the design names with which its requirements are met; null: it names none.
+    pub lightest_drive: Option<LightestDriveRecord>,
     /// Poses looked at.
     pub poses: usize,
     /// Least leg length; null where the legs are rods on cranks.
@@ -122,6 +124,7 @@ impl FiguresRecord {
             name: design.name.clone(),
             path,
             assessment: found.assessment.as_ref().map(|report| AssessAnswer::new(design, report)),
+            lightest_drive: None,
             poses: found.poses,
             shortest: Number(shortest),
             longest: Number(longest),
@@ -172,7 +175,7 @@ pub(crate) enum FigureCell {
     /// A number; `true`: it violates a limit.
     Number(f64, bool),
     /// A word.
-    Word(&'static str),
+    Word(String),
 }
 
 impl CompareAnswer {
@@ -184,12 +187,15 @@ impl CompareAnswer {
         let torque = format!("{force} {length}");
         let mut out = vec![self.words("requirements", |d| {
             d.assessment.as_ref().map(|a| match a.met {
-                Some(true) => "met",
-                Some(false) => "violated",
-                None => "undecided",
+                Some(true) => "met".to_owned(),
+                Some(false) => "violated".to_owned(),
+                None => "undecided".to_owned(),
             })
         })];
         out.extend(self.margins());
+        out.push(self.words("lightest drive", |d| {
+            d.lightest_drive.as_ref().map(|l| l.name.clone().unwrap_or_else(|| "none".to_owned()))
+        }));
         let of = |title: &str, unit: &str, value: &dyn Fn(&FiguresRecord) -> Option<Number>| FigureColumn {
             title: title.into(),
             unit: unit.into(),
@@ -230,7 +236,7 @@ impl CompareAnswer {
         out
     }
 
-    fn words(&self, title: &str, word: impl Fn(&FiguresRecord) -> Option<&'static str>) -> FigureColumn {
+    fn words(&self, title: &str, word: impl Fn(&FiguresRecord) -> Option<String>) -> FigureColumn {
         let cells = self.designs.iter().map(|d| word(d).map(FigureCell::Word)).collect();
         FigureColumn { title: title.into(), unit: String::new(), cells }
     }

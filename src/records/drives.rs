@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{AssessAnswer, DesignRecord, MotionRunRecord, Number};
-use crate::entrance::driving::DriveFit;
+use crate::entrance::driving::{DriveFit, LightestDrive};
 
 /// The answer of `build drives`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -88,6 +88,50 @@ impl DriveRecord {
             source: drive.source.clone(),
             assessment: AssessAnswer::new(design, &fit.assessed),
             motions: along.map(|(name, found)| MotionRunRecord::new(design, name.clone(), found)).collect(),
+        }
+    }
+}
+
+/// The lightest drive of the table that a design names with which its requirements are met.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LightestDriveRecord {
+    /// Its name; null: none is proved to suffice.
+    pub name: Option<String>,
+    /// Its mass; null: the table has none, or there is no such drive.
+    pub mass: Option<Number>,
+    /// Of the mass.
+    pub mass_unit: String,
+    /// Drives that are lighter, or all where none is proved to suffice, of which neither is proved.
+    pub undecided: Vec<String>,
+    /// One sentence.
+    pub message: String,
+}
+
+impl LightestDriveRecord {
+    /// What was found.
+    #[must_use]
+    pub(crate) fn new(found: &LightestDrive<'_>, mass_unit: &str) -> Self {
+        let undecided: Vec<String> = found.undecided.iter().map(|d| d.name.clone()).collect();
+        let message = match (found.drive, found.rest) {
+            (_, Some(false)) => {
+                "no drive of the table suffices: a requirement that no drive changes is violated".to_owned()
+            }
+            (Some(d), _) => match d.mass {
+                Some(mass) => format!(
+                    "the lightest drive of the table that suffices is {} with {mass} {mass_unit}",
+                    d.name
+                ),
+                None => format!("the first drive of the table that suffices is {}; it has no mass", d.name),
+            },
+            (None, _) if undecided.is_empty() => "no drive of the table suffices".to_owned(),
+            (None, _) => "no drive of the table is proved to suffice".to_owned(),
+        };
+        Self {
+            name: found.drive.map(|d| d.name.clone()),
+            mass: found.drive.and_then(|d| d.mass).map(Number),
+            mass_unit: mass_unit.to_owned(),
+            undecided,
+            message,
         }
     }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Number, PoseQuaternionRecord};
+use super::{LightestDriveRecord, Number, PoseQuaternionRecord};
 use crate::design::Design;
 use crate::entrance::AssessReport;
 use crate::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
@@ -113,6 +113,8 @@ pub struct AssessAnswer {
     pub poses: usize,
     /// Cells over which margins were bounded.
     pub cells: usize,
+    /// The lightest drive of the table that the design names with which its requirements are met; null: it names none, or the answer is about something else.
+    pub lightest_drive: Option<LightestDriveRecord>,
 }
 
 impl AssessAnswer {
@@ -144,6 +146,7 @@ impl AssessAnswer {
             },
             poses: proof.poses,
             cells: proof.bounds.iter().map(|b| b.cells).sum(),
+            lightest_drive: None,
         }
     }
 }

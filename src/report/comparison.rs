@@ -59,12 +59,12 @@ pub(super) fn table(comparison: &Comparison, sortable: bool) -> String {
             let cell = match &column.cells[row] {
                 None => "<td>\u{2013}</td>".to_string(),
                 Some(FigureCell::Word(word)) => {
-                    let class = match *word {
+                    let class = match word.as_str() {
                         "met" => "yes",
                         "violated" => "no",
                         _ => "open",
                     };
-                    format!("<td class=\"{class}\" data-value=\"{word}\">{word}</td>")
+                    format!("<td class=\"{class}\" data-value=\"{0}\">{0}</td>", escape(word))
                 }
                 Some(FigureCell::Number(x, violated)) => {
                     let text = if x.is_finite() { digits(*x) } else { "\u{221e}".into() };

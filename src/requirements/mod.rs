@@ -54,7 +54,9 @@ pub use plate::{
     seat_height,
 };
 #[cfg(feature = "files")]
-pub(crate) use plate::{PlateBody, frame_of, on_circle, plate_normal};
+pub(crate) use plate::{PlateBody, on_circle};
+#[cfg(any(feature = "files", feature = "optimize"))]
+pub(crate) use plate::{frame_of, plate_normal};
 pub use reserve::{Reserve, Reserves};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};

@@ -94,14 +94,15 @@ fn the_poses_of_a_table_belong_to_the_workspace_of_every_candidate() {
     let table = "x,y,z,roll_deg,pitch_deg,yaw_deg\n0,0,1,0,0,0\n1,-1,0.5,10,0,5\n";
     let region = "translation = [2.0, 2.0, 2.0]\nrotation_deg = [10.0, 10.0, 10.0]\ngrid = 2\n";
     assert!(OCTAHEDRAL.contains(region));
-    let text =
-        OCTAHEDRAL.replace(region, "trajectory = \"data/path.csv\"\nrelative_to = \"home\"\n");
+    let text = OCTAHEDRAL.replace(region, "trajectory = \"data/path.csv\"\nrelative_to = \"home\"\n");
     let base = BasePlan::new(PlanText { text: &text, format: Format::Toml }).unwrap();
     assert!(base.clone().with_poses(b"1,2\n").is_err(), "no pose has two numbers");
     let base = base.with_poses(table.as_bytes()).unwrap();
     let sweep = |vary: &str| {
-        let plan = format!("name = 'p'\ndesign = 'd.toml'\ncompute = ['conditioning', 'length_range']\n{vary}");
-        let plan = read(PlanText { text: &plan, format: Format::Toml }, &base).unwrap_or_else(|v| panic!("{v:#?}"));
+        let plan =
+            format!("name = 'p'\ndesign = 'd.toml'\ncompute = ['conditioning', 'length_range']\n{vary}");
+        let plan =
+            read(PlanText { text: &plan, format: Format::Toml }, &base).unwrap_or_else(|v| panic!("{v:#?}"));
         Sweep::new(plan, base.clone(), 1).unwrap()
     };
     // numbers in the text, offsets of an equivalent platform

@@ -570,3 +570,136 @@ fn problems_that_leave_next_to_nothing_are_never_infeasible_and_bounds_hold() {
         }
     }
 }
+
+/// A symmetric design whose joints stand on plates.
+fn on_plates(tables: &str, variables: &str) -> String {
+    format!(
+        r#"name = "on plates"
+units = "mm"
+legs = [["A1", "B1"], ["A2", "B1"], ["A2", "B2"], ["A3", "B2"], ["A3", "B3"], ["A1", "B3"]]
+[base]
+A1 = {{ radius = 150, angle_deg = 90 }}
+A2 = {{ turn = "A1", deg = 120 }}
+A3 = {{ turn = "A1", deg = 240 }}
+[platform]
+B1 = {{ radius = 90, angle_deg = 150 }}
+B2 = {{ turn = "B1", deg = 120 }}
+B3 = {{ turn = "B1", deg = 240 }}
+[home]
+position = [0.0, 0.0, 210.0]
+rpy_deg = [0.0, 0.0, 0.0]
+[workspace]
+translation = [15.0, 15.0, 10.0]
+rotation_deg = [0.0, 0.0, 8.0]
+{tables}[optimize]
+variables = {variables}
+"#
+    )
+}
+
+/// Legs that would run into the plate of the platform: without the plate the best platform does, with it the one found does not, and `assess` says so of both.
+#[test]
+#[ignore = "slow evidence"]
+fn legs_keep_clear_of_the_plates_where_the_best_platform_would_not() {
+    let hardware = "[hardware]\nleg_length = [60.0, 330.0]\nleg_diameter = 20.0\njoint_diameter = 24.0\nleg_clearance = 2.0\n";
+    let plate = "[plates.platform]\nthickness = 10.0\nmargin = 20.0\nhole = 8.0\nheight = 3.5\n";
+    let variables = "[\"symmetric_offsets\", \"home_height\"]";
+    let assess = |folder: &std::path::Path, file: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
+        command.current_dir(folder).args(["assess", file, "--json"]).output().unwrap()
+    };
+    let (out, folder) = optimize(&on_plates(hardware, variables), &["-o", "out.toml"]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
+    let text = std::fs::read_to_string(folder.path().join("out.toml")).unwrap();
+    std::fs::write(folder.path().join("plated.toml"), format!("{text}\n{plate}")).unwrap();
+    let judged = document(&assess(folder.path(), "plated.toml"));
+    let of = |d: &Value| {
+        let list = d["requirements"].as_array().unwrap();
+        list.iter().find(|m| m["name"] == "plate_clearance").unwrap()["margin"].as_f64().unwrap()
+    };
+    assert!(judged["met"] == false && of(&judged) < 0.0, "without the plate the legs are where it would be");
+    let plated = on_plates(&format!("{hardware}{plate}"), variables);
+    let (out, folder) = optimize(&plated, &["-o", "out.toml"]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
+    let judged = assess(folder.path(), "out.toml");
+    assert_eq!(judged.status.code(), Some(0));
+    assert!(of(&document(&judged)) >= 0.0);
+    // and in the folder of `explore`
+    let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
+    command.current_dir(folder.path()).args(["explore", "in.toml", "-o", "all", "--samples", "1"]);
+    let explored = command.output().unwrap();
+    assert_eq!(explored.status.code(), Some(0), "{}", String::from_utf8_lossy(&explored.stdout));
+    assert_eq!(assess(folder.path(), "all/optimised.toml").status.code(), Some(0));
+}
+
+/// Bolts at a right angle to the corners of the plate end too near to its outline wherever the joints are: a wider plate resolves it, by what is missing.
+#[test]
+#[ignore = "slow evidence"]
+fn a_wider_plate_is_a_freedom_that_is_tried() {
+    let tables = "[hardware]\nleg_length = [150.0, 330.0]\n[plates.base]\nthickness = 10.0\nmargin = 24.0\nhole = 8.0\nheight = 20.0\nedge_distance = 4.0\nbolts = { count = 1, circle = 40.0, hole = 6.0, first_deg = 90.0, from = \"centre\" }\n";
+    let design = on_plates(tables, "[\"symmetric_offsets\"]");
+    let (out, folder) = optimize(&design, &["--candidates", "opened"]);
+    assert_eq!(out.status.code(), Some(1), "{}", String::from_utf8_lossy(&out.stdout));
+    let d = document(&out);
+    let demands = d["conflict"]["requirements"].as_array().unwrap();
+    assert!(demands.iter().any(|r| r["name"] == "base_hole_edge"), "{demands:?}");
+    let freedoms = d["freedoms"].as_array().unwrap();
+    let wider = freedoms.iter().find(|f| f["freedom"] == "base_margin").unwrap();
+    assert_eq!(wider["outcome"], "resolved");
+    // 4 + 3 + 20 cos 30 deg - 24
+    let missing = 7.0 + 10.0 * 3f64.sqrt() - 24.0;
+    let amount = wider["amount"].as_f64().unwrap();
+    assert!(amount >= missing && amount < 1.4 * missing, "{amount} {missing}");
+    assert!(wider["message"].as_str().unwrap().starts_with("with a plate of the base wider by "));
+    let mut assess = Command::new(env!("CARGO_BIN_EXE_equipod"));
+    let judged = assess.current_dir(folder.path()).args(["assess", "opened/with-base_margin.toml"]).output();
+    assert_eq!(judged.unwrap().status.code(), Some(0));
+}
+
+/// `drives` of `[hardware]` is `--drives`, and `assess` names the lightest drive that suffices.
+#[test]
+fn a_design_names_its_table_of_drives() {
+    let more = "[hardware]\ndrives = \"struts.csv\"\n[optimize]\nvariables = [\"symmetric_offsets\", \"home_height\"]\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("named.toml"), required(more)).unwrap();
+    let plain = required(more).replace("drives = \"struts.csv\"\n", "");
+    std::fs::write(folder.path().join("plain.toml"), plain).unwrap();
+    std::fs::write(folder.path().join("struts.csv"), STRUTS).unwrap();
+    let run = |args: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
+        command.current_dir(folder.path()).args(args).output().unwrap()
+    };
+    let named = run(&["optimize", "named.toml", "--json", "-o", "out.toml"]);
+    assert_eq!(named.status.code(), Some(0), "{}", String::from_utf8_lossy(&named.stdout));
+    let optioned = document(&run(&["optimize", "plain.toml", "--drives", "struts.csv", "--json"]));
+    let named = document(&named);
+    assert_eq!(
+        (&named["drive_search"], &named["objective"]),
+        (&optioned["drive_search"], &optioned["objective"])
+    );
+    // the drive is chosen: the design written has its limits and names no table
+    let written = std::fs::read_to_string(folder.path().join("out.toml")).unwrap();
+    assert!(written.contains("leg_length = [9.0, 18.0]") && !written.contains("struts.csv"), "{written}");
+    // the lightest of those that suffice, which is not the cheapest
+    let table =
+        "name,stroke_mm,retracted_length_mm,mass_kg,price_EUR\nheavy,9,9,3,1\nshort,1,9,1,1\nlight,9,9,2,9\n";
+    std::fs::write(folder.path().join("struts.csv"), table).unwrap();
+    let with_table = written.replacen("[hardware]\n", "[hardware]\ndrives = \"struts.csv\"\n", 1);
+    std::fs::write(folder.path().join("table.toml"), with_table).unwrap();
+    let d = document(&run(&["assess", "table.toml", "--json"]));
+    let lightest = &d["lightest_drive"];
+    assert_eq!((&lightest["name"], &lightest["mass"]), (&"light".into(), &2.0.into()), "{lightest}");
+    let compared = run(&["compare", "table.toml", "out.toml"]);
+    let text = String::from_utf8(compared.stdout).unwrap();
+    assert!(text.lines().any(|l| l.starts_with("lightest drive") && l.contains("light")), "{text}");
+    // no table is read for a front
+    let front = required(
+        "[hardware]\ndrives = \"struts.csv\"\n[optimize]\nobjectives = [\"stroke\", \"worst_conditioning\"]\nmode = \"pareto\"\n",
+    );
+    std::fs::write(folder.path().join("front.toml"), front).unwrap();
+    let out = run(&["optimize", "front.toml", "--json"]);
+    assert_eq!(
+        (out.status.code(), &document(&out)["error"]["code"]),
+        (Some(2), &"drives::not_chosen".into())
+    );
+}

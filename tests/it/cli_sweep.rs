@@ -260,11 +260,8 @@ fn the_table_of_poses_of_a_workspace_belongs_to_the_sweep() {
     let table = |rows: &str| std::fs::write(place.path("data/path.csv"), rows).unwrap();
     let plan = place.path("plan.toml");
     let vary = "[vary]\nby = 'grid'\nvalues = { 'home.position.3' = [13, 14, 15, 16] }\n";
-    std::fs::write(
-        &plan,
-        format!("name = 'test'\ndesign = 'base.toml'\ncompute = ['length_range']\n{vary}"),
-    )
-    .unwrap();
+    std::fs::write(&plan, format!("name = 'test'\ndesign = 'base.toml'\ncompute = ['length_range']\n{vary}"))
+        .unwrap();
     let (one, two, best) = (place.path("one"), place.path("two"), place.path("best"));
     table("0,0,1,0,0,0\n0,0,2,0,0,0\n");
     let (code, doc) = asked(&[&plan, "--shard", "0/2", "-o", &one]);

@@ -61,6 +61,7 @@ mod licences;
 mod mutated_inputs;
 mod nearly_special;
 mod octahedral_class;
+mod optimize_options;
 mod optimizer_evidence;
 mod pose_count;
 mod presets;

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use super::build::drives;
 use crate::cli::context::Context;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
@@ -58,7 +59,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         }
         other => Failure::internal(other.to_string()),
     })?;
-    let record = AssessAnswer::new(&design, &found);
+    let lightest_drive = drives::lightest(&args.design, &design, context)?;
+    let record = AssessAnswer { lightest_drive, ..AssessAnswer::new(&design, &found) };
     let text = text(&design.name, &record);
     Ok(Answer::new(requirements::exit_of(record.met), record, text))
 }
@@ -75,6 +77,9 @@ fn text(name: &str, found: &AssessAnswer) -> String {
             writeln!(out, "\nNot proved to be free of singular poses; undecided near {at}.")
         }
     };
+    if let Some(d) = &found.lightest_drive {
+        let _ = writeln!(out, "{}.", d.message);
+    }
     out.push_str("A margin below 0 is a violation (!); = at the limit, as far as rounding can tell, which is none. The proved margin is one that no pose of the workspace falls below.\n");
     if found.met.is_none() {
         out.push_str(

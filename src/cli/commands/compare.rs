@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use super::build::drives;
 use super::build::tolerances::numbers;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
@@ -76,6 +77,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let asked = asked(args, context)?;
     let mut comparison = compare(&designs, &asked)?;
+    for ((path, (_, design)), found) in args.designs.iter().zip(&designs).zip(&mut comparison.answer.designs)
+    {
+        found.lightest_drive = drives::lightest(path, design, context)?;
+    }
     if let Some(path) = &args.csv {
         files::write_text(path, &csv(&comparison.answer))?;
         comparison.answer.paths.push(path.display().to_string());
@@ -196,7 +201,7 @@ fn text(answer: &CompareAnswer) -> String {
         for cell in &column.cells {
             let shown = match cell {
                 None => "-".to_string(),
-                Some(FigureCell::Word(word)) => (*word).to_string(),
+                Some(FigureCell::Word(word)) => word.clone(),
                 Some(FigureCell::Number(x, violated)) => {
                     format!("{}{}", if *violated { "!" } else { "" }, significant(*x))
                 }
@@ -230,7 +235,7 @@ fn csv(answer: &CompareAnswer) -> String {
         let mut cells = vec![design.name.clone(), design.path.clone()];
         cells.extend(columns.iter().map(|c| match &c.cells[row] {
             None => String::new(),
-            Some(FigureCell::Word(word)) => (*word).to_string(),
+            Some(FigureCell::Word(word)) => word.clone(),
             Some(FigureCell::Number(x, _)) => number(*x),
         }));
         out.push_str(&csv_line(&cells));

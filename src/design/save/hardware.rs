@@ -23,7 +23,7 @@ pub(super) enum AxesValue {
 
 /// `[hardware]`.
 #[derive(Serialize)]
-pub(super) struct HardwareTable {
+pub(super) struct HardwareTable<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     joint_diameter: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -74,6 +74,8 @@ pub(super) struct HardwareTable {
     rod_inertia: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reflected_mass: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drives: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     base_joint: Option<JointTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -141,10 +143,10 @@ pub(super) fn axes(axes: JointAxes) -> Option<AxesValue> {
     }
 }
 
-impl HardwareTable {
+impl<'a> HardwareTable<'a> {
     /// `None` when nothing is said.
-    pub(super) fn of(h: &Hardware) -> Option<Self> {
-        if *h == Hardware::default() {
+    pub(super) fn of(h: &Hardware, drives: Option<&'a str>) -> Option<Self> {
+        if *h == Hardware::default() && drives.is_none() {
             return None;
         }
         let (mut leg_length, mut drive) = (None, None);
@@ -183,6 +185,7 @@ impl HardwareTable {
             rod_center: rod_body.map(|p| p.center),
             rod_inertia: rod_body.map(|p| p.inertia),
             reflected_mass: h.leg_masses.map(|m| m.reflected).filter(|x| *x > 0.0),
+            drives,
             base_joint: joint(h.base_universal.as_ref(), h.base_bending),
             platform_joint: joint(h.platform_universal.as_ref(), h.platform_bending),
         })

@@ -72,7 +72,7 @@ struct Tail<'a> {
     #[serde(skip_serializing_if = "OptimizeFile::is_empty")]
     optimize: OptimizeFile,
     #[serde(skip_serializing_if = "Option::is_none")]
-    hardware: Option<HardwareTable>,
+    hardware: Option<HardwareTable<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     limits: Option<LimitsFile>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -148,7 +148,7 @@ impl Design {
             home: HomeTable::of(self),
             workspace: self.workspace_table(),
             optimize: OptimizeFile::of(&self.optimize, &self.with_known_joints()),
-            hardware: HardwareTable::of(&self.hardware),
+            hardware: HardwareTable::of(&self.hardware, self.drive_table.as_deref()),
             limits: LimitsFile::of(&self.reserves),
             envelope: EnvelopesTable::of(&self.envelopes),
             holes: self.holes.as_ref().map(HolesTable::from),

@@ -2,6 +2,7 @@
 
 use nalgebra::{Unit, Vector3};
 
+use super::axes::named;
 use super::tables::{axis, joint_axes, not_negative, positive};
 use super::{check_keys, element_span, number, numbers, shown, table, text};
 use crate::design::Code;
@@ -55,7 +56,8 @@ pub(super) fn joint_model(report: &mut Findings<'_>, entries: &[Entry], body: Bo
         Some(e) => quiet_axes(e).map(|axes| (e, axes)),
         None => None,
     };
-    if let Some((e, axes)) = axes {
+    // normals are known later
+    if let Some((e, axes)) = axes.filter(|(e, _)| !named(&e.node).contains(&true)) {
         check_axes(report, e, axes, &universal);
     }
     let axes = axes.map_or(JointAxes::Home, |(_, axes)| axes);
@@ -69,12 +71,12 @@ fn quiet_axes(entry: &Entry) -> Option<JointAxes> {
 }
 
 /// Universal joints have axes that are known and that are not their first axes.
-fn check_axes(report: &mut Findings<'_>, entry: &Entry, axes: JointAxes, joint: &UniversalJoint) {
+pub(super) fn check_axes(report: &mut Findings<'_>, entry: &Entry, axes: JointAxes, joint: &UniversalJoint) {
     match axes {
         JointAxes::Home => {}
         JointAxes::Optimize => {
             let message = "axes of universal joints are not chosen by the optimiser";
-            let help = "write \"home\" or six vectors in leg order";
+            let help = "write \"home\", \"normal\", a vector, or six in leg order";
             report.refuse(Code::ConflictingKeys, &entry.node.span, message, help);
         }
         JointAxes::Given(axes) => {

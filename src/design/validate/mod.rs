@@ -1,5 +1,6 @@
 //! One walk over the tree that collects every violation, and the reading of keys, texts and numbers.
 
+mod axes;
 mod calibration;
 mod constructions;
 mod cranks;
@@ -101,6 +102,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     let workspace = tables::workspace(report, entries);
     let (optimize, search) = tables::optimize(report, entries, [base.as_ref(), platform.as_ref()]);
     let hardware = tables::hardware(report, entries);
+    let drive_table = tables::drive_table(report, entries);
     joint_models::refuse_coupled(report, entries, &hardware, takes_cranks);
     let speed = tables::speed(report, entries);
     let stiffness = tables::stiffness(report, entries, &hardware);
@@ -141,6 +143,8 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     (design.force_units, design.mass_units) = (force_units, mass_units);
     design.holes = holes;
     design.plates = plates;
+    design.drive_table = drive_table;
+    axes::turn_to_normals(report, entries, &mut design);
     design.calibration = calibration;
     plates::check_masses(report, entries, &design);
     Some(design)

@@ -291,7 +291,7 @@ pub(super) fn optimize(
     (limits, search(report, entries, bodies))
 }
 
-pub(super) const HARDWARE_KEYS: [&str; 27] = [
+pub(super) const HARDWARE_KEYS: [&str; 28] = [
     "joint_diameter",
     "base_housing",
     "platform_housing",
@@ -319,6 +319,7 @@ pub(super) const HARDWARE_KEYS: [&str; 27] = [
     "rod_center",
     "rod_inertia",
     "reflected_mass",
+    "drives",
 ];
 
 /// A positive number of a table.
@@ -364,6 +365,12 @@ fn needs(report: &mut Findings<'_>, entries: &[Entry], key: &str, other: &str) {
         let message = format!("`{key}` without `{other}`");
         report.refuse(Code::MissingKey, &e.key_span, message, format!("add `{other}`, or remove `{key}`"));
     }
+}
+
+/// `drives` of `[hardware]`: the name of a table, which is read where a drive is chosen from it.
+pub(super) fn drive_table(report: &mut Findings<'_>, top: &[Entry]) -> Option<String> {
+    let Value::Table(entries) = &find(top, "hardware")?.node.value else { return None };
+    find(entries, "drives").and_then(|e| text(report, e))
 }
 
 /// `[hardware]`.
@@ -485,13 +492,30 @@ fn swing(report: &mut Findings<'_>, entries: &[Entry], limit: &str, axes: &str) 
     Some(Swing { limit_deg, axes: axes.unwrap_or_default() })
 }
 
+/// The word for the normal of the plane of the joints.
+const NORMAL: &str = "normal";
+/// Stands for a normal until the joints are known.
+const NOT_YET: Unit<Vector3<f64>> = Unit::new_unchecked(Vector3::new(0.0, 0.0, 1.0));
+
+/// Whether an axis is the normal of the plane of the joints.
+pub(super) fn is_normal(node: &Node) -> bool {
+    matches!(&node.value, Value::Text(t) if t == NORMAL)
+}
+
+/// The axes that a key says. Normals are put in where the joints are known ([`super::axes::turn_to_normals`]).
 pub(super) fn joint_axes(report: &mut Findings<'_>, entry: &Entry) -> Option<JointAxes> {
-    let help = "write \"home\", \"optimize\" or six vectors in leg order";
+    let help = "write \"home\", \"normal\", \"optimize\", one vector for all joints, or six in leg order, each a vector or \"normal\"";
     match &entry.node.value {
         Value::Text(t) if t == "home" => Some(JointAxes::Home),
         Value::Text(t) if t == "optimize" => Some(JointAxes::Optimize),
+        Value::Text(t) if t == NORMAL => Some(JointAxes::Given([NOT_YET; 6])),
+        Value::Array(list) if list.iter().all(|node| matches!(node.value, Value::Number(_))) => {
+            axis(report, &entry.node, &entry.key).map(|axis| JointAxes::Given([axis; 6]))
+        }
         Value::Array(list) if list.len() == 6 => {
-            let axes: Vec<_> = list.iter().map(|node| axis(report, node, &entry.key)).collect();
+            let one =
+                |node: &Node| if is_normal(node) { Some(NOT_YET) } else { axis(report, node, &entry.key) };
+            let axes: Vec<_> = list.iter().map(one).collect();
             let axes: Vec<_> = axes.into_iter().collect::<Option<_>>()?;
             axes.try_into().ok().map(JointAxes::Given)
         }

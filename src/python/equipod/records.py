@@ -50,9 +50,11 @@ EvidenceWord = Literal["modular", "proved"]
 ExactnessWord = Literal["doubles", "field", "interval", "rational"]
 Freedom = Literal[
     "base_envelope",
+    "base_margin",
     "home_height",
     "machine_envelope",
     "platform_envelope",
+    "platform_margin",
     "stroke",
     "triangle_sizes",
     "triangles",
@@ -106,6 +108,7 @@ OffsetsStatus = Literal[
     "undecided",
     "violated",
 ]
+OptimalityWord = Literal["best_of_starts", "proved_within_gap"]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
 PoseAxis = Literal["pitch", "roll", "x", "y", "yaw", "z"]
 ProofWord = Literal["leg_vectors", "pose_lattice", "regular_pose"]
@@ -231,6 +234,9 @@ class AssessAnswer(Record):
     poses: int
     #: Cells over which margins were bounded.
     cells: int
+    #: The lightest drive of the table that the design names with which its requirements are met; null: it
+    #: names none, or the answer is about something else.
+    lightest_drive: Union[LightestDriveRecord, None]
     #: What the answer was made from.
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
@@ -1114,6 +1120,8 @@ class DimensionalAnswer(Record):
 
     #: What came of the search.
     status: DimensionalStatus
+    #: What is known of better ones; null: nothing, or there is no platform.
+    optimality: Union[OptimalityWord, None]
     #: How the search went.
     search: SearchRecord
     #: The platform; null: there is none.
@@ -1623,6 +1631,9 @@ class FiguresRecord(Record):
     path: str
     #: What `assess` says of it; null: it requires nothing.
     assessment: Union[AssessAnswer, None]
+    #: The lightest drive of the table that the design names with which its requirements are met; null: it
+    #: names none.
+    lightest_drive: Union[LightestDriveRecord, None]
     #: Poses looked at.
     poses: int
     #: Least leg length; null where the legs are rods on cranks.
@@ -2301,6 +2312,21 @@ class LegMotionRecord(Record):
     power_w: Union[ExtremeRecord, None]
 
 
+class LightestDriveRecord(Record):
+    """The lightest drive of the table that a design names with which its requirements are met."""
+
+    #: Its name; null: none is proved to suffice.
+    name: Union[str, None]
+    #: Its mass; null: the table has none, or there is no such drive.
+    mass: Union[float, None]
+    #: Of the mass.
+    mass_unit: str
+    #: Drives that are lighter, or all where none is proved to suffice, of which neither is proved.
+    undecided: tuple[str, ...]
+    #: One sentence.
+    message: str
+
+
 class LimitRecord(Record):
     """A requirement that binds or is violated."""
 
@@ -2916,6 +2942,8 @@ class OffsetsAnswer(Record):
 
     #: What came of the search.
     status: OffsetsStatus
+    #: What is known of better ones; null: nothing, or there is no platform.
+    optimality: Union[OptimalityWord, None]
     #: What was required.
     requirements: OffsetLimitsRecord
     #: The poses the worst case is taken over.
@@ -3024,6 +3052,8 @@ class OptimizeAnswer(Record):
     #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
     #: search could not break it.
     symmetry: Union[SymmetryRecord, None]
+    #: What is known of better ones; null: nothing, or there is no platform.
+    optimality: Union[OptimalityWord, None]
     #: What was required.
     requirements: Union[OffsetLimitsRecord, None]
     #: The poses the worst case is taken over.
@@ -4187,7 +4217,7 @@ DesignReserve = Union[DesignNotNegative, DesignPercent]
 
 DesignVector = tuple[DesignNumber, ...]
 
-DesignAxes = Union[Literal["home", "optimize"], tuple[DesignVector, ...]]
+DesignAxes = Union[Literal["home", "normal", "optimize"], DesignVector, tuple[Union[Literal["normal"], DesignVector], ...]]
 
 DesignHousing = Union[DesignPositive, DesignEdges]
 

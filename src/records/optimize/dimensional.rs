@@ -4,7 +4,7 @@ use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ConflictRecord, DriveSearchRecord, FreedomRecord, SymmetryRecord};
+use super::{ConflictRecord, DriveSearchRecord, FreedomRecord, OptimalityWord, SymmetryRecord};
 use crate::design::Design;
 use crate::dimensional::{DimensionalOutcome, DimensionalReport, DimensionalSolution, HistoryStep};
 use crate::entrance::OptimizeStatus;
@@ -20,6 +20,8 @@ use crate::requirements::Objective;
 pub struct DimensionalAnswer {
     /// What came of the search.
     pub status: DimensionalStatus,
+    /// What is known of better ones; null: nothing, or there is no platform.
+    pub optimality: Option<OptimalityWord>,
     /// The best platform found.
     #[serde(flatten)]
     pub solution: AllOrNone<DimensionalSolutionRecord>,
@@ -117,8 +119,10 @@ impl DimensionalAnswer {
         let solution = report.solution().zip(checked);
         let nearest = report.nearest.as_deref().zip(checked);
         let checked = solution.map(|(_, c)| c);
+        let status = DimensionalStatus::from(dimensional_status(report, checked));
         Self {
-            status: dimensional_status(report, checked).into(),
+            status,
+            optimality: (status == DimensionalStatus::Optimal).then_some(OptimalityWord::BestOfStarts),
             solution: solution.map(|(s, c)| DimensionalSolutionRecord::new(design, s, c)).into(),
             nearest: nearest.map(|(s, c)| Box::new(NearestPlatformRecord::new(s, c))),
             conflict: match &report.outcome {

@@ -73,6 +73,11 @@ fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> Str
         Some(x) => format!("an envelope of the {body} wider by {} on every side", by(x)),
         None => format!("a wider envelope of the {body}"),
     };
+    let plate = |body: &str| match amount {
+        Some(x) if tried => format!("a plate of the {body} wider by up to {} on every side", by(x)),
+        Some(x) => format!("a plate of the {body} wider by {} on every side", by(x)),
+        None => format!("a wider plate of the {body}"),
+    };
     let what = match opened.freedom {
         ConflictFreedom::HomeHeight => match amount {
             Some(x) if x < 0.0 => format!("home lower by {}", by(x)),
@@ -89,6 +94,8 @@ fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> Str
         ConflictFreedom::BaseEnvelope => wider("base"),
         ConflictFreedom::PlatformEnvelope => wider("platform"),
         ConflictFreedom::MachineEnvelope => wider("machine"),
+        ConflictFreedom::BaseMargin => plate("base"),
+        ConflictFreedom::PlatformMargin => plate("platform"),
     };
     match outcome {
         FreedomWord::Resolved => {

@@ -27,6 +27,16 @@ pub use self::offsets::{
 };
 pub use self::symmetry::{SymmetryRecord, SymmetryWord};
 
+/// What is known of platforms better than the one found: the word `optimal` of a status means one or the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OptimalityWord {
+    /// No platform that could be chosen exceeds it by more than the tolerance: proved by branch and bound.
+    ProvedWithinGap,
+    /// It is a local optimum, the best of all starts; that there is none better is not proved.
+    BestOfStarts,
+}
+
 /// The answer of `optimize`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]

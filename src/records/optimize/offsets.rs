@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::OptimalityWord;
 use crate::design::Design;
 use crate::entrance::optimizing::{met_or_nothing_required, offset_status};
 use crate::entrance::{AssessReport, OptimizeStatus};
@@ -43,6 +44,8 @@ pub struct OffsetsFound<'a> {
 pub struct OffsetsAnswer {
     /// What came of the search.
     pub status: OffsetsStatus,
+    /// What is known of better ones; null: nothing, or there is no platform.
+    pub optimality: Option<OptimalityWord>,
     /// The best offsets found.
     #[serde(flatten)]
     pub solution: AllOrNone<OffsetSolutionRecord>,
@@ -73,8 +76,14 @@ impl OffsetsAnswer {
     #[must_use]
     pub fn new(found: &OffsetsFound<'_>, output: Option<&str>) -> Self {
         let (p, r) = (found.problem, found.report);
+        let status = OffsetsStatus::of(r, met_or_nothing_required(found.assessed));
         Self {
-            status: OffsetsStatus::of(r, met_or_nothing_required(found.assessed)),
+            status,
+            optimality: match status {
+                OffsetsStatus::Optimal => Some(OptimalityWord::ProvedWithinGap),
+                OffsetsStatus::LocalOptimum => Some(OptimalityWord::BestOfStarts),
+                _ => None,
+            },
             solution: r.solution().map(|s| OffsetSolutionRecord::new(p, s)).into(),
             requirements: OffsetLimitsRecord {
                 min_joint_distance: p.min_joint_distance,

@@ -15,7 +15,7 @@ pub(crate) use moments::PlateBody;
 pub(crate) use outline::on_circle;
 pub use outline::{Outline, OutlinePart};
 pub use solid::{PlateSeat, PlateSolid};
-#[cfg(feature = "files")]
+#[cfg(any(feature = "files", feature = "optimize"))]
 pub(crate) use solid::{frame_of, plate_normal};
 
 /// Materials that are known by name, with their densities in kg/m^3: rounded values of tables of engineering materials at room temperature.
@@ -132,12 +132,6 @@ impl PlateDesign {
     /// Diameter of the greatest hole.
     pub(crate) fn greatest_hole(&self) -> f64 {
         self.hole.max(self.bolts.map_or(0.0, |b| b.hole))
-    }
-
-    /// The distance of joint axes from which on their holes and feet keep apart however the patterns are turned, less nothing for a reserve.
-    pub(crate) fn sure_distance(&self) -> f64 {
-        let pattern = self.bolts.map_or(0.0, |b| b.circle + b.hole).max(self.hole);
-        (pattern + self.hole_distance).max(self.foot.unwrap_or(0.0))
     }
 }
 

@@ -193,7 +193,7 @@ impl PlateSolid {
         self.seats.iter().map(of).collect()
     }
 
-    /// For each two seats by how much their holes and feet are farther apart than they have to be, and for each seat alone the same of its own holes.
+    /// For each two seats by how much their holes and feet are farther apart than they have to be, the bolts of one from the foot of the other too, and for each seat alone the same of its own holes.
     pub(crate) fn gap_margins(&self, plate: &PlateDesign) -> Vec<HoleMargin> {
         let gap = |(p, r): &(Point2<f64>, f64), (q, s): &(Point2<f64>, f64)| {
             (p - q).norm() - r - s - plate.hole_distance
@@ -209,10 +209,19 @@ impl PlateSolid {
             for (b, others) in self.seats.iter().zip(&holes).skip(i + 1) {
                 let all = own.iter().flat_map(|p| others.iter().map(move |q| gap(p, q)));
                 let feet = plate.foot.map_or(f64::INFINITY, |foot| (a.at - b.at).norm() - foot);
+                let feet =
+                    feet.min(Self::bolts_from_foot(plate, a, b)).min(Self::bolts_from_foot(plate, b, a));
                 out.push(([a.joints[0], b.joints[0]], all.fold(feet, f64::min)));
             }
         }
         out
+    }
+
+    /// How far the bolt holes of one seat are from the foot of another; infinite without bolts or feet.
+    fn bolts_from_foot(plate: &PlateDesign, bolted: &PlateSeat, standing: &PlateSeat) -> f64 {
+        let (Some(foot), Some(bolts)) = (plate.foot, plate.bolts) else { return f64::INFINITY };
+        let away = |p: &Point2<f64>| (p - standing.at).norm() - 0.5 * (foot + bolts.hole);
+        bolted.bolts.iter().map(away).fold(f64::INFINITY, f64::min)
     }
 
     /// The greatest length that coordinates of its points are computed from.

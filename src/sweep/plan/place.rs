@@ -84,8 +84,7 @@ impl BasePlan {
     /// All violations of the text.
     pub(crate) fn candidate(&self, text: &str) -> Result<Design, Vec<Violation>> {
         let (mut design, _) = parse(text, self.format)?;
-        if let (Some(own), Some(read)) =
-            (&self.design.workspace.trajectory, &mut design.workspace.trajectory)
+        if let (Some(own), Some(read)) = (&self.design.workspace.trajectory, &mut design.workspace.trajectory)
         {
             read.poses.clone_from(&own.poses);
         }

@@ -34,8 +34,11 @@ pub(super) const NEAREST: &str = "nearest.json";
 pub(super) const NEAREST_OCTAHEDRAL: &str = "nearest-octahedral.toml";
 pub(super) const BESIDE: &str = "nearest-equivalent.toml";
 pub(super) const ASSESS: &str = "nearest-assess.json";
-const ALL: [&str; 21] = [
+/// The table of drives that the design names, beside the copy of the design.
+pub(super) const DRIVES: &str = "drives.csv";
+const ALL: [&str; 22] = [
     ORIGINAL,
+    DRIVES,
     FAMILY,
     OPTIMIZE,
     OPTIMISED,
@@ -153,7 +156,7 @@ impl Folder {
         let picture = |name: &str| {
             Path::new(name).extension().is_some_and(|end| end == "svg") || name.ends_with("/parts.csv")
         };
-        let shown = |name: &&String| !name.starts_with(MACHINE) || picture(name);
+        let shown = |name: &&String| *name != DRIVES && (!name.starts_with(MACHINE) || picture(name));
         report::read(&self.path, self.written.iter().filter(shown).map(|name| self.path.join(name)))
     }
 

@@ -8,7 +8,7 @@ mod search;
 
 use std::fmt::Write as _;
 use std::io::IsTerminal;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use self::folder::Folder;
 use self::search::Search;
@@ -20,7 +20,7 @@ use super::{export, fk as fk_command, optimize, verify as verify_command};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files::OutputPath;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::{Answer, document};
 use crate::cli::poses;
 use crate::cli::progress::{Interrupt, ProgressLine};
@@ -59,7 +59,7 @@ pub(crate) struct Args {
     /// How far a joint may lie outside its edge, on its extension, in edge lengths
     #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
-    /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could win, as `optimize --drives` does. Of octahedral designs
+    /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could win, as `optimize --drives` does, in place of that of the design (`drives` in [hardware]). Of octahedral designs
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
 }
@@ -277,6 +277,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
         let why = "no platform is searched under the requirements of a design that is not octahedral";
         context.no_effect("drives", why)?;
+        optimize::refuse_drives(&design, why)?;
         if design.holes.is_some() {
             let message =
                 "the design states [holes], and joints are put on them for octahedral designs alone";
@@ -292,16 +293,18 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return general::run(args, &design, context);
     };
     search::refuse_front(&design)?;
+    search::refuse_options(&design, args.drives.is_some(), context)?;
     if design.holes.is_some() {
         export::plain(&design)?; // units that are no lengths: now, and not after the search
     }
-    let table = args.drives.as_deref().map(|path| drives::table(path, &design, context)).transpose()?;
+    let table = drives::asked(args.drives.as_deref(), &args.design, &design, context)?;
     let mut folder = Folder::prepare(&args.output)?;
     let mut progress = ProgressLine::new(context.quiet());
     let seed = context.seed();
     let provenance = context.provenance();
     let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
-    folder.write(folder::ORIGINAL, &original(&design, seed).to_toml())?;
+    let copy = with_table_beside(&design, args, &mut folder, seed)?;
+    folder.write(folder::ORIGINAL, &copy.to_toml())?;
 
     progress.stage(1, "equivalence class");
     let family = Family::octahedral();
@@ -448,6 +451,22 @@ fn notes(a: &ExploreOctahedralAnswer) -> String {
         let _ = writeln!(out, "{}", f.message);
     }
     out
+}
+
+/// The design as it was read, with the table of drives that it names beside it in the folder.
+fn with_table_beside(
+    design: &Design,
+    args: &Args,
+    folder: &mut Folder,
+    seed: u64,
+) -> Result<Design, Failure> {
+    let mut copy = original(design, seed);
+    if let Some(name) = &design.drive_table {
+        let path = args.design.parent().unwrap_or(Path::new("")).join(name);
+        folder.write(folder::DRIVES, &files::read_text(&path)?)?;
+        copy.drive_table = Some(folder::DRIVES.to_owned());
+    }
+    Ok(copy)
 }
 
 /// The design as it was read, with a word on where the copy comes from.

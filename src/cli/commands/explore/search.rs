@@ -3,6 +3,7 @@
 use super::Asked;
 use super::folder::Folder;
 use crate::cli::commands::optimize::{self, Choices, Done, dimensional};
+use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::document;
@@ -10,7 +11,9 @@ use crate::cli::progress::ProgressLine;
 use crate::design::{Combination, Design};
 use crate::dimensional::{Progress, ShapeSearchOptions, Stage, Triangles};
 use crate::entrance::AssessReport;
-use crate::entrance::optimizing::{Checked, asks_for_more, met_or_nothing_required};
+use crate::entrance::optimizing::{
+    Checked, EXTENSION, asks_for_more, dimensional_problem, met_or_nothing_required,
+};
 use crate::entrance::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
 use crate::equivalence::Verdict;
 use crate::manufacture::NoRounding;
@@ -37,6 +40,20 @@ pub(super) fn refuse_front(design: &Design) -> Result<(), Failure> {
         return Err(Failure::refused("explore::front", message).with_help(
             "`equipod optimize` gives the front; explore one of its members, or set another mode",
         ));
+    }
+    Ok(())
+}
+
+/// Options that the search under requirements does not ask; `with_drives`: a table is given.
+pub(super) fn refuse_options(design: &Design, with_drives: bool, context: &Context) -> Result<(), Failure> {
+    if !(asks_for_more(design) || with_drives || design.drive_table.is_some()) {
+        return Ok(());
+    }
+    optimize::refuse_extension(design, context)?;
+    if dimensional_problem(design, EXTENSION).variables.triangles != Triangles::Fixed {
+        let why =
+            "a platform with other triangles has kinematics of its own, which are compared with nothing";
+        context.no_effect("samples", why)?;
     }
     Ok(())
 }

@@ -103,13 +103,17 @@ impl Done {
             self.report.others.iter().zip(list).zip(&self.candidate_paths).map(of).collect()
         };
         let candidates = self.candidates.as_ref().map(all);
+        let found = DimensionalAnswer::new(design, &self.report, found, written);
+        let status = self.status();
+        let optimality = found.optimality.filter(|_| status == DimensionalStatus::Optimal);
         DimensionalAnswer {
-            status: self.status(),
+            status,
+            optimality,
             freedoms: self.freedoms(design),
             symmetry: self.symmetry.map(SymmetryRecord::from),
             drive_search: self.drive_search(),
             candidates,
-            ..DimensionalAnswer::new(design, &self.report, found, written)
+            ..found
         }
     }
 
@@ -260,7 +264,7 @@ fn write_opened(
 pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
     let (mut progress, interrupt) =
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
-    let table = args.drives.as_deref().map(|path| drives::table(path, design, context)).transpose()?;
+    let table = drives::asked(args.drives.as_deref(), &args.design, design, context)?;
     let options = options(args, context);
     let mut done = search(design, table.as_ref(), args.extension, &options, &mut |drive, p| {
         let with = drive.map_or_else(String::new, |d| format!("{}: ", d.name));

@@ -7,7 +7,8 @@ use crate::cli::requirements;
 use crate::dimensional::DimensionalOutcome;
 use crate::records::{
     ConflictRecord, DesignRecord, DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus,
-    DriveSearchRecord, MarginRecord, NearestPlatformRecord, Number, OptimumRecord, VariableRecord,
+    DriveSearchRecord, MarginRecord, NearestPlatformRecord, Number, OptimalityWord, OptimumRecord,
+    VariableRecord,
 };
 
 /// For people.
@@ -39,6 +40,11 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
     }
     if let Some(list) = &a.candidates {
         candidates_text(&mut out, list);
+    }
+    if a.optimality == Some(OptimalityWord::BestOfStarts) {
+        out.push_str(
+            "a local optimum, the best of all starts; that there is no better platform is not proved\n",
+        );
     }
     if a.status == DimensionalStatus::Violated {
         out.push_str("the platform misses requirements and is not called optimal\n");

@@ -22,7 +22,7 @@ use crate::design::{Combination, Design};
 use crate::dimensional::InvalidProblem;
 use crate::entrance::AssessReport;
 use crate::entrance::optimizing::{
-    EXTENSION, asks_for_more, met_or_nothing_required, offset_problem, optimised_design,
+    EXTENSION, asks_for_more, dimensional_problem, met_or_nothing_required, offset_problem, optimised_design,
 };
 use crate::geom::Pose;
 use crate::manipulator::Octahedral;
@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// Write the answer and the other local optima that meet the requirements, which look different, into this folder: `equipod compare` sets them side by side. Where there is no answer, the platforms that other freedoms lead to
     #[arg(long, value_name = "DIR")]
     candidates: Option<OutputPath>,
-    /// Table of drives (.csv), as `equipod build drives` reads it: the search is made with each drive that could win, and the answer is the best platform with its drive, the cheapest with which the requirements are met where every drive has a price
+    /// Table of drives (.csv), as `equipod build drives` reads it, in place of that of the design (`drives` in [hardware]): the search is made with each drive that could win, and the answer is the best platform with its drive, the cheapest with which the requirements are met where every drive has a price
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
     /// Worker threads, one for each processor when absent; the answer does not depend on it
@@ -110,24 +110,24 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     // lengths of drives are requirements
-    if asks_for_more(&design) || args.drives.is_some() {
+    if asks_for_more(&design) || args.drives.is_some() || design.drive_table.is_some() {
         let why = "no bound over all offsets is proved for a design that asks for more than the best offsets";
         context.no_effect("gap", why)?;
         context.no_effect(
             "survey",
             "the branches of the offsets are not searched for a design that asks for more",
         )?;
-        if design.search.offset_bounds.is_some() {
-            context.no_effect("extension", "the design says how far its offsets may go (offset_bounds)")?;
-        }
+        refuse_extension(&design, context)?;
         if let Some(Combination::Pareto { points }) = design.search.mode {
             context.no_effect("history", "a front is the result of many runs")?;
             context.no_effect("candidates", "a front is a list of platforms already")?;
             context.no_effect("drives", "a front is many platforms, and a drive is chosen for one")?;
+            refuse_drives(&design, "a front is many platforms, and a drive is chosen for one")?;
             return front::run(&design, points, args, context);
         }
         let done = dimensional::run(&design, args, context)?;
-        if let (Some(path), Some(s)) = (&args.history, done.report.solution()) {
+        let shown = done.report.solution().or(done.report.nearest.as_deref());
+        if let (Some(path), Some(s)) = (&args.history, shown) {
             let of = |h: &crate::dimensional::HistoryStep| {
                 (SearchStep { value: h.gain, violation: h.violation, accepted: h.accepted }, h.radius)
             };
@@ -180,6 +180,25 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         render::text(&design, &record, &done.problem, done.report.solution())
     };
     Ok(Answer::new(exit_of(record.status), OptimizeAnswer::Offsets(Box::new(record)), text))
+}
+
+/// Refuses `--extension` in a search under requirements that does not ask it.
+pub(super) fn refuse_extension(design: &Design, context: &Context) -> Result<(), Failure> {
+    if design.search.offset_bounds.is_some() {
+        context.no_effect("extension", "the design says how far its offsets may go (offset_bounds)")?;
+    }
+    if !dimensional_problem(design, EXTENSION).variables.offsets {
+        context.no_effect("extension", "no offsets are chosen")?;
+    }
+    Ok(())
+}
+
+/// Refuses a design that names a table of drives where none is chosen.
+pub(super) fn refuse_drives(design: &Design, why: &str) -> Result<(), Failure> {
+    let Some(file) = &design.drive_table else { return Ok(()) };
+    let message = format!("the design names a table of drives ({file}), and {why}");
+    let help = "remove `drives` from [hardware], or give the limits of one drive";
+    Err(Failure::refused("drives::not_chosen", message).with_help(help))
 }
 
 /// Writes the design when a path is given; the path as it is shown.

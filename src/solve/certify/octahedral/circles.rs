@@ -88,12 +88,7 @@ impl Sides {
             let m = [p.middle[0] - q.middle[0], p.middle[1] - q.middle[1]];
             let dot = |a: &[Real; 2]| m[0] * a[0] + m[1] * a[1];
             let constant = m[0] * m[0] + m[1] * m[1] + p.squared_radius + q.squared_radius - d[k];
-            Gap {
-                constant,
-                first: dot(&self.across[k]),
-                second: -dot(&self.across[l]),
-                mixed: self.mixed[k],
-            }
+            Gap { constant, first: dot(&self.across[k]), second: -dot(&self.across[l]), mixed: self.mixed[k] }
         })
     }
 }
@@ -123,8 +118,7 @@ impl Gap {
     /// The gap and its derivatives by both `t`, rounded.
     #[inline(always)]
     fn rounded(&self, [u, v]: &OnCircle, [p, q]: &OnCircle) -> [ComplexBatch; 3] {
-        let (a, b, [same, other]) =
-            (self.first.centre, self.second.centre, self.mixed.map(|x| x.centre));
+        let (a, b, [same, other]) = (self.first.centre, self.second.centre, self.mixed.map(|x| x.centre));
         let (up, vq, uq, vp) = (*u * *p, *v * *q, *u * *q, *v * *p);
         let (along, across) = ((up - vq).times(same), (uq - vp).times(other));
         let value = (*u + *v).times(a) + (*p + *q).times(b) + (up + vq).times(same) - (uq + vp).times(other);
@@ -159,7 +153,8 @@ const REACH: f64 = 1.0 / 16.0;
 const STRETCH: f64 = 1.065;
 
 /// The three rows and columns of the matrix of derivatives that are not zero: `(row, column, derivative)`.
-const ENTRIES: [(usize, usize, usize); 6] = [(0, 0, 1), (0, 1, 2), (1, 1, 1), (1, 2, 2), (2, 2, 1), (2, 0, 2)];
+const ENTRIES: [(usize, usize, usize); 6] =
+    [(0, 0, 1), (0, 1, 2), (1, 1, 1), (1, 2, 2), (2, 2, 1), (2, 0, 2)];
 
 /// An approximate inverse of the derivatives, by Cramer's rule.
 #[inline(always)]

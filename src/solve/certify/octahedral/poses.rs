@@ -99,7 +99,9 @@ pub(super) fn place(design: &OctahedralCertifier, circles: &[Circle; 3], zeros: 
         ax[k].widen(grow(dx[k] * r + rest_x) + move_x.times(4.0 * unknown));
         ay[k].widen(grow(dy[k] * r + rest_y) + move_y.times(4.0 * unknown));
         az[k].widen(grow(dz[k] * r) + rest_z);
-        p4[k].widen(grow(sizes(&moves[0][k]) * r + zeros.sizes[0] * r * r) + (zeros.sizes[0] * r).times(unknown));
+        p4[k].widen(
+            grow(sizes(&moves[0][k]) * r + zeros.sizes[0] * r * r) + (zeros.sizes[0] * r).times(unknown),
+        );
     }
     Placed { p4, frame: [ax, ay, az] }
 }
@@ -155,11 +157,7 @@ pub(super) struct Deviation {
 
 /// How far the poses are from the certified ones.
 #[inline(always)]
-pub(super) fn deviation(
-    design: &OctahedralCertifier,
-    placed: &Placed,
-    given: &Given,
-) -> Deviation {
+pub(super) fn deviation(design: &OctahedralCertifier, placed: &Placed, given: &Given) -> Deviation {
     let (re, rg) = (design.base.axes_radius(), design.platform.axes_radius());
     let (rho, m) = extremes(&placed.frame);
     let (rho4, m4) = extremes(&[placed.p4]);
@@ -205,10 +203,8 @@ pub(super) struct Given {
 impl Given {
     #[inline(always)]
     pub(super) fn of(poses: &[ComplexPose; 2 * PAIRS], unit: f64) -> Self {
-        let mut out = Self {
-            rotation: [[[ComplexBatch::ZERO; 3]; 3]; 2],
-            position: [[ComplexBatch::ZERO; 3]; 2],
-        };
+        let mut out =
+            Self { rotation: [[[ComplexBatch::ZERO; 3]; 3]; 2], position: [[ComplexBatch::ZERO; 3]; 2] };
         let over = unit.recip();
         for k in 0..LANES {
             for image in 0..2 {

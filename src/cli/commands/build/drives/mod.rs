@@ -12,15 +12,15 @@ use crate::cli::output::Answer;
 use crate::cli::requirements;
 use crate::design::{Design, Drive, DriveTable};
 use crate::entrance::PlatformMotion;
-use crate::records::{DriveRecord, DrivesAnswer};
+use crate::records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 
 /// Arguments of `build drives`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// Design file (.toml or .json) with its home pose, workspace, limits and loads
     design: PathBuf,
-    /// Table of drives (.csv) whose first line names the columns and their units: name, stroke, dead or retracted length, force, speed, mass, stiffness, price, source
-    table: PathBuf,
+    /// Table of drives (.csv), that of the design (`drives` in [hardware]) when absent; its first line names the columns and their units: name, stroke, dead or retracted length, force, speed, mass, stiffness, price, source
+    table: Option<PathBuf>,
     /// A table with a time in seconds and a pose a line, along which the drives have to be fast and strong enough too
     #[arg(long, value_name = "FILE")]
     trajectory: Option<PathBuf>,
@@ -41,7 +41,11 @@ pub(crate) struct Args {
 /// Exit 0 where a drive is proved to fit, 1 where all are proved not to, 3 otherwise.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let table = table(&args.table, &design, context)?;
+    let Some(table) = asked(args.table.as_deref(), &args.design, &design, context)? else {
+        let message = "neither the command nor the design names a table of drives";
+        return Err(Failure::refused("drives::no_table", message)
+            .with_help("give a table, or add drives = \"drives.csv\" to [hardware]"));
+    };
     let choice = motion::ChosenMotions::new(args.trajectory.as_deref(), &args.sine, &args.accelerate);
     if choice.is_empty() {
         context.no_effect("unit", "there is no motion")?;
@@ -83,6 +87,28 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     };
     let text = render::text(&answer);
     Ok(Answer::new(requirements::exit_of(met), answer, text))
+}
+
+/// The table of drives that an option names, or the design beside its file.
+pub(in crate::cli::commands) fn asked(
+    option: Option<&Path>,
+    file: &Path,
+    design: &Design,
+    context: &Context,
+) -> Result<Option<DriveTable>, Failure> {
+    let beside = design.drive_table.as_ref().map(|name| file.parent().unwrap_or(Path::new("")).join(name));
+    option.map(Path::to_path_buf).or(beside).map(|path| table(&path, design, context)).transpose()
+}
+
+/// What the table that a design names says of its lightest drive; `None` where it names none.
+pub(in crate::cli::commands) fn lightest(
+    file: &Path,
+    design: &Design,
+    context: &Context,
+) -> Result<Option<LightestDriveRecord>, Failure> {
+    let Some(table) = asked(None, file, design, context)? else { return Ok(None) };
+    let found = design.lightest_drive(&table.drives, context.seed());
+    Ok(Some(LightestDriveRecord::new(&found, design.drive_units().mass.label())))
 }
 
 /// Reads a table of drives in the units of a design.

@@ -93,7 +93,8 @@ fn gaps_are_squared_distances_over_the_rationals() {
 /// Second derivatives within the reach stay below twice `q`, for corners of any kind.
 #[test]
 fn the_curvature_is_a_bound() {
-    let triangle = Triangle::of([[0.0, 0.0, 0.0], [2.0, 0.1, 0.0], [0.4, 1.5, 0.3]].map(|p| p.map(Real::point)));
+    let triangle =
+        Triangle::of([[0.0, 0.0, 0.0], [2.0, 0.1, 0.0], [0.4, 1.5, 0.3]].map(|p| p.map(Real::point)));
     let sides = Sides::of(&triangle);
     let mut rng = Rng::new(6);
     let mut closest = 0.0_f64;
@@ -117,7 +118,8 @@ fn the_curvature_is_a_bound() {
             let step = 1e-4;
             let value = |n: f64| {
                 let turn = |[u, v]: OnCircle, t: num_complex::Complex64| {
-                    let lanes = |z: num_complex::Complex64| ComplexBatch { re: [z.re; LANES], im: [z.im; LANES] };
+                    let lanes =
+                        |z: num_complex::Complex64| ComplexBatch { re: [z.re; LANES], im: [z.im; LANES] };
                     [u * lanes(t.exp()), v * lanes((-t).exp())]
                 };
                 let moved = [0, 1].map(|i| at[i] + way[i] * (n * step));
