@@ -68,6 +68,10 @@ typedef enum eqp_status {
      A fault of the library.
      */
     EQP_STATUS_INTERNAL = 12,
+    /*
+     The legs of a design are rods on cranks: functions for them are in the C of `equipod export DESIGN --to c`.
+     */
+    EQP_STATUS_CRANKS = 13,
 } eqp_status;
 
 /*

@@ -3,6 +3,7 @@
 use std::ffi::{CStr, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use crate::design::Code;
 use crate::entrance::Error;
 
 /// What became of a call.
@@ -35,6 +36,8 @@ pub enum EqpStatus {
     Computation = 11,
     /// A fault of the library.
     Internal = 12,
+    /// The legs of a design are rods on cranks: functions for them are in the C of `equipod export DESIGN --to c`.
+    Cranks = 13,
 }
 
 /// Bytes of the message of an error, the zero at its end included.
@@ -67,6 +70,7 @@ pub extern "C" fn eqp_status_text(status: i32) -> *const c_char {
         10 => c"an index beyond the number of items",
         11 => c"a computation that broke down",
         12 => c"a fault of the library",
+        13 => c"legs that are rods on cranks, which the C of `equipod export DESIGN --to c` takes",
         _ => c"no status of this library",
     };
     text.as_ptr()
@@ -91,6 +95,15 @@ impl CallFault {
 
 impl From<Error> for CallFault {
     fn from(error: Error) -> Self {
+        if let Error::Design { violations, .. } = &error
+            && violations.iter().any(|v| v.code == Code::Rotary)
+        {
+            // what to do comes first: a message that is too long is cut at its end
+            let message = format!(
+                "the legs are rods on cranks, and this library takes legs that change their lengths; `equipod export DESIGN --to c` writes C for cranks: {error}"
+            );
+            return Self::new(EqpStatus::Cranks, message);
+        }
         let status = match &error {
             Error::Design { .. } | Error::Trajectory { .. } => EqpStatus::BadDesign,
             Error::File { .. } => EqpStatus::File,

@@ -214,3 +214,20 @@ fn a_panic_stays_inside_and_long_messages_are_cut_between_characters() {
     assert_eq!(status, EqpStatus::File);
     assert_eq!(message(&error).chars().count(), (EQP_MESSAGE - 1) / 2);
 }
+
+#[test]
+fn cranks_are_refused_with_a_code_of_their_own() {
+    let text = include_str!("../../designs/presets/reachy-mini.toml");
+    let mut made = null_mut();
+    let mut error = no_error();
+    // SAFETY: the pointers are those of the test's own values.
+    let status =
+        unsafe { eqp_design_from_toml(text.as_ptr().cast(), text.len(), &raw mut made, &raw mut error) };
+    assert_eq!((status, error.status), (EqpStatus::Cranks, EqpStatus::Cranks));
+    assert!(made.is_null());
+    let message = message(&error);
+    assert!(message.contains("`equipod export DESIGN --to c`") && message.contains("design::rotary"), "{message}");
+    // SAFETY: a text that stays and ends with a zero.
+    let text = unsafe { CStr::from_ptr(eqp_status_text(13)) }.to_str().unwrap();
+    assert!(text.contains("cranks"), "{text}");
+}

@@ -238,3 +238,14 @@ fn equivalent_platforms_have_one_region_without_singular_poses_and_tolerances_of
         );
     }
 }
+
+#[test]
+fn a_base_design_with_cranks_is_refused_at_its_place() {
+    let text = include_str!("../../designs/presets/reachy-mini.toml");
+    let violations = BasePlan::new(PlanText { text, format: Format::Toml }).unwrap_err();
+    let refused = violations.iter().find(|v| v.code == crate::design::Code::Rotary).unwrap();
+    let line = text.lines().position(|l| l.starts_with("drive = \"rotary\"")).unwrap() + 1;
+    assert_eq!(refused.line, line);
+    assert!(refused.message.contains("base design of a sweep"), "{refused}");
+    assert!(refused.help.contains("squared leg lengths"), "{refused}");
+}

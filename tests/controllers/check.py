@@ -213,6 +213,42 @@ def operations(folder):
         print(run(place / "operations")[1])
 
 
+def table_of_operations(folder):
+    """The kinematics module with a table of operations, against a stand-in for LinuxCNC's headers, and against the true ones where KINS_HEADERS names their
+    folders, with colons between them. The module of 2.9 has to suit the stand-in too."""
+    if not has("gcc"):
+        return
+    height = float(re.search(r"equipod_home = .*?\{R\([^)]*\), R\([^)]*\), R\(([\d.]+)\)\}\s*\};", (folder / "equipod_design.c").read_text(), re.S).group(1))
+    options = ["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]
+    own = ["-I", HERE / "kins"]
+    code, out = run("gcc", *options, *own, "-fsyntax-only", folder / "equipodkins.c")
+    told(code == 0, "equipodkins suits the stand-in", out)
+    binary = folder / "kins"
+    for fault in (False, True):
+        source = folder / "equipodkins_ops.c"
+        if fault:
+            # a planted fault: degrees that are a little off
+            place = folder / "kins-wrong"
+            shutil.copytree(folder, place)
+            header = place / "equipodkins.h"
+            header.write_text(header.read_text().replace("#define DEGREE 0.017453292519943295", "#define DEGREE 0.0174532925"))
+            source = place / "equipodkins_ops.c"
+        sources = [source, HERE / "kins/check.c", "-lm"]
+        code, out = run("gcc", *options, "-O2", *SANITIZE, f"-DHOME_Z={height}", *own, *sources, "-o", binary)
+        if told(code == 0, "equipodkins_ops suits the stand-in", out):
+            code, out = run(binary)
+            told((code != 0) == fault, f"equipodkins_ops {'finds the planted fault' if fault else 'goes there and back'}", out)
+            if not fault:
+                print(f"  equipodkins_ops: {out.strip()}")
+    headers = [part for part in os.environ.get("KINS_HEADERS", "").split(":") if part]
+    if not headers:
+        print("  KINS_HEADERS is not set: equipodkins_ops was not compiled with LinuxCNC's own headers")
+        return
+    true = [x for part in headers for x in ("-I", part)]
+    code, out = run("gcc", *options, "-DRTAPI", "-DUSPACE", "-D_GNU_SOURCE", *true, "-fsyntax-only", folder / "equipodkins_ops.c")
+    told(code == 0, "equipodkins_ops compiles with LinuxCNC's own headers", out)
+
+
 def linuxcnc(program, folder):
     """The kinematics module with the headers and the HAL of LinuxCNC, where they are."""
     root = os.environ.get("LINUXCNC_ROOT", "/")
@@ -250,6 +286,7 @@ def main():
             if number == 0 or design == "presets/reachy-mini":
                 cmake(folder)
             if number == 1:
+                table_of_operations(folder)
                 board(folder, wrong, design, args.table)
                 if args.table:
                     operations(folder)

@@ -152,7 +152,9 @@ const C_FILES: [&str; 8] = [
     "equipod_vectors.h",
     "equipod_selftest.c",
     "CMakeLists.txt",
+    "equipodkins.h",
     "equipodkins.c",
+    "equipodkins_ops.c",
 ];
 
 /// The program's own folder of C for a design, as texts.

@@ -27,23 +27,12 @@
 #include <hal.h>
 #include <kinematics.h>
 
-#include "equipod.c"
-#include "equipod_design.c"
-
-#ifdef EQUIPOD_FLOAT
-#error "equipodkins.c computes in double"
-#endif
+#include "equipodkins.h"
 
 MODULE_LICENSE("GPL");
 MODULE_DESCRIPTION("Kinematics of a Gough-Stewart platform, each pose with a test that it is the continuation of the last");
 
 #define NAME "equipodkins"
-#define LEGS 6
-/* Segments of a way, and rounds in which the turn of the screws is taken into account. */
-#define SEGMENTS 200u
-#define ROUNDS 30
-#define DEGREE 0.017453292519943295
-#define TWO_PI 6.283185307179586
 
 typedef struct {
     hal_float_t *base[LEGS][3], *platform[LEGS][3];
@@ -57,12 +46,12 @@ typedef struct {
 
 static pins_t *pins;
 static int component;
-static equipod_legs machine;
+static machine_t machine;
 static equipod_pose last;
 static int has_last;
 
-/* The joints as the pins have them, in the unit of the design. */
-static int read_joints(void)
+/* The machine as the pins have it. */
+static int read_machine(void)
 {
     double base[LEGS][3], platform[LEGS][3];
     const double offset = *pins->spindle_offset + *pins->tool_offset;
@@ -72,123 +61,13 @@ static int read_joints(void)
             const double more = k == 2 ? offset : 0;
             base[i][k] = (*pins->base[i][k] + more) / EQUIPOD_UNIT_MILLIMETRES;
             platform[i][k] = (*pins->platform[i][k] + more) / EQUIPOD_UNIT_MILLIMETRES;
+            machine.base_axis[i][k] = *pins->base_axis[i][k];
+            machine.platform_axis[i][k] = *pins->platform_axis[i][k];
         }
     }
-    return equipod_prepare(base, platform, &machine);
-}
-
-/* What the screws add to each leg at a pose, in the unit of the design; 0 where an axis points along its leg. */
-static int corrections(const equipod_pose *pose, double out[LEGS])
-{
-    const double lead = *pins->screw_lead / EQUIPOD_UNIT_MILLIMETRES;
-    int i, k;
-    for (i = 0; i < LEGS; i++) {
-        double arm[3], u[3], n[3], m[3], own[3], across[3], along_n, along_m, length, sine;
-        out[i] = 0;
-        if (lead == 0) {
-            continue;
-        }
-        leg_line(&machine, pose, i, arm, u);
-        length = norm(u);
-        for (k = 0; k < 3; k++) {
-            u[k] /= length;
-            n[k] = *pins->base_axis[i][k];
-            own[k] = *pins->platform_axis[i][k];
-        }
-        for (k = 0; k < 3; k++) {
-            m[k] = dot(pose->rotation[k], own);
-        }
-        along_n = dot(n, u);
-        along_m = dot(m, u);
-        for (k = 0; k < 3; k++) {
-            n[k] -= along_n * u[k];
-            m[k] -= along_m * u[k];
-        }
-        cross(n, m, across);
-        sine = dot(u, across) / (norm(n) * norm(m));
-        if (!(fabs(sine) <= 1 + 1e-12)) {
-            return 0;
-        }
-        out[i] = lead * asin(sine > 1 ? 1 : sine < -1 ? -1 : sine) / TWO_PI;
-    }
-    return 1;
-}
-
-static void pose_of_world(const EmcPose *world, equipod_pose *pose)
-{
-    double position[3], angles[3];
-    position[0] = world->tran.x / EQUIPOD_UNIT_MILLIMETRES;
-    position[1] = world->tran.y / EQUIPOD_UNIT_MILLIMETRES;
-    position[2] = world->tran.z / EQUIPOD_UNIT_MILLIMETRES;
-    angles[0] = world->a * DEGREE;
-    angles[1] = world->b * DEGREE;
-    angles[2] = world->c * DEGREE;
-    equipod_pose_from_angles(position, angles, pose);
-}
-
-/* The angle of the same turn next to the one before. */
-static double next_to(double angle, double before)
-{
-    return angle + 360 * floor((before - angle) / 360 + 0.5);
-}
-
-static void world_of_pose(const equipod_pose *pose, EmcPose *world)
-{
-    double angles[3];
-    equipod_angles(pose, angles);
-    world->tran.x = pose->position[0] * EQUIPOD_UNIT_MILLIMETRES;
-    world->tran.y = pose->position[1] * EQUIPOD_UNIT_MILLIMETRES;
-    world->tran.z = pose->position[2] * EQUIPOD_UNIT_MILLIMETRES;
-    world->a = next_to(angles[0] / DEGREE, world->a);
-    world->b = next_to(angles[1] / DEGREE, world->b);
-    world->c = next_to(angles[2] / DEGREE, world->c);
-}
-
-/* The pose whose legs, with what the screws add, have the lengths of the joints: the corrections of a pose shorten the legs of the next. */
-static equipod_status pose_from(const double joints[LEGS], const equipod_pose *start, equipod_result *result)
-{
-    double add[LEGS], s[LEGS], change, before[LEGS];
-    equipod_pose from = *start;
-    unsigned steps = 0;
-    int round, i;
-    if (!corrections(start, add)) {
-        return EQUIPOD_LOST;
-    }
-    for (round = 0; round < ROUNDS; round++) {
-        for (i = 0; i < LEGS; i++) {
-            const double length = joints[i] / EQUIPOD_UNIT_MILLIMETRES - add[i];
-            if (!(length > 0)) {
-                return EQUIPOD_LOST;
-            }
-            s[i] = length * length;
-            before[i] = add[i];
-        }
-#ifdef EQUIPOD_HAS_OCTAHEDRAL
-        if (*pins->octahedral) {
-            equipod_track_mapped(&equipod_to_octahedral, &equipod_octahedral, &machine, s, &from, EQUIPOD_SINGULAR, SEGMENTS, 3, result);
-        } else
-#endif
-        {
-            equipod_track(&machine, s, 0, &from, EQUIPOD_SINGULAR, SEGMENTS, result);
-        }
-        steps += result->newton_steps;
-        result->newton_steps = steps;
-        if (result->status != EQUIPOD_TRACKED) {
-            return result->status;
-        }
-        from = result->pose;
-        if (!corrections(&from, add)) {
-            return EQUIPOD_LOST;
-        }
-        change = 0;
-        for (i = 0; i < LEGS; i++) {
-            change = fmax(change, fabs(add[i] - before[i]));
-        }
-        if (change <= 1e-13 * machine.unit) {
-            return EQUIPOD_TRACKED;
-        }
-    }
-    return EQUIPOD_LOST;
+    machine.screw_lead = *pins->screw_lead;
+    machine.octahedral = *pins->octahedral;
+    return equipod_prepare(base, platform, &machine.legs);
 }
 
 int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags, KINEMATICS_INVERSE_FLAGS *iflags)
@@ -199,16 +78,16 @@ int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMAT
     (void)fflags;
     (void)iflags;
     *pins->failed = 1;
-    if (!read_joints()) {
+    if (!read_machine()) {
         return -1;
     }
     result.newton_steps = 0;
     result.frobenius_ratio = 0;
     result.position_error = 0;
     pose_of_world(world, &start);
-    status = pose_from(joints, &start, &result);
+    status = pose_from(&machine, joints, &start, &result);
     if (status != EQUIPOD_TRACKED) {
-        status = pose_from(joints, has_last ? &last : &equipod_home, &result);
+        status = pose_from(&machine, joints, has_last ? &last : &equipod_home, &result);
     }
     *pins->status = (hal_u32_t)status;
     *pins->iterations = result.newton_steps;
@@ -232,16 +111,11 @@ int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMAT
     (void)iflags;
     (void)fflags;
     pose_of_world(world, &pose);
-    if (!read_joints() || !corrections(&pose, add)) {
+    if (!read_machine() || !joints_at(&machine, &pose, joints, add)) {
         return -1;
     }
-    equipod_lengths(&machine, &pose, joints);
     for (i = 0; i < LEGS; i++) {
-        if (!(joints[i] > 0)) {
-            return -1;
-        }
-        joints[i] = (joints[i] + add[i]) * EQUIPOD_UNIT_MILLIMETRES;
-        *pins->correction[i] = add[i] * EQUIPOD_UNIT_MILLIMETRES;
+        *pins->correction[i] = add[i];
     }
     return 0;
 }

@@ -59,7 +59,9 @@ impl Writer for C {
             ExportedFile::new("equipod_vectors.h", vectors::text(export)),
             ExportedFile::new("equipod_selftest.c", include_str!("equipod_selftest.c").to_string()),
             ExportedFile::new("CMakeLists.txt", include_str!("CMakeLists.txt").to_string()),
+            ExportedFile::new("equipodkins.h", include_str!("equipodkins.h").to_string()),
             ExportedFile::new("equipodkins.c", include_str!("equipodkins.c").to_string()),
+            ExportedFile::new("equipodkins_ops.c", include_str!("equipodkins_ops.c").to_string()),
         ])
     }
 }

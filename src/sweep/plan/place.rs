@@ -32,7 +32,7 @@ impl BasePlan {
     /// All violations of the design.
     pub(crate) fn new(plan: PlanText<'_>) -> Result<Self, Vec<Violation>> {
         let text = plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text).to_owned();
-        let (design, _) = parse(&text, plan.format)?;
+        let (design, _) = parse(&text, plan.format).map_err(refused_as_base)?;
         let mut report = Findings::new(&text);
         let Some(root) = read(&text, plan.format, &mut report) else { return Err(report.into_violations()) };
         Ok(Self { format: plan.format, design, drives: None, root, text })
@@ -174,4 +174,14 @@ fn kinds_of(design: &Design) -> Vec<TermKind> {
     let (m, required, home) = (design.manipulator(), design.requirements(), design.home_or_default());
     let terms = Terms::new(m, &required, &home);
     terms.fixed().into_iter().chain(terms.at(&home)).map(|(term, _)| term.kind).collect()
+}
+
+/// What is wrong with a base design; of cranks it says what a sweep takes.
+fn refused_as_base(mut violations: Vec<Violation>) -> Vec<Violation> {
+    for v in violations.iter_mut().filter(|v| v.code == crate::design::Code::Rotary) {
+        v.message =
+            "the legs are rods on cranks, and the base design of a sweep has legs that change their lengths".into();
+        v.help = "the columns of a sweep are about squared leg lengths, leg lengths and their range: `equipod assess` takes a design with cranks, one at a time".into();
+    }
+    violations
 }

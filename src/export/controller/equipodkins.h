@@ -1,0 +1,160 @@
+/* What both kinematics modules for LinuxCNC compute: equipodkins.c for 2.9 and equipodkins_ops.c for the interface with kins_ops. Each includes this file once,
+ * after its headers; it keeps nothing between calls. */
+#ifndef EQUIPODKINS_H
+#define EQUIPODKINS_H
+
+#include "equipod.c"
+#include "equipod_design.c"
+
+#ifdef EQUIPOD_FLOAT
+#error "the modules for LinuxCNC compute in double"
+#endif
+
+#define LEGS 6
+/* Segments of a way, and rounds in which the turn of the screws is taken into account. */
+#define SEGMENTS 200u
+#define ROUNDS 30
+#define DEGREE 0.017453292519943295
+#define TWO_PI 6.283185307179586
+
+/* A machine as it was measured: its joints in the unit of the design, the axes next to base and platform, the lead in millimetres. */
+typedef struct {
+    equipod_legs legs;
+    double base_axis[LEGS][3], platform_axis[LEGS][3];
+    double screw_lead;
+    int octahedral;
+} machine_t;
+
+/* What the screws add to each leg at a pose, in the unit of the design; 0 where an axis points along its leg. */
+static int corrections(const machine_t *machine, const equipod_pose *pose, double out[LEGS])
+{
+    const double lead = machine->screw_lead / EQUIPOD_UNIT_MILLIMETRES;
+    int i, k;
+    for (i = 0; i < LEGS; i++) {
+        double arm[3], u[3], n[3], m[3], own[3], across[3], along_n, along_m, length, sine;
+        out[i] = 0;
+        if (lead == 0) {
+            continue;
+        }
+        leg_line(&machine->legs, pose, i, arm, u);
+        length = norm(u);
+        for (k = 0; k < 3; k++) {
+            u[k] /= length;
+            n[k] = machine->base_axis[i][k];
+            own[k] = machine->platform_axis[i][k];
+        }
+        for (k = 0; k < 3; k++) {
+            m[k] = dot(pose->rotation[k], own);
+        }
+        along_n = dot(n, u);
+        along_m = dot(m, u);
+        for (k = 0; k < 3; k++) {
+            n[k] -= along_n * u[k];
+            m[k] -= along_m * u[k];
+        }
+        cross(n, m, across);
+        sine = dot(u, across) / (norm(n) * norm(m));
+        if (!(fabs(sine) <= 1 + 1e-12)) {
+            return 0;
+        }
+        out[i] = lead * asin(sine > 1 ? 1 : sine < -1 ? -1 : sine) / TWO_PI;
+    }
+    return 1;
+}
+
+static void pose_of_world(const EmcPose *world, equipod_pose *pose)
+{
+    double position[3], angles[3];
+    position[0] = world->tran.x / EQUIPOD_UNIT_MILLIMETRES;
+    position[1] = world->tran.y / EQUIPOD_UNIT_MILLIMETRES;
+    position[2] = world->tran.z / EQUIPOD_UNIT_MILLIMETRES;
+    angles[0] = world->a * DEGREE;
+    angles[1] = world->b * DEGREE;
+    angles[2] = world->c * DEGREE;
+    equipod_pose_from_angles(position, angles, pose);
+}
+
+/* The angle of the same turn next to the one before. */
+static double next_to(double angle, double before)
+{
+    return angle + 360 * floor((before - angle) / 360 + 0.5);
+}
+
+static void world_of_pose(const equipod_pose *pose, EmcPose *world)
+{
+    double angles[3];
+    equipod_angles(pose, angles);
+    world->tran.x = pose->position[0] * EQUIPOD_UNIT_MILLIMETRES;
+    world->tran.y = pose->position[1] * EQUIPOD_UNIT_MILLIMETRES;
+    world->tran.z = pose->position[2] * EQUIPOD_UNIT_MILLIMETRES;
+    world->a = next_to(angles[0] / DEGREE, world->a);
+    world->b = next_to(angles[1] / DEGREE, world->b);
+    world->c = next_to(angles[2] / DEGREE, world->c);
+}
+
+/* The pose whose legs, with what the screws add, have the lengths of the joints: the corrections of a pose shorten the legs of the next. */
+static equipod_status pose_from(const machine_t *machine, const double joints[LEGS], const equipod_pose *start, equipod_result *result)
+{
+    double add[LEGS], s[LEGS], change, before[LEGS];
+    equipod_pose from = *start;
+    unsigned steps = 0;
+    int round, i;
+    if (!corrections(machine, start, add)) {
+        return EQUIPOD_LOST;
+    }
+    for (round = 0; round < ROUNDS; round++) {
+        for (i = 0; i < LEGS; i++) {
+            const double length = joints[i] / EQUIPOD_UNIT_MILLIMETRES - add[i];
+            if (!(length > 0)) {
+                return EQUIPOD_LOST;
+            }
+            s[i] = length * length;
+            before[i] = add[i];
+        }
+#ifdef EQUIPOD_HAS_OCTAHEDRAL
+        if (machine->octahedral) {
+            equipod_track_mapped(&equipod_to_octahedral, &equipod_octahedral, &machine->legs, s, &from, EQUIPOD_SINGULAR, SEGMENTS, 3, result);
+        } else
+#endif
+        {
+            equipod_track(&machine->legs, s, 0, &from, EQUIPOD_SINGULAR, SEGMENTS, result);
+        }
+        steps += result->newton_steps;
+        result->newton_steps = steps;
+        if (result->status != EQUIPOD_TRACKED) {
+            return result->status;
+        }
+        from = result->pose;
+        if (!corrections(machine, &from, add)) {
+            return EQUIPOD_LOST;
+        }
+        change = 0;
+        for (i = 0; i < LEGS; i++) {
+            change = fmax(change, fabs(add[i] - before[i]));
+        }
+        if (change <= 1e-13 * machine->legs.unit) {
+            return EQUIPOD_TRACKED;
+        }
+    }
+    return EQUIPOD_LOST;
+}
+
+/* Joint values at a pose, and what the screws add to them, millimetres; 0 where a leg has no length or an axis no direction. */
+static int joints_at(const machine_t *machine, const equipod_pose *pose, double joints[LEGS], double add[LEGS])
+{
+    int i;
+    if (!corrections(machine, pose, add)) {
+        return 0;
+    }
+    equipod_lengths(&machine->legs, pose, joints);
+    for (i = 0; i < LEGS; i++) {
+        if (!(joints[i] > 0)) {
+            return 0;
+        }
+        joints[i] = (joints[i] + add[i]) * EQUIPOD_UNIT_MILLIMETRES;
+        add[i] *= EQUIPOD_UNIT_MILLIMETRES;
+    }
+    return 1;
+}
+
+#endif
