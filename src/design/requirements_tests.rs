@@ -32,6 +32,11 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     let of = |body, joint| table.deviation(body, joint).map(|v| v.z);
     assert_eq!((of(Body::Base, 0), of(Body::Base, 1), of(Body::Base, 2)), (Some(0.3), None, Some(0.3)));
     assert_eq!((of(Body::Platform, 0), of(Body::Platform, 2)), (Some(0.03), None));
+    let correlations = table.correlations.as_ref().unwrap();
+    let (p4z, sixth) = (correlations.unknowns[1], CalibratedNumber::Offset(5));
+    assert_eq!((p4z, table.deviation_of(p4z)), (CalibratedNumber::Coordinate { body: Body::Platform, joint: 0, axis: 2 }, Some(0.03)));
+    assert_eq!((correlations.unknowns[2], table.deviation_of(sixth)), (sixth, Some(0.03)));
+    assert_eq!((correlations.matrix()[(1, 2)], correlations.matrix()[(2, 0)]), (0.75, -0.25));
     let required = design.requirements();
     assert_eq!(
         (required.loads.len(), required.keep_outs.len(), required.platform_speed.unwrap().linear),
@@ -82,7 +87,14 @@ fn what_contradicts_itself_is_refused() {
         ("offsets = [0.1, -0.2, 0,", "offsets = [0.1,"),
         ("offset_deviations = [0.01", "offset_deviations = [-0.01"),
         ("P1 = [0.1, 0.2, 0.3]", "P1 = [0.1, 0.2]"),
-        ("P4 = [0.01, 0.02, 0.03]", "P1 = [0.01, 0.02, 0.03]"),
+        ("P4 = [0.01, 0.02, 0.03]\n[cal", "P1 = [0.01, 0.02, 0.03]\nP4 = [0.01, 0.02, 0.03]\n[cal"),
+        ("unknowns = [", "unknown = ["),
+        ("\"base.P1.x\", \"platform.P4.z\", \"offset.6\"", "\"base.P1.w\", \"platform.P5.z\", \"offset.7\""),
+        ("\"platform.P4.z\", \"offset.6\"", "\"offset.6\", \"offset.6\""),
+        ("[[1], [0.5, 1], [-0.25, 0.75, 1]]", "[[1], [0.5, 1]]"),
+        ("[[1], [0.5, 1], [-0.25, 0.75, 1]]", "[[1, 0.5, 0], [0.4, 1, 0], [0, 0, 0.9]]"),
+        ("[[1], [0.5, 1], [-0.25, 0.75, 1]]", "[[1], [1.5, 1], [0, \"a\", 1]]"),
+        ("[[1], [0.5, 1], [-0.25, 0.75, 1]]", "[[1], [0.9, 1], [-0.9, 0.9, 1]]"),
     ] {
         assert!(GOOD.contains(from), "{from}");
         match parse(&GOOD.replacen(from, to, 1), Format::Toml) {
