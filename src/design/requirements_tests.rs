@@ -34,7 +34,10 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     assert_eq!((of(Body::Platform, 0), of(Body::Platform, 2)), (Some(0.03), None));
     let correlations = table.correlations.as_ref().unwrap();
     let (p4z, sixth) = (correlations.unknowns[1], CalibratedNumber::Offset(5));
-    assert_eq!((p4z, table.deviation_of(p4z)), (CalibratedNumber::Coordinate { body: Body::Platform, joint: 0, axis: 2 }, Some(0.03)));
+    assert_eq!(
+        (p4z, table.deviation_of(p4z)),
+        (CalibratedNumber::Coordinate { body: Body::Platform, joint: 0, axis: 2 }, Some(0.03))
+    );
     assert_eq!((correlations.unknowns[2], table.deviation_of(sixth)), (sixth, Some(0.03)));
     assert_eq!((correlations.matrix()[(1, 2)], correlations.matrix()[(2, 0)]), (0.75, -0.25));
     let required = design.requirements();

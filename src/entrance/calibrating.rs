@@ -167,3 +167,47 @@ pub(crate) fn unknown_names(design: &Design, unknowns: &Unknowns) -> Vec<String>
     };
     unknowns.list().iter().map(name).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibration::{MeasurementNoise, pose_deviation};
+    use crate::design::{Format, parse};
+    use crate::geom::Angles;
+    use crate::num::Rng;
+    use nalgebra::Point3;
+
+    #[test]
+    fn a_written_calibration_leaves_as_much_open_as_the_one_in_memory() {
+        let design = Design::load("designs/symmetric-hexapod.toml").unwrap();
+        let home = design.home_or_default();
+        let mut rng = Rng::new(11);
+        let turned = |k: u32, n: f64| 20.0 * (n * f64::from(k)).sin();
+        let rows: Vec<Measurement> = (0..40)
+            .map(|k| {
+                let at = Vector3::new(turned(k, 1.3), turned(k, 2.7), turned(k, 5.1));
+                let angles = Angles::from_degrees([turned(k, 1.7), turned(k, 3.1), turned(k, 4.3)]);
+                let pose = Pose::new(home.position + at, angles);
+                let lengths = design.ik(&pose).unwrap().get().map(|l| l + 0.005 * rng.normal());
+                Measurement { pose, lengths }
+            })
+            .collect();
+        let noise = MeasurementNoise { length: 0.005, position: 0.01, rotation: 2e-5 };
+        let options = CalibrateOptions { noise: Some(noise), ..CalibrateOptions::default() };
+        let found = design.calibrate(&rows, &options).unwrap();
+        let text = design.with_calibration(&found, None).unwrap().to_toml();
+        let again = parse(&text, Format::Toml).unwrap().0;
+        assert_eq!(again.to_toml(), text);
+        let known = again.machine_uncertainty().unwrap();
+        for row in rows.iter().take(10) {
+            let wanted = pose_deviation(&found.model, &found.unknowns, &found.root, &row.pose).unwrap();
+            let of = |u: &MachineUncertainty| {
+                u.pose_covariance(again.manipulator(), &row.pose, &Point3::origin()).unwrap()
+            };
+            let (kept, independent) = (of(&known), of(&known.independent()));
+            assert!((kept.position / wanted.position - 1.0).abs() < 1e-5, "{kept:?} {wanted:?}");
+            assert!((kept.rotation / wanted.rotation - 1.0).abs() < 1e-5, "{kept:?} {wanted:?}");
+            assert!(independent.position > 2.0 * kept.position, "{independent:?} {kept:?}");
+        }
+    }
+}

@@ -61,7 +61,12 @@ impl MachineUncertainty {
     ///
     /// With the derivatives `G` of the error of the pose by those of joints and offsets ([`Sensitivity`]) it is `G C G^T`, to first order. The noise of the lengths is not in it.
     #[must_use]
-    pub fn pose_covariance(&self, m: &Manipulator, pose: &Pose, tool: &Point3<f64>) -> Option<PoseCovariance> {
+    pub fn pose_covariance(
+        &self,
+        m: &Manipulator,
+        pose: &Pose,
+        tool: &Point3<f64>,
+    ) -> Option<PoseCovariance> {
         let s = Sensitivity::at(m, pose, tool)?;
         let count = s.position.len();
         if self.root.nrows() != 3 * count + 6 {
@@ -92,5 +97,79 @@ impl MachineUncertainty {
         let count = (self.root.nrows() - 6) / 3;
         let joint = |k: usize| Vector3::new(errors[3 * k], errors[3 * k + 1], errors[3 * k + 2]);
         ((0..count).map(joint).collect(), std::array::from_fn(|leg| errors[3 * count + leg]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Angles;
+
+    /// Three base joints and three platform joints, each of two legs.
+    fn octahedral() -> Manipulator {
+        let corner = |radius: f64, turn: f64| {
+            move |k: usize| {
+                let (sin, cos) = (turn + k as f64 * 120.0).to_radians().sin_cos();
+                Point3::new(radius * cos, radius * sin, 0.0)
+            }
+        };
+        let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+        let base = (0..3).map(corner(5.0, 0.0)).collect();
+        Manipulator::try_new(base, (0..3).map(corner(3.0, 60.0)).collect(), pairs).unwrap()
+    }
+
+    #[test]
+    fn joints_that_are_off_together_move_the_pose_and_do_not_turn_it() {
+        let m = octahedral();
+        let pose = Pose::new(Vector3::new(0.3, -0.2, 4.0), Angles::from_degrees([5.0, -3.0, 8.0]));
+        let tool = Point3::new(0.5, 1.0, 2.0);
+        // all base joints along x by the same normal number of deviation 0.1: the computed pose is shifted by it, whatever the legs
+        let along_x = |k: usize| k < 9 && k % 3 == 0;
+        let deviations: Vec<f64> = (0..24).map(|k| if along_x(k) { 0.1 } else { 0.0 }).collect();
+        let together = |i: usize, j: usize| f64::from(u8::from(i == j || (along_x(i) && along_x(j))));
+        let known = MachineUncertainty::new(&deviations, &DMatrix::from_fn(24, 24, together)).unwrap();
+        let found = known.pose_covariance(&m, &pose, &tool).unwrap();
+        let mut wanted = Matrix6::zeros();
+        wanted[(0, 0)] = 0.01;
+        assert!((found.matrix - wanted).amax() < 1e-14, "{}", found.matrix);
+        assert!((found.position - 0.1).abs() < 1e-13 && found.rotation < 1e-13, "{found:?}");
+        // without the correlations it is another number, and the platform turns
+        let independent = known.independent().pose_covariance(&m, &pose, &tool).unwrap();
+        assert!((independent.position - 0.1).abs() > 0.01 && independent.rotation > 0.001, "{independent:?}");
+        let same = MachineUncertainty::new(&deviations, &DMatrix::identity(24, 24)).unwrap();
+        let same = same.pose_covariance(&m, &pose, &tool).unwrap();
+        assert!((same.matrix - independent.matrix).amax() < 1e-14);
+    }
+
+    #[test]
+    fn draws_have_the_covariance() {
+        let m = octahedral();
+        let pose = Pose::new(Vector3::new(0.0, 0.0, 4.0), Angles::from_degrees([0.0, 2.0, 0.0]));
+        let mut rng = Rng::new(3);
+        let mixing = DMatrix::from_fn(24, 24, |_, _| rng.normal());
+        let covariance = &mixing * mixing.transpose();
+        let deviations: Vec<f64> = (0..24).map(|k| covariance[(k, k)].sqrt()).collect();
+        let scaled = DMatrix::from_fn(24, 24, |i, j| covariance[(i, j)] / (deviations[i] * deviations[j]));
+        let known = MachineUncertainty::new(&deviations, &scaled).unwrap();
+        let wanted = known.pose_covariance(&m, &pose, &Point3::origin()).unwrap();
+        let s = Sensitivity::at(&m, &pose, &Point3::origin()).unwrap();
+        let count = 20_000;
+        let squares: f64 = (0..count)
+            .map(|_| {
+                let (errors, offsets) = known.draw(&mut rng);
+                (s.error(&errors).0 + s.error_of_lengths(&offsets).0).norm_squared()
+            })
+            .sum();
+        let found = (squares / f64::from(count)).sqrt();
+        // the mean of so many squares is within a few hundredths
+        assert!((found / wanted.position - 1.0).abs() < 0.03, "{found} {}", wanted.position);
+    }
+
+    #[test]
+    fn sizes_that_differ_give_nothing() {
+        assert!(MachineUncertainty::new(&[1.0, 2.0], &DMatrix::identity(3, 3)).is_none());
+        let known = MachineUncertainty::new(&[1.0; 9], &DMatrix::identity(9, 9)).unwrap();
+        let pose = Pose::new(Vector3::new(0.0, 0.0, 4.0), Angles::from_degrees([0.0; 3]));
+        assert!(known.pose_covariance(&octahedral(), &pose, &Point3::origin()).is_none());
     }
 }

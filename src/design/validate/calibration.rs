@@ -64,7 +64,8 @@ fn correlations(
     let [unknowns, matrix] = CORRELATIONS_KEYS.map(|key| {
         let found = find(entries, key);
         if found.is_none() {
-            let help = "give `unknowns`, a list of names, and `matrix`, the lower triangle of their correlations";
+            let help =
+                "give `unknowns`, a list of names, and `matrix`, the lower triangle of their correlations";
             report.refuse(Code::MissingKey, &entry.key_span, format!("{place} has no `{key}`"), help);
         }
         found
@@ -115,7 +116,11 @@ fn unknowns_of(
             _ => None,
         };
         let refusal = match found {
-            None => Some((Code::UnknownName, "is no unknown of a calibration", "write `base.JOINT.x`, `platform.JOINT.z` or `offset.3`")),
+            None => Some((
+                Code::UnknownName,
+                "is no unknown of a calibration",
+                "write `base.JOINT.x`, `platform.JOINT.z` or `offset.3`",
+            )),
             Some(number) if deviations.deviation_of(number).is_none() => {
                 Some((Code::MissingKey, "has no standard deviation", "give its deviation in [calibration]"))
             }
@@ -125,7 +130,8 @@ fn unknowns_of(
             Some(_) => None,
         };
         if let Some((code, what, help)) = refusal {
-            let name = if let Value::Text(name) = &node.value { shown(name) } else { node.value.kind().to_owned() };
+            let name =
+                if let Value::Text(name) = &node.value { shown(name) } else { node.value.kind().to_owned() };
             report.refuse(code, &node.span, format!("`{name}` {what}"), help);
         }
         out.push(found.filter(|_| refusal.is_none()));
@@ -153,7 +159,8 @@ fn triangle_row(report: &mut Findings<'_>, row: &Node, i: usize) -> Option<Vec<f
     let entries = list(report, row, &what)?;
     if entries.len() != i + 1 {
         let message = format!("{what} has {} numbers instead of {}", entries.len(), i + 1);
-        let help = "the matrix is symmetric: give its lower triangle with the diagonal, one number more in each row";
+        let help =
+            "the matrix is symmetric: give its lower triangle with the diagonal, one number more in each row";
         report.refuse(Code::OutOfRange, &row.span, message, help);
         return None;
     }

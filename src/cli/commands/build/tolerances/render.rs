@@ -9,8 +9,9 @@ use crate::cli::table::{column_unit, csv_line, number};
 use crate::design::Design;
 use crate::manufacture::{ErrorAtPose, ErrorParts, Trials};
 use crate::records::{
-    AssessAnswer, BudgetPosesRecord, CalibratedPosesRecord, CorrelationsWord, ErrorMapRecord, JointBudgetRecord, Number, PoseErrorRecord,
-    SolvedBudgetRecord, TolerancesAnswer, TrialsRecord, WorkspaceWord, WorstErrorsRecord,
+    AssessAnswer, BudgetPosesRecord, CalibratedPosesRecord, CorrelationsWord, ErrorMapRecord,
+    JointBudgetRecord, Number, PoseErrorRecord, SolvedBudgetRecord, TolerancesAnswer, TrialsRecord,
+    WorkspaceWord, WorstErrorsRecord,
 };
 
 /// The record of the answer.
@@ -164,7 +165,11 @@ fn computed_poses(out: &mut String, r: &CalibratedPosesRecord, units: &str) {
         out,
         "\nstandard deviations of computed poses by what the calibration does not know, to first order, at {} poses, {}",
         r.poses,
-        if known { "with the correlations of the design file" } else { "every coordinate and offset off for itself, since the design file has no correlations" }
+        if known {
+            "with the correlations of the design file"
+        } else {
+            "every coordinate and offset off for itself, since the design file has no correlations"
+        }
     );
     for (what, unit, d) in [("position", units, &r.position), ("orientation", "deg", &r.rotation_deg)] {
         let _ = write!(
