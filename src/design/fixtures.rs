@@ -93,6 +93,9 @@ P1 = [0.1, 0.2, 0.3]
 P3 = [0, 0.2, 0.3]
 [calibration.platform_deviations]
 P4 = [0.01, 0.02, 0.03]
+[calibration.correlations]
+unknowns = ["base.P1.x", "platform.P4.z", "offset.6"]
+matrix = [[1], [0.5, 1], [0.25, 0.75, 1]]
 [stiffness]
 linear = 2e4
 angular = 3e5

@@ -37,7 +37,10 @@ pub(crate) use edit::Written;
 #[cfg(feature = "cli")]
 pub(crate) use likeness::likeness;
 pub(crate) use likeness::nearest_word;
-pub use model::{CalibrationTable, Combination, Design, NameCount, OptimizeTable, SearchTable};
+pub use model::{
+    CalibratedNumber, CalibrationTable, Combination, Correlations, Design, NameCount, OptimizeTable,
+    SearchTable,
+};
 pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
 pub use presets::{PRESETS, Preset, PresetClass};
 pub(crate) use scale::{micrometres, unit_of_millimetres};

@@ -1,6 +1,6 @@
 //! The design: what a file holds once it is valid, with its requirements and what the optimiser may choose.
 
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Point3, Vector3};
 use thiserror::Error;
 
 use super::construction::resolve::{Fault, Joints};
@@ -97,6 +97,57 @@ pub struct CalibrationTable {
     pub base_deviations: Vec<Option<Vector3<f64>>>,
     /// Those of the platform joints.
     pub platform_deviations: Vec<Option<Vector3<f64>>>,
+    /// How coordinates and offsets are off together; `None`: each for itself.
+    pub correlations: Option<Correlations>,
+}
+
+/// A number that a calibration finds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CalibratedNumber {
+    /// A coordinate of a joint, frame of its body.
+    Coordinate {
+        /// The body.
+        body: Body,
+        /// Index of the joint.
+        joint: usize,
+        /// 0, 1, 2: x, y, z.
+        axis: usize,
+    },
+    /// The offset of a leg, by its index.
+    Offset(usize),
+}
+
+/// Correlations of the numbers of a calibration. They have no unit; numbers that are not listed are off each for itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Correlations {
+    /// What rows and columns are about.
+    pub unknowns: Vec<CalibratedNumber>,
+    /// The lower triangle with the diagonal, which is 1: row `i` has `i + 1` numbers. The matrix is positive semidefinite up to rounding.
+    pub triangle: Vec<Vec<f64>>,
+}
+
+impl Correlations {
+    /// Those of a covariance `F F^T`, rounded to ten decimals; a number that is not uncertain is correlated with none.
+    #[must_use]
+    pub fn of_root(unknowns: Vec<CalibratedNumber>, root: &DMatrix<f64>) -> Self {
+        let units: Vec<_> = root.row_iter().map(|row| row.transpose().try_normalize(0.0)).collect();
+        let one = |i: usize, j: usize| match (&units[i], &units[j]) {
+            _ if i == j => 1.0,
+            (Some(a), Some(b)) => a.dot(b),
+            _ => 0.0,
+        };
+        // text, so that the file has no digits behind the tenth; adding zero takes the sign from -0
+        let kept = |x: f64| format!("{x:.10}").parse::<f64>().unwrap_or(x) + 0.0;
+        let row = |i: usize| (0..=i).map(|j| kept(one(i, j)).clamp(-1.0, 1.0)).collect();
+        Self { triangle: (0..unknowns.len()).map(row).collect(), unknowns }
+    }
+
+    /// The whole matrix.
+    #[must_use]
+    pub fn matrix(&self) -> DMatrix<f64> {
+        let n = self.triangle.len();
+        DMatrix::from_fn(n, n, |i, j| self.triangle[i.max(j)][i.min(j)])
+    }
 }
 
 impl CalibrationTable {
@@ -104,6 +155,15 @@ impl CalibrationTable {
     #[must_use]
     pub fn deviation(&self, body: Body, joint: usize) -> Option<Vector3<f64>> {
         body.of((&self.base_deviations, &self.platform_deviations)).get(joint).copied().flatten()
+    }
+
+    /// The standard deviation of a number; `None` where nothing is said.
+    #[must_use]
+    pub fn deviation_of(&self, number: CalibratedNumber) -> Option<f64> {
+        match number {
+            CalibratedNumber::Coordinate { body, joint, axis } => Some(self.deviation(body, joint)?[axis]),
+            CalibratedNumber::Offset(leg) => Some(self.offset_deviations?[leg]),
+        }
     }
 
     /// Distances of the joints from lengths that the legs show: what every other question about lengths is asked in.

@@ -32,6 +32,14 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     let of = |body, joint| table.deviation(body, joint).map(|v| v.z);
     assert_eq!((of(Body::Base, 0), of(Body::Base, 1), of(Body::Base, 2)), (Some(0.3), None, Some(0.3)));
     assert_eq!((of(Body::Platform, 0), of(Body::Platform, 2)), (Some(0.03), None));
+    let correlations = table.correlations.as_ref().unwrap();
+    let (p4z, sixth) = (correlations.unknowns[1], CalibratedNumber::Offset(5));
+    assert_eq!(
+        (p4z, table.deviation_of(p4z)),
+        (CalibratedNumber::Coordinate { body: Body::Platform, joint: 0, axis: 2 }, Some(0.03))
+    );
+    assert_eq!((correlations.unknowns[2], table.deviation_of(sixth)), (sixth, Some(0.03)));
+    assert_eq!((correlations.matrix()[(1, 2)], correlations.matrix()[(2, 0)]), (0.75, 0.25));
     let required = design.requirements();
     assert_eq!(
         (required.loads.len(), required.keep_outs.len(), required.platform_speed.unwrap().linear),
@@ -82,7 +90,14 @@ fn what_contradicts_itself_is_refused() {
         ("offsets = [0.1, -0.2, 0,", "offsets = [0.1,"),
         ("offset_deviations = [0.01", "offset_deviations = [-0.01"),
         ("P1 = [0.1, 0.2, 0.3]", "P1 = [0.1, 0.2]"),
-        ("P4 = [0.01, 0.02, 0.03]", "P1 = [0.01, 0.02, 0.03]"),
+        ("P4 = [0.01, 0.02, 0.03]\n[cal", "P1 = [0.01, 0.02, 0.03]\nP4 = [0.01, 0.02, 0.03]\n[cal"),
+        ("unknowns = [", "unknown = ["),
+        ("\"base.P1.x\", \"platform.P4.z\", \"offset.6\"", "\"base.P1.w\", \"platform.P5.z\", \"offset.7\""),
+        ("\"platform.P4.z\", \"offset.6\"", "\"offset.6\", \"offset.6\""),
+        ("[[1], [0.5, 1], [0.25, 0.75, 1]]", "[[1], [0.5, 1]]"),
+        ("[[1], [0.5, 1], [0.25, 0.75, 1]]", "[[1, 0.5, 0], [0.4, 1, 0], [0, 0, 0.9]]"),
+        ("[[1], [0.5, 1], [0.25, 0.75, 1]]", "[[1], [1.5, 1], [0, \"a\", 1]]"),
+        ("[[1], [0.5, 1], [0.25, 0.75, 1]]", "[[1], [0.9, 1], [-0.9, 0.9, 1]]"),
     ] {
         assert!(GOOD.contains(from), "{from}");
         match parse(&GOOD.replacen(from, to, 1), Format::Toml) {
@@ -124,14 +139,28 @@ fn what_contradicts_itself_is_refused() {
         19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
         18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
         41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
-        67:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
-        69:11 design::not_positive: `angular` is 0 | give a positive number
-        70:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass that vibrates | add [payload] with `mass`, `center` and `inertia`
+        70:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
+        72:11 design::not_positive: `angular` is 0 | give a positive number
+        73:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass that vibrates | add [payload] with `mass`, `center` and `inertia`
         60:1 design::unknown_key: `offset` is not a key of [calibration] | did you mean `offsets`?
         60:11 design::length_count: `offsets` has 4 numbers instead of 6 | give 6 offsets, one for each leg
         61:22 design::not_positive: a standard deviation of -0.01 | standard deviations are not negative
         63:6 design::coordinate_count: the deviation of `P1` has 2 numbers instead of 3 | give 3 standard deviations
+        68:13 design::missing_key: `base.P1.x` has no standard deviation | give its deviation in [calibration]
         66:1 design::missing_joint: `platform_deviations` of [calibration] names `P1`, which is no joint of the body | its joints are: P4, P5, P6
+        67:14 design::missing_key: [calibration.correlations] has no `unknowns` | give `unknowns`, a list of names, and `matrix`, the lower triangle of their correlations
+        68:1 design::unknown_key: `unknown` is not a key of [calibration.correlations] | did you mean `unknowns`?
+        68:13 design::unknown_name: `base.P1.w` is no unknown of a calibration | write `base.JOINT.x`, `platform.JOINT.z` or `offset.3`
+        68:26 design::missing_key: `platform.P5.z` has no standard deviation | give its deviation in [calibration]
+        68:43 design::unknown_name: `offset.7` is no unknown of a calibration | write `base.JOINT.x`, `platform.JOINT.z` or `offset.3`
+        68:38 design::conflicting_keys: `offset.6` stands in `unknowns` twice | name each unknown once
+        69:10 design::out_of_range: `matrix` has 2 rows for 3 unknowns | give a row for each of `unknowns`
+        69:11 design::out_of_range: row 1 of `matrix` has 3 numbers instead of 1 | the matrix is symmetric: give its lower triangle with the diagonal, one number more in each row
+        69:24 design::out_of_range: row 2 of `matrix` has 3 numbers instead of 2 | the matrix is symmetric: give its lower triangle with the diagonal, one number more in each row
+        69:44 design::out_of_range: row 3 of `matrix` ends with 0.9, not with 1 | the diagonal is 1: every quantity is wholly correlated with itself
+        69:17 design::out_of_range: a correlation of 1.5 | correlations are from -1 to 1
+        69:30 design::wrong_type: number 2 of row 3 of `matrix` is a string, not a number | write a number without quotes
+        69:10 design::out_of_range: no quantities have these correlations: the least eigenvalue is -8.000e-1 | a matrix of correlations is positive semidefinite; give six decimals or more
     "#);
 }
 

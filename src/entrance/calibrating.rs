@@ -4,11 +4,12 @@ use nalgebra::{DMatrix, Vector3};
 
 use super::Error;
 use crate::calibration::{
-    CalibrateOptions, Calibration, CarriedFrames, LegModel, Measurement, Unknowns, calibrate,
+    CalibrateOptions, Calibration, CarriedFrames, LegModel, Measurement, Unknown, Unknowns, calibrate,
 };
-use crate::design::{CalibrationTable, Design};
+use crate::design::{CalibratedNumber, CalibrationTable, Correlations, Design};
 use crate::geom::Pose;
 use crate::manipulator::Body;
+use crate::manufacture::{Joint, MachineUncertainty, joints};
 use crate::num::Purpose;
 use crate::requirements::Terms;
 
@@ -89,8 +90,41 @@ impl Design {
             offset_deviations: offsets.and_then(|list| list.try_into().ok()),
             base_deviations: of(Body::Base),
             platform_deviations: of(Body::Platform),
+            correlations: Some(Correlations::of_root(numbers(&found.unknowns), &root)),
         });
         Ok(out)
+    }
+
+    /// What the calibration of the design does not know of the machine, by its standard deviations and their correlations; zero for joints and offsets of which it says nothing.
+    /// `None` where it has no deviation at all.
+    #[must_use]
+    pub fn machine_uncertainty(&self) -> Option<MachineUncertainty> {
+        let table = self.calibration.as_ref()?;
+        let joints = joints(self.manipulator()).into_iter();
+        let coordinates = joints.flat_map(|Joint { body, index: joint }| {
+            (0..3).map(move |axis| CalibratedNumber::Coordinate { body, joint, axis })
+        });
+        let all: Vec<_> = coordinates.chain((0..6).map(CalibratedNumber::Offset)).collect();
+        let deviations: Vec<_> = all.iter().map(|number| table.deviation_of(*number)).collect();
+        if deviations.iter().all(Option::is_none) {
+            return None;
+        }
+        let mut matrix = DMatrix::identity(all.len(), all.len());
+        if let Some(known) = &table.correlations {
+            let whole = known.matrix();
+            let place = |number: &CalibratedNumber| all.iter().position(|n| n == number);
+            // joints without legs have no place
+            let places: Vec<Option<usize>> = known.unknowns.iter().map(place).collect();
+            for (i, row) in places.iter().enumerate() {
+                for (j, column) in places.iter().enumerate() {
+                    if let (Some(row), Some(column)) = (row, column) {
+                        matrix[(*row, *column)] = whole[(i, j)];
+                    }
+                }
+            }
+        }
+        let deviations: Vec<f64> = deviations.into_iter().map(Option::unwrap_or_default).collect();
+        MachineUncertainty::new(&deviations, &matrix)
     }
 
     /// Poses that may be measured: those of the workspace at which all requirements of the design are met, about `count` and as many random ones looked at.
@@ -106,6 +140,15 @@ impl Design {
     }
 }
 
+/// The unknowns of a calibration as a design names them.
+fn numbers(unknowns: &Unknowns) -> Vec<CalibratedNumber> {
+    let of = |unknown: &Unknown| match *unknown {
+        Unknown::Joint { body, joint, axis } => CalibratedNumber::Coordinate { body, joint, axis },
+        Unknown::Offset { leg } => CalibratedNumber::Offset(leg),
+    };
+    unknowns.list().iter().map(of).collect()
+}
+
 /// The machine and a root of the covariance of its unknowns, in the frames asked for.
 pub(crate) fn carried(found: &Calibration, frames: Option<&CarriedFrames>) -> (LegModel, DMatrix<f64>) {
     match frames {
@@ -116,7 +159,6 @@ pub(crate) fn carried(found: &Calibration, frames: Option<&CarriedFrames>) -> (L
 
 /// What a column of the unknowns is called: `base.A1.x`, `offset.3`.
 pub(crate) fn unknown_names(design: &Design, unknowns: &Unknowns) -> Vec<String> {
-    use crate::calibration::Unknown;
     let name = |unknown: &Unknown| match *unknown {
         Unknown::Joint { body, joint, axis } => {
             format!("{body}.{}.{}", design.joint_names(body)[joint], ["x", "y", "z"][axis])
@@ -124,4 +166,48 @@ pub(crate) fn unknown_names(design: &Design, unknowns: &Unknowns) -> Vec<String>
         Unknown::Offset { leg } => format!("offset.{}", leg + 1),
     };
     unknowns.list().iter().map(name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibration::{MeasurementNoise, pose_deviation};
+    use crate::design::{Format, parse};
+    use crate::geom::Angles;
+    use crate::num::Rng;
+    use nalgebra::Point3;
+
+    #[test]
+    fn a_written_calibration_leaves_as_much_open_as_the_one_in_memory() {
+        let design = Design::load("designs/symmetric-hexapod.toml").unwrap();
+        let home = design.home_or_default();
+        let mut rng = Rng::new(11);
+        let turned = |k: u32, n: f64| 20.0 * (n * f64::from(k)).sin();
+        let rows: Vec<Measurement> = (0..40)
+            .map(|k| {
+                let at = Vector3::new(turned(k, 1.3), turned(k, 2.7), turned(k, 5.1));
+                let angles = Angles::from_degrees([turned(k, 1.7), turned(k, 3.1), turned(k, 4.3)]);
+                let pose = Pose::new(home.position + at, angles);
+                let lengths = design.ik(&pose).unwrap().get().map(|l| l + 0.005 * rng.normal());
+                Measurement { pose, lengths }
+            })
+            .collect();
+        let noise = MeasurementNoise { length: 0.005, position: 0.01, rotation: 2e-5 };
+        let options = CalibrateOptions { noise: Some(noise), ..CalibrateOptions::default() };
+        let found = design.calibrate(&rows, &options).unwrap();
+        let text = design.with_calibration(&found, None).unwrap().to_toml();
+        let again = parse(&text, Format::Toml).unwrap().0;
+        assert_eq!(again.to_toml(), text);
+        let known = again.machine_uncertainty().unwrap();
+        for row in rows.iter().take(10) {
+            let wanted = pose_deviation(&found.model, &found.unknowns, &found.root, &row.pose).unwrap();
+            let of = |u: &MachineUncertainty| {
+                u.pose_covariance(again.manipulator(), &row.pose, &Point3::origin()).unwrap()
+            };
+            let (kept, independent) = (of(&known), of(&known.independent()));
+            assert!((kept.position / wanted.position - 1.0).abs() < 1e-5, "{kept:?} {wanted:?}");
+            assert!((kept.rotation / wanted.rotation - 1.0).abs() < 1e-5, "{kept:?} {wanted:?}");
+            assert!(independent.position > 2.0 * kept.position, "{independent:?} {kept:?}");
+        }
+    }
 }

@@ -8,7 +8,6 @@ use super::sample::{PoseSearch, ToleranceError};
 use super::sensitivity::Sensitivity;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
-use crate::num::Purpose;
 use crate::requirements::PoseSpace;
 
 /// By how much a machine may differ from its design.
@@ -62,10 +61,9 @@ pub fn error_map(
     errors: &MachineErrors,
     search: &PoseSearch,
 ) -> Result<Vec<ErrorAtPose>, ToleranceError> {
-    let mut rng = Purpose::TOLERANCE_POSES.rng(search.seed);
-    let region = space.cube_points(search.points, &mut rng).into_iter().map(|x| space.pose(&x));
-    region
-        .chain(space.listed(search.steps))
+    search
+        .poses(space)
+        .into_iter()
         .map(|pose| errors_at(m, &pose, tool, errors).ok_or(ToleranceError::SingularPose { pose }))
         .collect()
 }

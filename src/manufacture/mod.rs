@@ -3,6 +3,7 @@
 //! * [`budget()`] and [`trials()`]: how far joints may be off for the pose that the nominal formula gives to stay within a bound, to first order and by
 //!   random errors.
 //! * [`error_map()`]: the error of the pose by joints, leg lengths and temperature together, over the workspace.
+//! * [`MachineUncertainty`]: how uncertain the poses of a calibrated machine are.
 //! * [`Controller`]: the octahedral formula and Newton steps on calibrated joints.
 //! * [`round_to_grid`]: joints on a grid, exactly equivalent to an octahedral platform or as near to it as the grid allows.
 //!
@@ -20,6 +21,7 @@ mod sensitivity;
 #[cfg(test)]
 mod tests;
 mod trials;
+mod uncertainty;
 
 pub use budget::{Budget, JointBudget, LimitedAllowance, budget, joint_allowance};
 pub use correction::{Controller, NoFormula, equivalent_octahedral, octahedral_of};
@@ -33,3 +35,4 @@ pub use rounding::{
 pub use sample::{ErrorBound, ErrorKind, PoseSearch, ToleranceError};
 pub use sensitivity::Sensitivity;
 pub use trials::{ErrorSpread, JointErrors, Quantiles, Trials, solved_error, trials};
+pub use uncertainty::{MachineUncertainty, PoseCovariance};

@@ -62,6 +62,16 @@ impl Default for PoseSearch {
     }
 }
 
+impl PoseSearch {
+    /// The poses: the corners and a sample of the region, and those that are listed.
+    #[must_use]
+    pub fn poses(&self, space: &PoseSpace) -> Vec<Pose> {
+        let mut rng = Purpose::TOLERANCE_POSES.rng(self.seed);
+        let region = space.cube_points(self.points, &mut rng).into_iter().map(|x| space.pose(&x));
+        region.chain(space.listed(self.steps)).collect()
+    }
+}
+
 /// Why no tolerance can be given.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]

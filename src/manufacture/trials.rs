@@ -5,9 +5,10 @@ use nalgebra::{Point3, Vector3};
 use super::joint::{displaced, joints};
 use super::sample::ErrorBound;
 use super::sensitivity::{Sensitivity, pose_error};
+use super::uncertainty::MachineUncertainty;
 use crate::fk::NearSolver;
 use crate::geom::Pose;
-use crate::manipulator::Manipulator;
+use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
 use crate::num::{Purpose, Rng};
 use crate::requirements::PoseSpace;
 
@@ -18,16 +19,19 @@ pub enum JointErrors {
     Balls(f64),
     /// Of each joint uniform in a box with these half widths, in the order of [`joints`].
     Boxes(Vec<Vector3<f64>>),
-    /// Of each coordinate normal with these standard deviations, independent of each other, in the order of [`joints`].
-    Normals(Vec<Vector3<f64>>),
+    /// Joints and leg offsets normal with the covariance of a calibration.
+    Calibrated(MachineUncertainty),
 }
 
 impl JointErrors {
-    fn draw(&self, count: usize, rng: &mut Rng) -> Vec<Vector3<f64>> {
+    /// Errors of the joints, and by how much the legs show more than their lengths.
+    fn draw(&self, count: usize, rng: &mut Rng) -> (Vec<Vector3<f64>>, [f64; 6]) {
         match self {
-            Self::Balls(radius) => (0..count).map(|_| in_ball(rng) * *radius).collect(),
-            Self::Boxes(half) => half.iter().map(|h| h.map(|h| h * rng.uniform(-1.0, 1.0))).collect(),
-            Self::Normals(sigma) => sigma.iter().map(|s| s.map(|s| s * rng.normal())).collect(),
+            Self::Balls(radius) => ((0..count).map(|_| in_ball(rng) * *radius).collect(), [0.0; 6]),
+            Self::Boxes(half) => {
+                (half.iter().map(|h| h.map(|h| h * rng.uniform(-1.0, 1.0))).collect(), [0.0; 6])
+            }
+            Self::Calibrated(uncertainty) => uncertainty.draw(rng),
         }
     }
 }
@@ -124,18 +128,30 @@ pub fn solved_error(
     Some(pose_error(&found, truth, tool))
 }
 
+/// Squared lengths with each leg longer by so much; what is not off stays as it is, to the last bit.
+fn shown(measured: &SquaredLegLengths, offsets: &[f64; 6]) -> Option<SquaredLegLengths> {
+    if offsets.iter().all(|x| *x == 0.0) {
+        return Some(*measured);
+    }
+    let lengths = measured.lengths().get();
+    Some(LegLengths::try_new(std::array::from_fn(|leg| lengths[leg] + offsets[leg])).ok()?.squared())
+}
+
 fn draw(
     m: &Manipulator,
     nominal: &NearSolver,
-    errors: &[Vector3<f64>],
+    (errors, offsets): (&[Vector3<f64>], &[f64; 6]),
     truth: &Pose,
     tool: &Point3<f64>,
 ) -> Option<Draw> {
     let built = displaced(m, errors).ok()?;
     let measured = truth.squared_lengths(&built)?;
-    let found = nominal.solve(&measured, truth).tracked().copied()?;
+    let shown = shown(&measured, offsets)?;
+    let found = nominal.solve(&shown, truth).tracked().copied()?;
     let solved = pose_error(&found, truth, tool);
-    let linear = Sensitivity::at(m, truth, tool)?.error(errors);
+    let sensitivity = Sensitivity::at(m, truth, tool)?;
+    let (joints, lengths) = (sensitivity.error(errors), sensitivity.error_of_lengths(offsets));
+    let linear = (joints.0 + lengths.0, joints.1 + lengths.1);
     let calibrated = NearSolver::new(&built);
     let after = |steps| {
         let pose = calibrated.newton_steps(&measured, &found, steps)?;
@@ -148,7 +164,7 @@ fn draw(
     })
 }
 
-/// Draws joint errors and poses, measures the leg lengths of the platform with these errors, solves for the pose with the nominal joints (`NearSolver`, from the
+/// Draws joint errors (with [`JointErrors::Calibrated`] errors of leg offsets too) and poses, measures the leg lengths of the platform with these errors, solves for the pose with the nominal joints (`NearSolver`, from the
 /// true pose) and compares.
 #[must_use]
 pub fn trials(
@@ -165,7 +181,8 @@ pub fn trials(
         .filter_map(|k| {
             let mut rng = Purpose::TRIALS.item(seed, k as u64);
             let truth = space.draw(&listed, &mut rng);
-            draw(m, &nominal, &errors.draw(joints, &mut rng), &truth, tool)
+            let (errors, offsets) = errors.draw(joints, &mut rng);
+            draw(m, &nominal, (&errors, &offsets), &truth, tool)
         })
         .collect();
     let spread =

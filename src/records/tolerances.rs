@@ -5,9 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{AssessAnswer, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
 use crate::design::Design;
+use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manufacture::{
-    ErrorAtPose, ErrorKind, ErrorParts, Joint, JointBudget, LimitedAllowance, MachineErrors, Trials,
+    ErrorAtPose, ErrorKind, ErrorParts, Joint, JointBudget, LimitedAllowance, MachineErrors, PoseCovariance,
+    Trials,
 };
 
 /// The answer of `build tolerances`.
@@ -33,12 +35,94 @@ pub struct TolerancesAnswer {
     pub solved: SolvedBudgetRecord,
     /// Random errors in the budget.
     pub trials: TrialsRecord,
-    /// Random errors with the standard deviations of the calibration; null: not asked for.
+    /// Random errors of joints and leg offsets with the covariance of the calibration; null: not asked for.
     pub calibrated: Option<TrialsRecord>,
+    /// How uncertain computed poses are by what the calibration does not know, to first order; null: not asked for.
+    pub calibrated_poses: Option<CalibratedPosesRecord>,
     /// The greatest errors by joints, leg lengths and temperature together; null: not asked for.
     pub map: Option<ErrorMapRecord>,
     /// The poses looked at.
     pub poses: BudgetPosesRecord,
+}
+
+/// Standard deviations of poses computed from lengths with the calibrated machine; the noise of these lengths comes on top.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CalibratedPosesRecord {
+    /// Whether the design file has correlations.
+    pub correlations: CorrelationsWord,
+    /// Poses looked at.
+    pub poses: usize,
+    /// Root mean square of the distance by which the tool point is off, design units.
+    pub position: DeviationRecord,
+    /// Root mean square of the angle by which the orientation is off, degrees.
+    pub rotation_deg: DeviationRecord,
+}
+
+/// How the errors of a calibration go together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CorrelationsWord {
+    /// As the design file says.
+    Design,
+    /// The design file has no correlations: every coordinate and offset counts as off for itself.
+    Independent,
+}
+
+/// A standard deviation over the poses looked at.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DeviationRecord {
+    /// Half of the poses have at most this.
+    pub median: Number,
+    /// The greatest.
+    pub greatest: Number,
+    /// What it would be at the same pose if every coordinate and offset were off for itself.
+    pub independent: Number,
+    /// The pose.
+    pub pose: PoseQuaternionRecord,
+    /// Covariance of the shift of the tool point (design units) and the rotation vector (degrees) at the pose, base frame.
+    pub covariance: [[Number; 6]; 6],
+}
+
+/// What the calibration leaves open at a pose.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PoseDeviations {
+    /// The pose.
+    pub(crate) pose: Pose,
+    /// With the correlations of the design.
+    pub(crate) kept: PoseCovariance,
+    /// With the same standard deviations, each for itself.
+    pub(crate) independent: PoseCovariance,
+}
+
+impl DeviationRecord {
+    fn new(poses: &[PoseDeviations], of: fn(&PoseCovariance) -> f64) -> Option<Self> {
+        let worst = poses.iter().max_by(|a, b| of(&a.kept).total_cmp(&of(&b.kept)))?;
+        let mut all: Vec<f64> = poses.iter().map(|p| of(&p.kept)).collect();
+        all.sort_by(f64::total_cmp);
+        let unit = |k: usize| if k < 3 { 1.0 } else { 1_f64.to_degrees() };
+        let entry = |i: usize, j: usize| Number(worst.kept.matrix[(i, j)] * unit(i) * unit(j));
+        Some(Self {
+            median: Number(all[(all.len() - 1) / 2]),
+            greatest: Number(of(&worst.kept)),
+            independent: Number(of(&worst.independent)),
+            pose: (&worst.pose).into(),
+            covariance: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))),
+        })
+    }
+}
+
+impl CalibratedPosesRecord {
+    /// Of the poses looked at; `None` without one.
+    #[must_use]
+    pub(crate) fn new(design: &Design, poses: &[PoseDeviations]) -> Option<Self> {
+        let known = design.calibration.as_ref().is_some_and(|table| table.correlations.is_some());
+        Some(Self {
+            correlations: if known { CorrelationsWord::Design } else { CorrelationsWord::Independent },
+            poses: poses.len(),
+            position: DeviationRecord::new(poses, |c| c.position)?,
+            rotation_deg: DeviationRecord::new(poses, |c| c.rotation.to_degrees())?,
+        })
+    }
 }
 
 /// How far joints may be off.

@@ -103,7 +103,8 @@ impl Design {
     /// The design as TOML. Reading it back gives an equal design, bit for bit.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        let file = self.file();
+        let mut file = self.file();
+        let correlations = file.tail.calibration.as_mut().and_then(CalibrationFile::take_correlations);
         // strings, arrays and maps with string keys: nothing TOML could refuse
         let text = |part: Result<String, _>| part.unwrap_or_default();
         let mut tables = Vec::new();
@@ -120,6 +121,7 @@ impl Design {
             file.cranks.as_ref().map(|cranks| std::collections::BTreeMap::from([("cranks", cranks)]));
         tables.push(text(cranks.map_or(Ok(String::new()), |table| toml::to_string(&table))));
         tables.push(text(toml::to_string(&file.tail)));
+        tables.extend(correlations.map(|table| table.to_toml()));
         tables.retain(|table| !table.is_empty());
         tables.join("\n")
     }

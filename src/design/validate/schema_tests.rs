@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::calibration::CALIBRATION_KEYS;
+use super::calibration::{CALIBRATION_KEYS, CORRELATIONS_KEYS};
 use super::cranks::{COPY_KEYS, CRANK_KEYS, DRIVE_KEYS};
 use super::holes::{GRID_KEYS, PLATE_KEYS};
 use super::limits::{ENVELOPE_KEYS, PAYLOAD_KEYS};
@@ -41,6 +41,7 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys("/$defs/bolts"), sorted(BOLT_KEYS));
     assert_eq!(keys("/properties/payload"), sorted(PAYLOAD_KEYS));
     assert_eq!(keys("/properties/calibration"), sorted(CALIBRATION_KEYS));
+    assert_eq!(keys("/properties/calibration/properties/correlations"), sorted(CORRELATIONS_KEYS));
     assert_eq!(keys("/$defs/crank"), sorted(CRANK_KEYS.into_iter().chain(COPY_KEYS)));
     let shared = schema.pointer("/properties/cranks/properties").and_then(Value::as_object).unwrap();
     let known = sorted(CRANK_KEYS.into_iter().chain(DRIVE_KEYS));

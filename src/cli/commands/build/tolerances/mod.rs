@@ -4,7 +4,7 @@ mod render;
 
 use std::path::PathBuf;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
@@ -13,11 +13,14 @@ use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
+use crate::geom::Pose;
 use crate::manipulator::Manipulator;
 use crate::manufacture::{
-    Budget, ErrorAtPose, ErrorBound, Joint, JointErrors, MachineErrors, PoseSearch, ToleranceError, Trials,
-    budget, error_map, joints, solved_error, trials,
+    Budget, ErrorAtPose, ErrorBound, JointErrors, MachineErrors, MachineUncertainty, PoseSearch,
+    ToleranceError, Trials, budget, error_map, solved_error, trials,
 };
+use crate::records::PoseDeviations;
+use crate::requirements::PoseSpace;
 
 /// Arguments of `build tolerances`.
 #[derive(Debug, clap::Args)]
@@ -39,7 +42,7 @@ pub(crate) struct Args {
     /// Number of random joint errors and poses that are solved
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     trials: u32,
-    /// Also draw joint errors with the standard deviations of the calibration table of the design
+    /// Also say how uncertain computed poses are by the calibration table of the design, and draw errors of joints and offsets with its standard deviations and correlations
     #[arg(long)]
     calibrated: bool,
     /// Greatest error of each joint in any direction for the map of errors, design units; the radius that keeps the bound when absent
@@ -66,6 +69,8 @@ pub(super) struct Found {
     pub(super) trials: Trials,
     /// Random errors with the deviations of a calibration, where they were asked for.
     pub(super) calibrated: Option<Trials>,
+    /// How uncertain computed poses are by the calibration, at each pose looked at.
+    pub(super) computed: Option<Vec<PoseDeviations>>,
     /// The greatest errors by all causes, where they were asked for.
     pub(super) map: Option<(MachineErrors, Vec<ErrorAtPose>)>,
     /// Solved errors (length, degrees) with the joints moved in the worst way by the radius, and by 1.5 times it.
@@ -160,12 +165,13 @@ fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
     let budget = budget(m, &space, tool, bound, &search).map_err(|e| failure_of(&e))?;
     let errors = JointErrors::Balls(budget.radius.value);
     let trials = trials(m, &space, &tool, &bound, &errors, (args.trials as usize, seed));
-    let calibrated = if args.calibrated {
-        let deviations = JointErrors::Normals(deviations(design)?);
-        Some(self::trials(m, &space, &tool, &bound, &deviations, (args.trials as usize, seed)))
-    } else {
-        None
-    };
+    let (mut calibrated, mut computed) = (None, None);
+    if args.calibrated {
+        let known = uncertainty(design)?;
+        computed = Some(computed_poses(design, &known, &space, &tool, &search));
+        let errors = JointErrors::Calibrated(known);
+        calibrated = Some(self::trials(m, &space, &tool, &bound, &errors, (args.trials as usize, seed)));
+    }
     let map = machine_errors(args, &budget)?
         .map(|errors| Ok((errors, error_map(m, &space, &tool, &errors, &search)?)))
         .transpose()
@@ -176,7 +182,7 @@ fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
         Some((p.norm(), w.norm().to_degrees()))
     });
     let solved = solved(m, &budget, &trials, &tool, &bound);
-    Ok(Found { bound, tool, budget, trials, calibrated, map, worst, solved, workspace_given })
+    Ok(Found { bound, tool, budget, trials, calibrated, computed, map, worst, solved, workspace_given })
 }
 
 /// What the map of errors is about; `None` where it is not asked for.
@@ -204,17 +210,30 @@ fn machine_errors(args: &Args, budget: &Budget) -> Result<Option<MachineErrors>,
     }))
 }
 
-/// Standard deviations of the joints by the calibration of the design; zero for joints of which it says nothing.
-fn deviations(design: &Design) -> Result<Vec<Vector3<f64>>, Failure> {
-    let table = design.calibration.as_ref();
-    let of = |joint: Joint| table.and_then(|t| t.deviation(joint.body, joint.index));
-    let all: Vec<_> = joints(design.manipulator()).into_iter().map(of).collect();
-    if all.iter().all(Option::is_none) {
-        let message = "the design has no standard deviations of joints in a table [calibration]";
-        return Err(Failure::refused("tolerances::not_calibrated", message)
-            .with_help("`equipod calibrate DESIGN MEASUREMENTS -o FILE` writes a design with them"));
-    }
-    Ok(all.into_iter().map(Option::unwrap_or_default).collect())
+/// What the calibration of the design does not know.
+fn uncertainty(design: &Design) -> Result<MachineUncertainty, Failure> {
+    design.machine_uncertainty().ok_or_else(|| {
+        let message = "the design has no standard deviations in a table [calibration]";
+        Failure::refused("tolerances::not_calibrated", message)
+            .with_help("`equipod calibrate DESIGN MEASUREMENTS -o FILE` writes a design with them")
+    })
+}
+
+/// The covariances of the poses of the workspace: the corners and a sample of the region, and the poses that are listed.
+fn computed_poses(
+    design: &Design,
+    known: &MachineUncertainty,
+    space: &PoseSpace,
+    tool: &Point3<f64>,
+    search: &PoseSearch,
+) -> Vec<PoseDeviations> {
+    let m = design.manipulator();
+    let independent = known.independent();
+    let of = |pose: Pose| {
+        let [kept, independent] = [known, &independent].map(|u| u.pose_covariance(m, &pose, tool));
+        Some(PoseDeviations { pose, kept: kept?, independent: independent? })
+    };
+    search.poses(space).into_iter().filter_map(of).collect()
 }
 
 /// Computes the budget and tries it.

@@ -9,8 +9,9 @@ use crate::cli::table::{column_unit, csv_line, number};
 use crate::design::Design;
 use crate::manufacture::{ErrorAtPose, ErrorParts, Trials};
 use crate::records::{
-    AssessAnswer, BudgetPosesRecord, ErrorMapRecord, JointBudgetRecord, Number, PoseErrorRecord,
-    SolvedBudgetRecord, TolerancesAnswer, TrialsRecord, WorkspaceWord, WorstErrorsRecord,
+    AssessAnswer, BudgetPosesRecord, CalibratedPosesRecord, CorrelationsWord, ErrorMapRecord,
+    JointBudgetRecord, Number, PoseErrorRecord, SolvedBudgetRecord, TolerancesAnswer, TrialsRecord,
+    WorkspaceWord, WorstErrorsRecord,
 };
 
 /// The record of the answer.
@@ -36,6 +37,7 @@ pub(super) fn record(design: &Design, f: &Found, seed: u64, path: Option<String>
         },
         trials: (&f.trials).into(),
         calibrated: f.calibrated.as_ref().map(TrialsRecord::from),
+        calibrated_poses: f.computed.as_ref().and_then(|poses| CalibratedPosesRecord::new(design, poses)),
         map: f.map.as_ref().and_then(|(errors, map)| ErrorMapRecord::new(errors, map, path)),
         poses: BudgetPosesRecord {
             count: b.poses,
@@ -121,7 +123,10 @@ pub(super) fn text(design: &Design, f: &Found, r: &TolerancesAnswer) -> String {
     let _ = writeln!(out, "\n{}", sentence(f, units));
     spread(&mut out, "random errors in the budget", t);
     if let Some(calibrated) = &f.calibrated {
-        spread(&mut out, "random errors with the deviations of the calibration", calibrated);
+        spread(&mut out, "random errors with the covariance of the calibration", calibrated);
+    }
+    if let Some(computed) = &r.calibrated_poses {
+        computed_poses(&mut out, computed, units);
     }
     if let Some(map) = &r.map {
         let _ = writeln!(
@@ -151,6 +156,35 @@ pub(super) fn text(design: &Design, f: &Found, r: &TolerancesAnswer) -> String {
         }
     }
     out
+}
+
+/// What the calibration does not know of computed poses.
+fn computed_poses(out: &mut String, r: &CalibratedPosesRecord, units: &str) {
+    let known = r.correlations == CorrelationsWord::Design;
+    let _ = writeln!(
+        out,
+        "\nstandard deviations of computed poses by what the calibration does not know, to first order, at {} poses, {}",
+        r.poses,
+        if known {
+            "with the correlations of the design file"
+        } else {
+            "every coordinate and offset off for itself, since the design file has no correlations"
+        }
+    );
+    for (what, unit, d) in [("position", units, &r.position), ("orientation", "deg", &r.rotation_deg)] {
+        let _ = write!(
+            out,
+            "{what}: {} {unit} in the median, {} at {}",
+            significant(d.median.0),
+            significant(d.greatest.0),
+            d.pose.short()
+        );
+        let _ = if known {
+            writeln!(out, " ({} without the correlations)", significant(d.independent.0))
+        } else {
+            writeln!(out)
+        };
+    }
 }
 
 /// What random errors did to the pose.
