@@ -226,7 +226,10 @@ fn cranks_are_refused_with_a_code_of_their_own() {
     assert_eq!((status, error.status), (EqpStatus::Cranks, EqpStatus::Cranks));
     assert!(made.is_null());
     let message = message(&error);
-    assert!(message.contains("`equipod export DESIGN --to c`") && message.contains("design::rotary"), "{message}");
+    assert!(
+        message.contains("`equipod export DESIGN --to c`") && message.contains("design::rotary"),
+        "{message}"
+    );
     // SAFETY: a text that stays and ends with a zero.
     let text = unsafe { CStr::from_ptr(eqp_status_text(13)) }.to_str().unwrap();
     assert!(text.contains("cranks"), "{text}");

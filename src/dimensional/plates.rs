@@ -44,7 +44,7 @@ struct Seat {
 
 /// A hole: its seat, where its middle is from that of the seat, its radius, and whether it turns with the direction to the seat.
 #[derive(Debug, Clone, Copy)]
-struct Hole {
+struct PatternHole {
     seat: usize,
     from_seat: Vector2<f64>,
     radius: f64,
@@ -138,7 +138,7 @@ impl PlacedPlate<'_> {
     }
 
     /// Adds a gradient with respect to the middle of a hole.
-    fn pull_hole<P: Gradient>(&self, pull: &mut P, hole: &Hole, g: &Vector2<f64>) {
+    fn pull_hole<P: Gradient>(&self, pull: &mut P, hole: &PatternHole, g: &Vector2<f64>) {
         let at = self.seats[hole.seat].at.coords;
         let turned = if hole.turns && at.norm_squared() > 0.0 {
             let moved = Vector2::new(-hole.from_seat.y, hole.from_seat.x).dot(g);
@@ -149,20 +149,22 @@ impl PlacedPlate<'_> {
         self.pull_seat(pull, hole.seat, None, &(g + turned));
     }
 
-    fn holes(&self, seat: usize) -> Vec<Hole> {
+    fn holes(&self, seat: usize) -> Vec<PatternHole> {
         let plate = self.model.plate;
         let at = self.seats[seat].at;
-        let middle = Hole { seat, from_seat: Vector2::zeros(), radius: 0.5 * plate.hole, turns: false };
+        let middle =
+            PatternHole { seat, from_seat: Vector2::zeros(), radius: 0.5 * plate.hole, turns: false };
         let mut out = vec![middle];
         if let Some(bolts) = &plate.bolts {
             let turns = bolts.from == BoltsFrom::Centre;
-            let bolt = |p: Point2<f64>| Hole { seat, from_seat: p - at, radius: 0.5 * bolts.hole, turns };
+            let bolt =
+                |p: Point2<f64>| PatternHole { seat, from_seat: p - at, radius: 0.5 * bolts.hole, turns };
             out.extend(bolts.places(&at).into_iter().map(bolt));
         }
         out
     }
 
-    fn middle(&self, hole: &Hole) -> Point2<f64> {
+    fn middle(&self, hole: &PatternHole) -> Point2<f64> {
         self.seats[hole.seat].at + hole.from_seat
     }
 
@@ -270,7 +272,7 @@ impl PlacedPlate<'_> {
             let value = (value - reserve) / model.size;
             see(Item { id: (kind, i, j, part), value, pull: pull.scaled(1.0 / model.size), exact: None });
         };
-        let holes: Vec<Vec<Hole>> = (0..self.seats.len()).map(|seat| self.holes(seat)).collect();
+        let holes: Vec<Vec<PatternHole>> = (0..self.seats.len()).map(|seat| self.holes(seat)).collect();
         // what the holes of one joint leave between them is the same for all joints, and no place changes it
         let own = holes.first().map_or(&[][..], |h| &h[..]);
         let among = own.iter().enumerate().flat_map(|(k, p)| own[k + 1..].iter().map(move |q| (p, q)));
@@ -281,7 +283,7 @@ impl PlacedPlate<'_> {
         let pattern = plate.bolts.map_or(0.0, |b| b.circle);
         for i in 0..self.seats.len() {
             for j in i + 1..self.seats.len() {
-                let gap = |p: &Hole, q: &Hole| {
+                let gap = |p: &PatternHole, q: &PatternHole| {
                     (self.middle(p) - self.middle(q)).norm() - p.radius - q.radius - plate.hole_distance
                 };
                 let pairs = || {
@@ -315,7 +317,7 @@ impl PlacedPlate<'_> {
     }
 
     /// Gradient of the distance of the middles of two holes.
-    fn apart<P: Gradient>(&self, p: &Hole, q: &Hole) -> P {
+    fn apart<P: Gradient>(&self, p: &PatternHole, q: &PatternHole) -> P {
         let mut pull = P::none();
         let d = (self.middle(p) - self.middle(q)).try_normalize(0.0).unwrap_or_else(Vector2::x);
         self.pull_hole(&mut pull, p, &d);

@@ -135,7 +135,6 @@ fn what_takes_drives_for_distances_refuses_joints_that_are_not_ideal() {
         &["limits", &path],
         &["check", &path],
         &["optimize", &path],
-        &["export", &path, "--to", "c", "-o", &out],
         &["export", &path, "--to", "hal", "-o", &out],
         &["view", &path, "-o", &out],
     ] {

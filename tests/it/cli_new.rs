@@ -262,6 +262,7 @@ fn sheets_of_either_dialect_give_one_design_and_the_wrong_dialect_is_refused() {
     let (code, help) = refusal(&["--sheet", &path, "--dialect", "dr-sim-manager"]);
     assert!(code == "new::bad_sheet" && help.contains("motion4sim"), "{code} {help}");
     assert_eq!(equipod(&["new", "--sheet", &path, "--dialect", "mover"]).status.code(), Some(2));
+    let none = folder.path().join("none.txt").display().to_string();
     // a design that a sheet does not hold
     let out = equipod(&[
         "design",
@@ -270,7 +271,7 @@ fn sheets_of_either_dialect_give_one_design_and_the_wrong_dialect_is_refused() {
         "--dialect",
         "motion4sim",
         "-o",
-        "-",
+        &none,
         "--json",
     ]);
     assert_eq!((out.status.code(), &document(&out)["error"]["code"]), (Some(2), &"convert::no_sheet".into()));

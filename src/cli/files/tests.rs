@@ -57,7 +57,7 @@ fn needed(words: &[String], output: &str) -> Vec<&'static str> {
 /// Outputs of commands that read no file.
 const WITHOUT_INPUT: [&str; 4] = ["bench", "shell man", "design presets", "new"];
 /// Options with a path that is read.
-const READ: [&str; 6] = ["check", "core", "drives", "points", "poses", "trajectory"];
+const READ: [&str; 7] = ["check", "core", "drives", "points", "poses", "sheet", "trajectory"];
 
 #[test]
 fn no_command_writes_over_its_input() {

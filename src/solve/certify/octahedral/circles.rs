@@ -81,14 +81,19 @@ impl Sides {
 
     /// The gaps `45, 56, 64`, with `d` their squared distances.
     #[inline(always)]
-    pub(super) fn gaps(&self, circles: &[Circle; 3], d: [Real; 3]) -> [Gap; 3] {
+    pub(super) fn gaps(&self, circles: &[Circle; 3], d: [Real; 3]) -> [CornerGap; 3] {
         [0, 1, 2].map(|k| {
             let l = (k + 1) % 3;
             let (p, q) = (&circles[k], &circles[l]);
             let m = [p.middle[0] - q.middle[0], p.middle[1] - q.middle[1]];
             let dot = |a: &[Real; 2]| m[0] * a[0] + m[1] * a[1];
             let constant = m[0] * m[0] + m[1] * m[1] + p.squared_radius + q.squared_radius - d[k];
-            Gap { constant, first: dot(&self.across[k]), second: -dot(&self.across[l]), mixed: self.mixed[k] }
+            CornerGap {
+                constant,
+                first: dot(&self.across[k]),
+                second: -dot(&self.across[l]),
+                mixed: self.mixed[k],
+            }
         })
     }
 }
@@ -103,7 +108,7 @@ pub(super) struct Circle {
 
 /// Coefficients `c`, `a`, `b`, `(A, B)`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Gap {
+pub(super) struct CornerGap {
     constant: Real,
     first: Real,
     second: Real,
@@ -114,7 +119,7 @@ pub(super) struct Gap {
 pub(super) type OnCircle = [ComplexBatch; 2];
 pub(super) type DiscOnCircle = [Discs; 2];
 
-impl Gap {
+impl CornerGap {
     /// The gap and its derivatives by both `t`, rounded.
     #[inline(always)]
     fn rounded(&self, [u, v]: &OnCircle, [p, q]: &OnCircle) -> [ComplexBatch; 3] {
@@ -197,7 +202,7 @@ pub(super) struct Zeros {
 
 /// Decides for each lane whether some disc about the corners `(h, z)` given holds exactly one zero of the three gaps. One Newton step comes first.
 #[inline(always)]
-pub(super) fn one_zero_about(circles: &[Circle; 3], gaps: &[Gap; 3], given: &[OnCircle; 3]) -> Zeros {
+pub(super) fn one_zero_about(circles: &[Circle; 3], gaps: &[CornerGap; 3], given: &[OnCircle; 3]) -> Zeros {
     let corner = |k: usize, u: ComplexBatch| [u, u.reciprocal().times(circles[k].squared_radius.centre)];
     let at = |c: &[OnCircle; 3]| [0, 1, 2].map(|k| gaps[k].rounded(&c[k], &c[(k + 1) % 3]));
     let mut centres = [0, 1, 2].map(|k| larger(&given[k], circles[k].squared_radius.centre));
