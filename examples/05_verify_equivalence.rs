@@ -5,7 +5,7 @@
 //!   poses in common at each sample: [16, 16, 16]
 //! a joint moved by 1e-6 of the size: not_equivalent
 //!   poses in common at each sample: [1, 1, 1]
-//!   a pose of B misses leg 3 of the other, certified: true
+//!   a pose of A misses leg 3 of the other, certified: true
 //! ```
 
 use std::error::Error;

@@ -144,7 +144,7 @@ fn refusals() {
 }
 
 /// Files of the format `c`, in the order in which they are told.
-const C_FILES: [&str; 8] = [
+const C_FILES: [&str; 10] = [
     "equipod.h",
     "equipod.c",
     "equipod_design.h",
