@@ -17,6 +17,7 @@ CalibrateOutcome = Literal["calibrated", "not_identifiable", "planned", "refuted
 CalibrationFrames = Literal["design", "measured"]
 CentrePrecision = Literal["double", "double_double"]
 CompletenessWord = Literal["modular", "proved", "unproved"]
+CorrelationsWord = Literal["design", "independent"]
 CountUndecided = Literal["degree_too_low", "joints_not_exact", "no_prime_drawn", "primes_disagree"]
 CountedLengths = Literal["generic", "given"]
 DesignFixedTo = Literal["base", "platform"]
@@ -359,6 +360,19 @@ class CalibratedOffsetRecord(Record):
     deviation: Union[float, None]
 
 
+class CalibratedPosesRecord(Record):
+    """Standard deviations of poses computed from lengths with the calibrated machine; the noise of these lengths comes on top."""
+
+    #: Whether the design file has correlations.
+    correlations: CorrelationsWord
+    #: Poses looked at.
+    poses: int
+    #: Root mean square of the distance by which the tool point is off, design units.
+    position: DeviationRecord
+    #: Root mean square of the angle by which the orientation is off, degrees.
+    rotation_deg: DeviationRecord
+
+
 class CalibrationRecord(Record):
     """What was found."""
 
@@ -430,7 +444,7 @@ class CertificateRecord(Record):
     #: A power of two, design units.
     unit: Union[float, None]
     #: The centre.
-    centre: Union[ComplexRecord3, ComplexRecord4, None]
+    centre: Union[ComplexRecord3, ComplexRecord2, None]
     #: To be added to the centre.
     centre_low: Union[ComplexRecord3, None]
     #: One root lies within this distance of the centre.
@@ -451,11 +465,8 @@ class CertificateRecord(Record):
     dominance: Union[float, None]
     #: Legs 14 24 25 35 36 16, from 0.
     order: Union[tuple[int, ...], None]
-    #: Design units squared.
-    weights: tuple[Union[float, None], ...]
-    #: Near the distance of P4 from the base plane along (P2 - P1) x (P3 - P1), design units: which pose of
-    #: the pair it is.
-    height: Union[ComplexRecord5, None]
+    #: The root is the mirror image, in the plane of the base, of the pose near the centre.
+    mirrored: Union[bool, None]
 
 
 class CheckAnswer(Record):
@@ -660,24 +671,6 @@ class ComplexRecord2(Record):
 
 
 class ComplexRecord3(Record):
-    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
-
-    #: Real parts.
-    re: tuple[Union[float, None], ...]
-    #: Imaginary parts.
-    im: tuple[Union[float, None], ...]
-
-
-class ComplexRecord4(Record):
-    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
-
-    #: Real parts.
-    re: tuple[Union[float, None], ...]
-    #: Imaginary parts.
-    im: tuple[Union[float, None], ...]
-
-
-class ComplexRecord5(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
@@ -1098,6 +1091,22 @@ class DesignSphere(Record):
 
     center: DesignVector
     diameter: DesignPositive
+
+
+class DeviationRecord(Record):
+    """A standard deviation over the poses looked at."""
+
+    #: Half of the poses have at most this.
+    median: Union[float, None]
+    #: The greatest.
+    greatest: Union[float, None]
+    #: What it would be at the same pose if every coordinate and offset were off for itself.
+    independent: Union[float, None]
+    #: The pose.
+    pose: PoseQuaternionRecord
+    #: Covariance of the shift of the tool point (design units) and the rotation vector (degrees) at the
+    #: pose, base frame.
+    covariance: tuple[tuple[Union[float, None], ...], ...]
 
 
 class DifferenceRecord(Record):
@@ -3958,8 +3967,11 @@ class TolerancesAnswer(Record):
     solved: SolvedBudgetRecord
     #: Random errors in the budget.
     trials: TrialsRecord
-    #: Random errors with the standard deviations of the calibration; null: not asked for.
+    #: Random errors of joints and leg offsets with the covariance of the calibration; null: not asked for.
     calibrated: Union[TrialsRecord, None]
+    #: How uncertain computed poses are by what the calibration does not know, to first order; null: not
+    #: asked for.
+    calibrated_poses: Union[CalibratedPosesRecord, None]
     #: The greatest errors by joints, leg lengths and temperature together; null: not asked for.
     map: Union[ErrorMapRecord, None]
     #: The poses looked at.
