@@ -124,7 +124,7 @@ mod tests {
         let pose = Pose::new(Vector3::new(0.3, -0.2, 4.0), Angles::from_degrees([5.0, -3.0, 8.0]));
         let tool = Point3::new(0.5, 1.0, 2.0);
         // all base joints along x by the same normal number of deviation 0.1: the computed pose is shifted by it, whatever the legs
-        let along_x = |k: usize| k < 9 && k % 3 == 0;
+        let along_x = |k: usize| k < 9 && k.is_multiple_of(3);
         let deviations: Vec<f64> = (0..24).map(|k| if along_x(k) { 0.1 } else { 0.0 }).collect();
         let together = |i: usize, j: usize| f64::from(u8::from(i == j || (along_x(i) && along_x(j))));
         let known = MachineUncertainty::new(&deviations, &DMatrix::from_fn(24, 24, together)).unwrap();

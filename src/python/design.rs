@@ -322,7 +322,7 @@ impl NativeDesign {
             let found = py.detach(|| platform.fk(&lengths, &options)).map_err(|e| raised(py, e.into()))?;
             return Ok(NativeSolutions::new(
                 found,
-                SolvedFor::Angles(Arc::clone(&self.design), platform.clone(), lengths),
+                SolvedFor::Angles(Arc::clone(&self.design), Box::new(platform.clone()), lengths),
             ));
         }
         let found = py.detach(|| self.design.fk_with(lengths, options)).map_err(|e| raised(py, e))?;
@@ -372,9 +372,13 @@ impl NativeDesign {
                     &format!("the cranks do not hold the pose where the tracker starts: {why}"),
                 )
             })?;
-            return Ok(NativeTracker(Followed::Cranks(RotaryTracker::new(platform.clone(), *first, angles))));
+            return Ok(NativeTracker(Followed::Cranks(Box::new(RotaryTracker::new(
+                platform.clone(),
+                *first,
+                angles,
+            )))));
         }
-        Ok(NativeTracker(Followed::Legs(self.design.tracker(*first))))
+        Ok(NativeTracker(Followed::Legs(Box::new(self.design.tracker(*first)))))
     }
 
     /// The margins of all requirements at poses (n, 4, 4): names, units and legs or joints of the columns, and float64 of shape (n, columns).

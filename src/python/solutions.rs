@@ -40,7 +40,7 @@ pub(super) enum SolvedFor {
     /// Leg lengths.
     Lengths(Arc<Design>),
     /// Angles of cranks, radians.
-    Angles(Arc<Design>, RotaryPlatform, [f64; 6]),
+    Angles(Arc<Design>, Box<RotaryPlatform>, [f64; 6]),
 }
 
 /// All finite poses, real and complex, with one set of leg lengths or of angles.

@@ -18,9 +18,9 @@ pub(super) struct NativeTracker(pub(super) Followed);
 /// What a pose is followed by.
 pub(super) enum Followed {
     /// Six lengths.
-    Legs(entrance::Tracker),
+    Legs(Box<entrance::Tracker>),
     /// Six angles, radians.
-    Cranks(RotaryTracker),
+    Cranks(Box<RotaryTracker>),
 }
 
 impl Followed {

@@ -542,8 +542,7 @@ pub enum CertificateRecord {
         /// What holds both poses.
         enclosure: Box<EnclosureRecord>,
     },
-    /// In three angles: legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles about P1 P2, P2 P3, P3 P1, h^2 + z^2 = rho, h across the side in the plane of the base (towards the
-    /// left on the way from the first joint to the second, seen against n = (P2 - P1) x (P3 - P1)) and z along n. With u = h + i z the distance is the largest of the three |log(u / centre)|.
+    /// In three angles: legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles h^2 + z^2 = rho about P1 P2, P2 P3, P3 P1, with z along n = (P2 - P1) x (P3 - P1) and h towards the left of the way from the first joint to the second; with u = h + i z the distance is the largest of the three |log(u / centre)|.
     Octahedral {
         /// Legs 14 24 25 35 36 16, from 0.
         order: [usize; 6],

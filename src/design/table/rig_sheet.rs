@@ -23,7 +23,7 @@ use crate::rotary::{Elbow, RotaryPlatform};
 /// Whose sheet it is: it says which of `L3` and `L4` is the long side of the base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SheetDialect {
-    /// Motion4Sim, whose parameters are those of `FlyPT` Mover: `L3` is the short side of the base, `L4` the long one.
+    /// `Motion4Sim`, whose parameters are those of `FlyPT` Mover: `L3` is the short side of the base, `L4` the long one.
     Motion4Sim,
     /// DR Sim Manager of Departed Reality: `L3` is the long side of the base, `L4` the short one.
     DrSimManager,

@@ -174,7 +174,7 @@ fn triangle_row(report: &mut Findings<'_>, row: &Node, i: usize) -> Option<Vec<f
         }
         out.push(x);
     }
-    if out[i] != 1.0 {
+    if (out[i] - 1.0).abs() > 0.0 {
         let message = format!("{what} ends with {}, not with 1", out[i]);
         let help = "the diagonal is 1: every quantity is wholly correlated with itself";
         report.refuse(Code::OutOfRange, &element_span(row, i), message, help);

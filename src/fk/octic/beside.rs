@@ -108,13 +108,13 @@ impl OcticSolver {
     #[inline(always)]
     pub(super) fn settled(&self, corners: &[Points; 3], s: &[f64; 6]) -> Option<Corners> {
         let circles = self.circles(s);
-        let places = self.turned(&circles, self.on_circles(&circles, corners))?;
+        let places = self.turned(&circles, Self::on_circles(&circles, corners))?;
         are_separate(&places).then(|| self.off_circles(&circles, &places))
     }
 
     /// From the larger of `h + i z` and `h - i z`.
     #[inline(always)]
-    fn on_circles(&self, circles: &[Circle; 3], corners: &[Points; 3]) -> [OnCircle; 3] {
+    fn on_circles(circles: &[Circle; 3], corners: &[Points; 3]) -> [OnCircle; 3] {
         let mut places = [[ComplexBatch::ZERO; 2]; 3];
         for k in 0..3 {
             let Circle { centre, across, squared_radius } = circles[k];
@@ -189,7 +189,7 @@ impl OcticSolver {
     #[inline(always)]
     fn continued(&self, corners: &[Points; 3], from: &[f64; 6], to: &[f64; 6]) -> Option<Corners> {
         let (before, circles) = (self.circles(from), self.circles(to));
-        let mut places = self.on_circles(&before, corners);
+        let mut places = Self::on_circles(&before, corners);
         for k in 0..3 {
             let ratio = circles[k].squared_radius / before[k].squared_radius;
             if !(ratio > 0.0) {

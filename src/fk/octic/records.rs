@@ -29,7 +29,7 @@ pub(super) fn proved(
             (key, k, pair, image)
         })
         .collect();
-    order.sort_by(|a, b| a.0.cmp(&b.0));
+    order.sort_by_key(|entry| entry.0);
     let mut roots = Vec::with_capacity(order.len());
     for (_, k, pair, image) in order {
         roots.push(of_pair(solver, found, k, pair, image));

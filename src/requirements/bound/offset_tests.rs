@@ -106,6 +106,7 @@ fn derivatives_over_cells_are_those_of_doubles() {
 }
 
 /// All that ideal joints are judged by, and universal joints.
+#[allow(clippy::large_types_passed_by_value, reason = "it goes into the requirements")]
 fn all_of(hardware: Hardware) -> Requirements {
     let all = everything();
     let hardware = Hardware {
@@ -205,7 +206,7 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
 #[test]
 fn upright_legs_with_offsets_are_those_by_hand() {
     let ring: Vec<_> = (0..6)
-        .map(|i| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos())
+        .map(|i| (f64::from(i) * std::f64::consts::FRAC_PI_3).sin_cos())
         .map(|(s, c)| nalgebra::Point3::new(4.0 * c, 4.0 * s, 0.0))
         .collect();
     let m = Manipulator::try_new(ring.clone(), ring, std::array::from_fn(|i| (i, i))).unwrap();

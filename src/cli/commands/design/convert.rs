@@ -21,7 +21,7 @@ pub(crate) struct Args {
     /// Write all lengths in this unit: um, mm, cm, m, in or ft
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
-    /// Write the parameters of a motion-simulator program in place of a design: `motion4sim` (and FlyPT Mover), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
+    /// Write the parameters of a motion-simulator program in place of a design: `motion4sim` (and `FlyPT Mover`), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
     #[arg(long, value_name = "DIALECT")]
     dialect: Option<SheetDialect>,
 }

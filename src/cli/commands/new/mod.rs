@@ -62,7 +62,7 @@ pub(crate) struct Args {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "height", "corners", "points"]
     )]
     sheet: Option<PathBuf>,
-    /// Whose parameters --sheet has: `motion4sim` (and FlyPT Mover), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
+    /// Whose parameters --sheet has: `motion4sim` (and `FlyPT Mover`), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
     #[arg(long, value_name = "DIALECT", requires = "sheet")]
     dialect: Option<SheetDialect>,
     /// Label of the length unit; that of the table, else mm, when absent
