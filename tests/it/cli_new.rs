@@ -1,5 +1,6 @@
 //! `equipod new`: designs from sizes, corners and tables, and `design convert --units`.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use serde_json::Value;
@@ -204,7 +205,7 @@ fn sheet(folder: &Path, name: &str, [l3, l4]: [f64; 2]) -> String {
     let mut text =
         format!("L1 = 700\nL2 = 120\nL3 = {l3}\nL4 = {l4}\ncrank = 90\nrod = 600\nmiddle_angle = 10\n");
     for (i, angle) in [180, 0, 300, 120, 60, 240].into_iter().enumerate() {
-        text += &format!("crank_angle_{} = {angle}\n", i + 1);
+        writeln!(text, "crank_angle_{} = {angle}", i + 1).unwrap();
     }
     let path = folder.join(name);
     std::fs::write(&path, text).unwrap();

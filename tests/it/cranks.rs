@@ -542,7 +542,7 @@ fn a_motion_of_cranks_has_speeds_torques_and_powers() {
     let column =
         |name: &str| header.iter().position(|h| *h == name).unwrap_or_else(|| panic!("{header:?}")) - 1;
     let (preset, _) = parse_with_cranks(&std::fs::read_to_string(HEAD).unwrap(), Format::Toml).unwrap();
-    let payload = preset.payload.clone().unwrap();
+    let payload = preset.payload.unwrap();
     for k in 1..rows.len() - 1 {
         let dt = rows[k + 1][0] - rows[k][0];
         let mut power = 0.0;
