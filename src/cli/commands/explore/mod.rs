@@ -59,7 +59,7 @@ pub(crate) struct Args {
     /// How far a joint may lie outside its edge, on its extension, in edge lengths
     #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
-    /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could win, as `optimize --drives` does, in place of that of the design (`drives` in [hardware]). Of octahedral designs
+    /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could win, as `optimize --drives` does, in place of that of the design (`drives` in `[hardware]`). Of octahedral designs
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
 }

@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// Write the answer and the other local optima that meet the requirements, which look different, into this folder: `equipod compare` sets them side by side. Where there is no answer, the platforms that other freedoms lead to
     #[arg(long, value_name = "DIR")]
     candidates: Option<OutputPath>,
-    /// Table of drives (.csv), as `equipod build drives` reads it, in place of that of the design (`drives` in [hardware]): the search is made with each drive that could win, and the answer is the best platform with its drive, the cheapest with which the requirements are met where every drive has a price
+    /// Table of drives (.csv), as `equipod build drives` reads it, in place of that of the design (`drives` in `[hardware]`): the search is made with each drive that could win, and the answer is the best platform with its drive, the cheapest with which the requirements are met where every drive has a price
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
     /// Worker threads, one for each processor when absent; the answer does not depend on it

@@ -19,7 +19,7 @@ use crate::records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 pub(crate) struct Args {
     /// Design file (.toml or .json) with its home pose, workspace, limits and loads
     design: PathBuf,
-    /// Table of drives (.csv), that of the design (`drives` in [hardware]) when absent; its first line names the columns and their units: name, stroke, dead or retracted length, force, speed, mass, stiffness, price, source
+    /// Table of drives (.csv), that of the design (`drives` in `[hardware]`) when absent; its first line names the columns and their units: name, stroke, dead or retracted length, force, speed, mass, stiffness, price, source
     table: Option<PathBuf>,
     /// A table with a time in seconds and a pose a line, along which the drives have to be fast and strong enough too
     #[arg(long, value_name = "FILE")]
