@@ -354,7 +354,7 @@ def test_cranks_have_angles_in_place_of_lengths(tmp_path):
     record = solutions.record
     assert np.allclose(record.angles_deg, np.degrees(angles[0]))
     kept = [s.real_pose.elbow_kept for s in record.solutions if s.real_pose is not None]
-    assert [True] * 6 in kept
+    assert (True,) * 6 in kept
     batch = head.fk_batch(angles[:2])
     assert len(batch) == 2 and batch.counts()[0] == len(solutions) and np.array_equal(batch[0].T, solutions.T)
     tracker = head.tracker()
