@@ -57,12 +57,13 @@ impl ComplexBatch {
         self.map(|re, im| (re * c, im * c))
     }
 
-    /// `1 / z`; not a number where `z = 0`.
+    /// The imaginary unit times each.
     #[inline(always)]
     pub(crate) fn times_i(self) -> Self {
         Self { re: self.im.map(|x| -x), im: self.re }
     }
 
+    /// `1 / z`; not a number where `z = 0`.
     #[inline(always)]
     pub(crate) fn reciprocal(self) -> Self {
         self.map(|re, im| {

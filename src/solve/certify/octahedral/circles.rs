@@ -220,7 +220,7 @@ pub(super) fn one_zero_about(circles: &[Circle; 3], gaps: &[CornerGap; 3], given
         let relative = rho.radius / (rho.centre.abs() - rho.radius);
         // of the squared radius, and of the reciprocal by its bound in `Discs`
         loose[k] = if relative >= 0.0 { relative * UP + 16.0 * U } else { f64::NAN };
-        moduli[k] = corners[k].map(|z| modulus(&z));
+        moduli[k] = moduli_of(&corners[k], loose[k]);
         let new = from_conjugate(&centres[k], rho);
         conjugates = [conjugates[0].largest(new[0]), conjugates[1].largest(new[1])];
     }
@@ -286,6 +286,12 @@ pub(super) fn one_zero_about(circles: &[Circle; 3], gaps: &[CornerGap; 3], given
         out.places[k] = [h, z].map(|c| Discs { c, r });
     }
     out
+}
+
+/// Upper bounds of `|u|` and `|v|`, where `v` is known up to `loose` times its modulus: with a squared radius known within wide bounds that is more than the slack of [`STRETCH`].
+#[inline(always)]
+fn moduli_of([u, v]: &OnCircle, loose: f64) -> [Reals; 2] {
+    [modulus(u), modulus(v).times(1.0 + loose).up()]
 }
 
 /// Upper bounds of the moduli.

@@ -64,7 +64,7 @@ fn gaps_are_squared_distances_over_the_rationals() {
                 let rho = circles[i].squared_radius;
                 rho.radius / (rho.centre.abs() - rho.radius) * UP + 16.0 * U
             });
-            let moduli = [k, l].map(|i| corners[i].map(|z| modulus(&z)));
+            let moduli = [(k, 0), (l, 1)].map(|(i, n)| moduli_of(&corners[i], loose[n]));
             let [error, _] = gaps[k].errors(&moduli[0], &moduli[1], loose);
             let [value, first, second] = gaps[k].rounded(&corners[k], &corners[l]);
             let off = truth - exact(value.re[0]);
@@ -108,7 +108,7 @@ fn the_curvature_is_a_bound() {
             [u, u.reciprocal().times(circles[k].squared_radius.centre)]
         };
         let (p, q) = (corner(0), corner(1));
-        let [_, bend] = gaps[0].errors(&p.map(|z| modulus(&z)), &q.map(|z| modulus(&z)), [0.0; 2]);
+        let [_, bend] = gaps[0].errors(&moduli_of(&p, 0.0), &moduli_of(&q, 0.0), [0.0; 2]);
         let mut angle = || {
             let turn = rng.uniform(0.0, std::f64::consts::TAU);
             num_complex::Complex64::from_polar(REACH, turn)
@@ -132,4 +132,17 @@ fn the_curvature_is_a_bound() {
         }
     }
     assert!(closest > 0.3, "{closest}");
+}
+
+/// A squared radius known to one part in fifty only: the bounds hold for both of its ends.
+#[test]
+fn moduli_are_bounds_for_every_squared_radius() {
+    let (rho, part) = (2.0, 0.02);
+    let u = ComplexBatch { re: [0.7; LANES], im: [-1.9; LANES] };
+    let [of_u, of_v] = moduli_of(&[u, u.reciprocal().times(rho)], part);
+    let modulus = 0.7_f64.hypot(1.9);
+    for end in [rho * (1.0 - part), rho * (1.0 + part)] {
+        assert!(of_u.0[0] >= modulus && of_v.0[0] >= end / modulus, "{of_v:?}");
+    }
+    assert!(of_v.0[0] < 1.001 * rho * (1.0 + part) / modulus);
 }
