@@ -117,6 +117,35 @@ fn heading(export: &Export) -> String {
     format!("/*\n{} */\n", commented(" *", lines.into_iter().map(plain)))
 }
 
+/// C that a kind of drive has besides `equipod.c`, the same for every design.
+struct OwnLibrary {
+    name: &'static str,
+    header: &'static str,
+    source: &'static str,
+    selftest: &'static str,
+}
+
+impl OwnLibrary {
+    /// Both libraries with header, source and vectors of a design.
+    fn files(&self, header: String, source: String, vectors: String) -> Vec<ExportedFile> {
+        let name = self.name;
+        // the rules of the other library with one file more
+        let rules = include_str!("CMakeLists.txt")
+            .replace("STATIC equipod.c ", &format!("STATIC equipod.c {name}.c "));
+        vec![
+            ExportedFile::new("equipod.h", include_str!("equipod.h").to_string()),
+            ExportedFile::new("equipod.c", include_str!("equipod.c").to_string()),
+            ExportedFile::new(&format!("{name}.h"), self.header.to_string()),
+            ExportedFile::new(&format!("{name}.c"), self.source.to_string()),
+            ExportedFile::new("equipod_design.h", header),
+            ExportedFile::new("equipod_design.c", source),
+            ExportedFile::new("equipod_vectors.h", vectors),
+            ExportedFile::new("equipod_selftest.c", self.selftest.to_string()),
+            ExportedFile::new("CMakeLists.txt", rules),
+        ]
+    }
+}
+
 fn header(export: &Export) -> String {
     let mut out = heading(export);
     out.push_str(

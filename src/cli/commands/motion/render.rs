@@ -78,28 +78,20 @@ fn legs(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord) {
         format!("rms {force}"),
         "power W".to_string(),
     ];
-    let _ = write!(out, "leg");
-    for title in &titles {
-        let _ = write!(out, " {title:>14}");
-    }
-    out.push('\n');
-    for leg in &motion.legs {
-        let _ = write!(out, "{:<3}", leg.leg);
-        let found = |x: &Option<ExtremeRecord>| x.map_or("-".to_string(), |x| short(x.value.0));
-        for cell in [
+    let rows = motion.legs.iter().map(|leg| {
+        let cells = [
             short(leg.shortest.value.0),
             short(leg.longest.value.0),
             short(leg.speed.value.0),
             short(leg.acceleration.value.0),
-            found(&leg.push),
-            found(&leg.pull),
+            extreme(leg.push),
+            extreme(leg.pull),
             leg.rms_force.map_or("-".to_string(), |x| short(x.0)),
-            found(&leg.power_w),
-        ] {
-            let _ = write!(out, " {cell:>14}");
-        }
-        out.push('\n');
-    }
+            extreme(leg.power_w),
+        ];
+        (leg.leg, cells)
+    });
+    table(out, "leg", &titles, rows);
     if let Some(time) = motion.singular_at_s {
         let _ = writeln!(
             out,
@@ -107,6 +99,32 @@ fn legs(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord) {
             short(time)
         );
     }
+}
+
+/// A row for each leg or crank, with its number under `what`.
+fn table<const N: usize>(
+    out: &mut String,
+    what: &str,
+    titles: &[String; N],
+    rows: impl Iterator<Item = (usize, [String; N])>,
+) {
+    let width = what.len();
+    let _ = write!(out, "{what}");
+    for title in titles {
+        let _ = write!(out, " {title:>14}");
+    }
+    out.push('\n');
+    for (number, cells) in rows {
+        let _ = write!(out, "{number:<width$}");
+        for cell in cells {
+            let _ = write!(out, " {cell:>14}");
+        }
+        out.push('\n');
+    }
+}
+
+fn extreme(found: Option<ExtremeRecord>) -> String {
+    found.map_or("-".to_string(), |x| short(x.value.0))
 }
 
 fn cranks(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord, list: &[CrankMotionRecord]) {
@@ -120,28 +138,20 @@ fn cranks(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord, lis
         format!("rms {torque}"),
         "power W".to_string(),
     ];
-    if !list.is_empty() {
-        let _ = write!(out, "crank");
-        for title in &titles {
-            let _ = write!(out, " {title:>14}");
-        }
-        out.push('\n');
-    }
-    for crank in list {
-        let _ = write!(out, "{:<5}", crank.leg);
-        let found = |x: &Option<ExtremeRecord>| x.map_or("-".to_string(), |x| short(x.value.0));
-        for cell in [
+    let rows = list.iter().map(|crank| {
+        let cells = [
             short(crank.least_deg.value.0),
             short(crank.greatest_deg.value.0),
             short(crank.speed_deg.value.0),
             short(crank.acceleration_deg.value.0),
-            found(&crank.torque),
+            extreme(crank.torque),
             crank.rms_torque.map_or("-".to_string(), |x| short(x.0)),
-            found(&crank.power_w),
-        ] {
-            let _ = write!(out, " {cell:>14}");
-        }
-        out.push('\n');
+            extreme(crank.power_w),
+        ];
+        (crank.leg, cells)
+    });
+    if !list.is_empty() {
+        table(out, "crank", &titles, rows);
     }
     if let Some(time) = motion.unreached_at_s {
         let _ = writeln!(out, "At {} s a rod does not reach from its crank to the platform.", short(time));

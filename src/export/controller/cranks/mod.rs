@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use nalgebra::{Point3, Vector3};
 
 use super::vectors::{list, moved, pose_numbers, row};
-use super::{ExportedFile, braces, heading, matrix, number, points, reals};
+use super::{ExportedFile, OwnLibrary, braces, heading, matrix, number, points, reals};
 use crate::export::{Export, ExportCranks};
 use crate::fk::NearOutcome;
 use crate::geom::Pose;
@@ -24,20 +24,13 @@ const POSES: usize = 40;
 const SEGMENTS: u32 = 8;
 
 pub(super) fn files(export: &Export, cranks: &ExportCranks) -> Vec<ExportedFile> {
-    // the rules of the other library with one file more
-    let rules =
-        include_str!("../CMakeLists.txt").replace("STATIC equipod.c ", "STATIC equipod.c equipod_cranks.c ");
-    vec![
-        ExportedFile::new("equipod.h", include_str!("../equipod.h").to_string()),
-        ExportedFile::new("equipod.c", include_str!("../equipod.c").to_string()),
-        ExportedFile::new("equipod_cranks.h", include_str!("equipod_cranks.h").to_string()),
-        ExportedFile::new("equipod_cranks.c", include_str!("equipod_cranks.c").to_string()),
-        ExportedFile::new("equipod_design.h", header(export)),
-        ExportedFile::new("equipod_design.c", source(export, cranks)),
-        ExportedFile::new("equipod_vectors.h", vectors(export, cranks)),
-        ExportedFile::new("equipod_selftest.c", include_str!("equipod_selftest.c").to_string()),
-        ExportedFile::new("CMakeLists.txt", rules),
-    ]
+    let library = OwnLibrary {
+        name: "equipod_cranks",
+        header: include_str!("equipod_cranks.h"),
+        source: include_str!("equipod_cranks.c"),
+        selftest: include_str!("equipod_selftest.c"),
+    };
+    library.files(header(export), source(export, cranks), vectors(export, cranks))
 }
 
 fn header(export: &Export) -> String {

@@ -7,7 +7,9 @@ use std::fmt::Write as _;
 use nalgebra::Vector3;
 
 use super::vectors::{list, moved, pose_numbers, row};
-use super::{ExportedFile, SwingAxes, braces, heading, legs, limits, matrix, number, points, reals};
+use super::{
+    ExportedFile, OwnLibrary, SwingAxes, braces, heading, legs, limits, matrix, number, points, reals,
+};
 use crate::coupled::{CoupledLegs, CoupledStatus, CoupledTracker};
 use crate::export::Export;
 use crate::fk::NearOptions;
@@ -23,20 +25,13 @@ const AWAY: f64 = 0.08;
 const POSES: usize = 16;
 
 pub(super) fn files(export: &Export, drives: &CoupledLegs) -> Vec<ExportedFile> {
-    // the rules of the other library with one file more
-    let rules =
-        include_str!("../CMakeLists.txt").replace("STATIC equipod.c ", "STATIC equipod.c equipod_drives.c ");
-    vec![
-        ExportedFile::new("equipod.h", include_str!("../equipod.h").to_string()),
-        ExportedFile::new("equipod.c", include_str!("../equipod.c").to_string()),
-        ExportedFile::new("equipod_drives.h", include_str!("equipod_drives.h").to_string()),
-        ExportedFile::new("equipod_drives.c", include_str!("equipod_drives.c").to_string()),
-        ExportedFile::new("equipod_design.h", header(export)),
-        ExportedFile::new("equipod_design.c", source(export, drives)),
-        ExportedFile::new("equipod_vectors.h", vectors(export, drives)),
-        ExportedFile::new("equipod_selftest.c", include_str!("equipod_selftest.c").to_string()),
-        ExportedFile::new("CMakeLists.txt", rules),
-    ]
+    let library = OwnLibrary {
+        name: "equipod_drives",
+        header: include_str!("equipod_drives.h"),
+        source: include_str!("equipod_drives.c"),
+        selftest: include_str!("equipod_selftest.c"),
+    };
+    library.files(header(export), source(export, drives), vectors(export, drives))
 }
 
 fn header(export: &Export) -> String {
