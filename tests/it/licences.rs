@@ -16,8 +16,8 @@ fn listed() -> BTreeMap<(String, String), bool> {
     lines.map(entry).collect()
 }
 
-/// Names of the crates that Cargo compiles in, by its own account: what runs at build time or in tests is not among them.
-/// The other systems are left to `.ci/licences --check`, because their crates need not be on this machine.
+/// Names of the crates that Cargo compiles into the program, by its own account: what runs at build time or in tests is not among them.
+/// Other systems and features are left to `.ci/licences --check`, because their crates need not be on this machine.
 fn compiled() -> BTreeSet<String> {
     let mut cargo = Command::new(env!("CARGO"));
     cargo.current_dir(env!("CARGO_MANIFEST_DIR"));
@@ -31,7 +31,7 @@ fn compiled() -> BTreeSet<String> {
         "--format",
         "{p}",
     ]);
-    let out = cargo.arg("--all-features").output().unwrap();
+    let out = cargo.output().unwrap();
     assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
     let text = String::from_utf8(out.stdout).unwrap();
     let code = text.lines().filter(|l| !l.is_empty() && !l.contains("(proc-macro)"));
