@@ -1,4 +1,4 @@
-//! The judge and the verdict of the comparison of the optimiser with random designs and CMA-ES (`cargo bench --bench optimizer`): they can find a loss.
+//! The judge and the verdict of the comparison of the optimiser with random designs and CMA-ES (`tests/optimizer/run`): they can find a loss.
 
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! The optimiser against 100,000 random feasible designs and against CMA-ES with 100 times its processor time.
 //!
 //! ```text
-//! cargo bench --bench optimizer -- [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600] [--walk-seconds 1800] [--only offsets|requirements] [--out FOLDER] [DESIGN ...]
-//! cargo bench --bench optimizer -- --timing
-//! cargo bench --bench optimizer -- --gaps 100 [--threads 2] [--seed 1]
+//! tests/optimizer/run [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600] [--walk-seconds 1800] [--only offsets|requirements] [--out FOLDER] [DESIGN ...]
+//! tests/optimizer/run --timing
+//! tests/optimizer/run --gaps 100 [--threads 2] [--seed 1]
 //! ```
 //!
 //! Default: all designs of `designs/`, `designs/worked/` and `designs/presets/`. The problem of a design is that of `equipod optimize`. Octahedral ones are taken without their requirements too: the offsets alone,
@@ -43,6 +43,9 @@ use report::{Report, Row};
 use verdict::{Judged, Verdict};
 
 type Failure = Box<dyn Error>;
+
+/// The folder of the project, seen from that of the package `tests/optimizer`.
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 /// What the command line says.
 #[derive(Debug)]
@@ -117,7 +120,7 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
 
 /// All designs of the repository.
 fn shipped() -> Result<Vec<PathBuf>, Failure> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("designs");
+    let root = Path::new(ROOT).join("designs");
     let mut out = Vec::new();
     for folder in [root.clone(), root.join("worked"), root.join("presets")] {
         let Ok(entries) = std::fs::read_dir(folder) else { continue };

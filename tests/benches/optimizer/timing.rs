@@ -9,7 +9,7 @@ use equipod::methods::offsets::{OffsetSearchOptions, optimize};
 
 use crate::judge::{Judge, OffsetJudge, offset_problem};
 use crate::record::Clock;
-use crate::{Failure, load};
+use crate::{Failure, ROOT, load};
 
 /// Runs of which the medians are taken.
 const RUNS: u64 = 15;
@@ -34,7 +34,7 @@ fn reference(judge: &OffsetJudge, seed: u64) -> f64 {
 
 /// The published example with 200 poses of its workspace: home, the corners, and points of a Halton sequence and random ones in halves.
 pub(crate) fn run(threads: usize) -> Result<(), Failure> {
-    let design = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("designs/rbt-octahedral.toml"))?;
+    let design = load(&Path::new(ROOT).join("designs/rbt-octahedral.toml"))?;
     let home = design.home.ok_or("the design has no home")?;
     let space = design.workspace.space(&home);
     println!(
