@@ -217,6 +217,7 @@ fn is_locally_nearest(reach: &Reach<'_>, asked: &Pose, found: &Pose, rng: &mut R
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_nearest_pose_meets_the_limits_and_nothing_allowed_beside_it_is_nearer() {
     let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);

@@ -223,6 +223,7 @@ fn the_design_is_not_overwritten() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn an_interrupted_run_leaves_finished_files_only_and_does_not_disturb_the_next() {
     let temp = tempfile::tempdir().unwrap();
     let folder = temp.path();
@@ -252,6 +253,7 @@ fn an_interrupted_run_leaves_finished_files_only_and_does_not_disturb_the_next()
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_page_of_a_run_is_that_of_the_command_report() {
     let temp = tempfile::tempdir().unwrap();
     let out = temp.path().join("out");
@@ -283,6 +285,7 @@ fn the_page_of_a_run_is_that_of_the_command_report() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_report_of_a_run_is_about_what_the_run_wrote() {
     let temp = tempfile::tempdir().unwrap();
     let out = temp.path().join("out");
@@ -400,6 +403,7 @@ fn with_tables(folder: &Path, design: &str, tables: &str) -> String {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn a_design_with_holes_becomes_a_machine_whose_joints_are_on_them() {
     let temp = tempfile::tempdir().unwrap();
     let holes = "[holes]\nbase = { pitch = 0.25 }\nplatform = { pitch = 0.5, origin = [0.125, 0] }\n";

@@ -48,6 +48,7 @@ fn assess_proves_both_angles_of_universal_joints() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn assess_judges_drives_whose_joints_are_not_ideal() {
     let folder = tempfile::tempdir().unwrap();
     let hexapod = std::fs::read_to_string(DESIGN).unwrap();

@@ -3,6 +3,7 @@
 use super::cli_frame::{document, equipod};
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_midline_platform_moves_on_two_closed_curves() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
@@ -28,6 +29,7 @@ fn the_midline_platform_moves_on_two_closed_curves() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn lengths_alone_give_the_curves_that_the_pose_gives() {
     let start = equipod(&["singular", "motion", "designs/rbt-midline.toml", "--sections", "0", "--json"]);
     let start = document(&start);
@@ -112,6 +114,7 @@ fn equivalent_platforms_have_the_same_regular_box() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn assembly_modes_of_one_sign_are_joined_and_equivalent_platforms_agree() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();

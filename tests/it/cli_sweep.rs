@@ -337,6 +337,7 @@ fn what_is_refused_says_why() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_best_candidates_are_designs_side_by_side() {
     let place = Place::new();
     let (plan, folder, best) = (place.plan("plan.toml", OFFSETS), place.path("sweep"), place.path("best"));

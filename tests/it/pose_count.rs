@@ -111,6 +111,7 @@ fn rounded_special_platforms_are_not_called_complete_with_the_poses_of_the_exact
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn congruent_bodies_with_equal_lengths_have_a_real_sphere() {
     for seed in 0..8 {
         let rng = &mut Rng::stream(0x53, seed);
@@ -164,6 +165,7 @@ fn bodies_that_turn_freely_are_seen_and_a_real_pose_is_given() {
 
 /// Designs on which 0.1.0 answered wrongly, as their authors give them.
 #[test]
+#[ignore = "slow evidence"]
 fn designs_that_were_answered_wrongly() {
     let run = |name: &str, command: &[&str]| {
         let file = format!("tests/fixtures/adversarial/REP_{name}.toml");

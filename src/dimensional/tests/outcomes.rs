@@ -88,6 +88,7 @@ fn no_member_of_a_front_is_better_in_every_objective() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn an_interrupted_front_says_so_and_has_what_was_found() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;

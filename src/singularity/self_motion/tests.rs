@@ -87,6 +87,7 @@ fn crossing_curves_are_all_followed() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn degree_of_the_motion_of_a_griffis_duffy_platform() {
     let m = midline();
     let pose = some_pose();

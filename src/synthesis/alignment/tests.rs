@@ -71,6 +71,7 @@ fn a_moved_design_in_another_leg_order_is_found_whatever_its_flats() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn scale_and_a_small_platform_do_not_matter() {
     let mut rng = Rng::new(3);
     for (base, platform) in [(1e-6, 1e-6), (1e6, 1e6), (1e3, 1.0)] {
@@ -82,6 +83,7 @@ fn scale_and_a_small_platform_do_not_matter() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn lines_and_affinely_related_bodies_leave_families_of_motions() {
     for seed in 0..4 {
         let mut rng = Rng::new(seed);
@@ -188,6 +190,7 @@ fn a_joint_off_by_a_millionth_a_mirror_image_and_other_dimensions_are_told_apart
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn a_platform_upside_down_is_found_after_exchange_only() {
     let mut rng = Rng::new(9);
     let a = general(&mut rng);
@@ -198,6 +201,7 @@ fn a_platform_upside_down_is_found_after_exchange_only() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn symmetric_hexapods_have_as_many_motions_as_symmetries() {
     let mut rng = Rng::new(4);
     let joint = |radius: f64, angle: f64| Point3::new(radius * angle.cos(), radius * angle.sin(), 0.0);
