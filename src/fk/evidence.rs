@@ -6,8 +6,8 @@ use super::{
 };
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, Distinctness, DoubleCertificate, NewtonStart, ProvedReality,
-    RootCertificate, RootRelation, distinct, relation,
+    Certificate, CertifiedPose, Certifier, ClusterCertificate, Distinctness, NewtonStart, PoseEnclosure,
+    ProvedReality, RootCertificate, RootRelation, distinct, is_of, relation,
 };
 
 /// Tries to certify every root that is not yet; a certified root takes its reality from the proof. `known` are the
@@ -40,7 +40,7 @@ pub(super) fn certify(
         root.multiplicity = 1;
         known.push(certificate);
     }
-    certify_double(doubtful, &certifier, m, s);
+    let counted_together = certify_clusters(doubtful, &certifier, m, s, &mut known);
     if repeated.contains(&true) {
         let mut repeated = repeated.iter();
         let duplicates = withdraw(solutions, |_| repeated.next() == Some(&true));
@@ -48,47 +48,77 @@ pub(super) fn certify(
         solutions.rejected.extend(duplicates.iter().map(duplicate));
         solutions.completeness.doubt(Reason::CandidatesRepeated { candidates: duplicates.len() });
     }
+    if counted_together {
+        let clusters = cluster_certificates(solutions);
+        let of_one = |r: &FkRoot| match &r.certificate {
+            Some(RootCertificate::Study(c)) => clusters.iter().any(|k| is_of(c, k)),
+            _ => false,
+        };
+        let counted = withdraw(solutions, of_one);
+        let rejected = |r: &FkRoot| Rejected { reason: RejectionReason::Duplicate, residual: r.residual };
+        solutions.rejected.extend(counted.iter().map(rejected));
+    }
     Some(known)
 }
 
-/// Two poses that are one, or too close to be told apart, are proved together. Of two candidates in one such pair the first has it.
-fn certify_double(roots: Vec<&mut FkRoot>, certifier: &Certifier, m: &Manipulator, s: &SquaredLegLengths) {
-    let mut known: Vec<DoubleCertificate> = Vec::new();
+/// Poses that are one, or too close to be told apart, are proved together. Of two candidates in one such cluster the first has it, and the roots certified alone that are of
+/// it count with it; they are told by `true`.
+fn certify_clusters(
+    roots: Vec<&mut FkRoot>,
+    certifier: &Certifier,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    simple: &mut Vec<Certificate>,
+) -> bool {
+    let mut known: Vec<ClusterCertificate> = Vec::new();
+    let before = simple.len();
     for root in roots {
-        let Ok((pose, certificate)) = certifier.two_roots_near(&root.pose) else { continue };
-        if !known.iter().all(|k| k.enclosure().is_disjoint(certificate.enclosure())) {
-            continue;
+        let near = root.pose;
+        for (pose, cluster) in certifier.clusters_near(&near) {
+            let apart = |e: &PoseEnclosure| e.is_disjoint(cluster.enclosure());
+            if !known.iter().all(|k| apart(k.enclosure())) {
+                break;
+            }
+            // a cluster that may have some of them and may not is none to count
+            if !simple.iter().all(|c| apart(c.enclosure()) || is_of(c, &cluster)) {
+                continue;
+            }
+            simple.retain(|c| !is_of(c, &cluster));
+            root.pose = pose;
+            root.residual = pose.residual(m, s);
+            root.reality = proved(cluster.reality());
+            root.dual_quaternion = Some(cluster.point());
+            root.certificate = Some(RootCertificate::Cluster(cluster));
+            root.multiplicity = cluster.multiplicity() as u32;
+            known.push(cluster);
+            break;
         }
-        root.pose = pose;
-        root.residual = pose.residual(m, s);
-        root.reality = proved(certificate.reality());
-        root.dual_quaternion = Some(certificate.point());
-        root.certificate = Some(RootCertificate::Double(certificate));
-        root.multiplicity = 2;
-        known.push(certificate);
     }
+    simple.len() < before
 }
 
-/// The certificates of pairs of poses that are close or one.
-pub(super) fn double_certificates(solutions: &FkSolutions) -> Vec<DoubleCertificate> {
-    let double = |r: &FkRoot| match r.certificate {
-        Some(RootCertificate::Double(c)) => Some(c),
+/// The certificates of poses that are close or one.
+pub(super) fn cluster_certificates(solutions: &FkSolutions) -> Vec<ClusterCertificate> {
+    let cluster = |r: &FkRoot| match r.certificate {
+        Some(RootCertificate::Cluster(c)) => Some(c),
         _ => None,
     };
-    solutions.roots.iter().filter_map(double).collect()
+    solutions.roots.iter().filter_map(cluster).collect()
 }
 
-/// Whether all certified poses are proved to be different ones, those of pairs apart from all others.
-pub(super) fn all_distinct(certificates: &[Certificate], pairs: &[DoubleCertificate]) -> Distinctness {
-    let enclosures =
-        certificates.iter().map(Certificate::enclosure).chain(pairs.iter().map(DoubleCertificate::enclosure));
+/// Whether all certified poses are proved to be different ones, those of clusters apart from all others.
+pub(super) fn all_distinct(certificates: &[Certificate], clusters: &[ClusterCertificate]) -> Distinctness {
+    let enclosures = certificates
+        .iter()
+        .map(Certificate::enclosure)
+        .chain(clusters.iter().map(ClusterCertificate::enclosure));
     let mut doubtful = match distinct(certificates) {
         Distinctness::AllDistinct => Vec::new(),
         Distinctness::NotAll(pairs) => pairs,
     };
-    for (j, pair) in pairs.iter().enumerate().map(|(k, p)| (certificates.len() + k, p)) {
+    for (j, cluster) in clusters.iter().enumerate().map(|(k, c)| (certificates.len() + k, c)) {
         let others = enclosures.clone().take(j).enumerate();
-        let near = others.filter(|(_, e)| !e.is_disjoint(pair.enclosure()));
+        let near = others.filter(|(_, e)| !e.is_disjoint(cluster.enclosure()));
         doubtful.extend(near.map(|(i, _)| (i, j, RootRelation::Undecided)));
     }
     if doubtful.is_empty() { Distinctness::AllDistinct } else { Distinctness::NotAll(doubtful) }
@@ -140,9 +170,9 @@ pub(super) fn conclude(
     certificates: &[Certificate],
     theorem: Theorem,
 ) -> Result<(), FkError> {
-    let pairs = double_certificates(solutions);
-    let distinct = all_distinct(certificates, &pairs);
-    let count = certificates.len() + 2 * pairs.len();
+    let clusters = cluster_certificates(solutions);
+    let distinct = all_distinct(certificates, &clusters);
+    let count = certificates.len() + clusters.iter().map(ClusterCertificate::multiplicity).sum::<usize>();
     if distinct == Distinctness::AllDistinct && conclude_by_number(solutions, m, count, theorem)? {
         return Ok(());
     }
