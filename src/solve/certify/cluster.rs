@@ -269,7 +269,8 @@ impl Expansion {
 
     /// The polynomial at `t`, without `mu`.
     fn at(&self, t: Complex64) -> [Complex64; N] {
-        let horner = |k: usize| self.terms[..self.order].iter().rev().fold(Complex64::ZERO, |p, z| (p + z[k]) * t);
+        let horner =
+            |k: usize| self.terms[..self.order].iter().rev().fold(Complex64::ZERO, |p, z| (p + z[k]) * t);
         std::array::from_fn(horner)
     }
 
@@ -417,9 +418,8 @@ fn disc(b: &MapBounds, e: &Expansion, m: usize, rho: f64) -> Option<ProvedDisc> 
     let whole = |z: &[Complex64; 8]| z.iter().map(|z| modulus(*z)).fold(0.0, largest);
     let own = |z: &[Complex64; 8]| z[..N].iter().map(|z| modulus(*z)).fold(0.0, largest);
     let last = |z: &[Complex64; 8]| modulus(z[7]);
-    let noise = |errors: &[f64]| {
-        errors.iter().zip(1..).map(|(e, n): (&f64, i32)| e * rho.powi(n)).sum::<f64>() * UP
-    };
+    let noise =
+        |errors: &[f64]| errors.iter().zip(1..).map(|(e, n): (&f64, i32)| e * rho.powi(n)).sum::<f64>() * UP;
     let (h, z) = (e.size(1..=order, rho, own), e.size(1..=order, rho, whole));
     let curve = b.eta + b.kappa * z + noise(&e.error) + e.size(order + 1..=all, rho, whole);
     // a little more than what the map needs; the proof is the checks below
@@ -451,7 +451,10 @@ fn smallest_disc(b: &MapBounds, e: &Expansion, m: usize) -> Option<ProvedDisc> {
     let at = |exponent: i32| disc(b, e, m, 2f64.powi(exponent));
     let smallest = (RADII[0]..=RADII[1]).find_map(at)?;
     let largest = (RADII[0]..=RADII[1]).rev().find_map(at)?;
-    Some(ProvedDisc { uniqueness_radius: largest.uniqueness_radius.max(smallest.uniqueness_radius), ..smallest })
+    Some(ProvedDisc {
+        uniqueness_radius: largest.uniqueness_radius.max(smallest.uniqueness_radius),
+        ..smallest
+    })
 }
 
 /// Decides whether exactly `m` roots lie about the middle.
@@ -471,8 +474,8 @@ fn prove(
     let hi = x.rounded();
     let centre: [Complex64; 8] = std::array::from_fn(|j| Complex64::new(hi.re[j], hi.im[j]));
     let low: [Complex64; 8] = std::array::from_fn(|j| Complex64::new(x.re[j].lo(), x.im[j].lo()));
-    let enclosure =
-        enclose_pose_widely(&centre, &low, x.patch, disc.radius, unit).ok_or(WhyUncertified::RotationUndefined)?;
+    let enclosure = enclose_pose_widely(&centre, &low, x.patch, disc.radius, unit)
+        .ok_or(WhyUncertified::RotationUndefined)?;
     let imaginary = hi.im.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
     let reality =
         if imaginary * (2.0 - UP) > disc.radius { ProvedReality::NonReal } else { ProvedReality::Undecided };
@@ -505,7 +508,7 @@ fn flat_points(system: &LegSystem, inflection: &Middle) -> Vec<Middle> {
 }
 
 /// The middle of a cluster, rounded, with its proof.
-pub(super) type ProvedCluster = (ComplexPose, ClusterCertificate);
+pub(crate) type ProvedCluster = (ComplexPose, ClusterCertificate);
 
 /// Clusters that are proved to lie near the pose, each with more roots than the one before; or why there is none of so many.
 pub(super) fn clusters_near<'a>(

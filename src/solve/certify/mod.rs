@@ -84,9 +84,9 @@ pub use certificate::{
     WhyUncertified,
 };
 pub(crate) use certificate::{CertifiedPose, MIRROR};
+pub use cluster::ClusterCertificate;
 pub(crate) use coordinates::dual_quaternion;
 pub(crate) use distinct::overlapping_pairs;
-pub use cluster::ClusterCertificate;
 pub use distinct::{Distinctness, RootRelation, distinct, is_of, relation};
 pub use refine::RefinedPose;
 pub use system::SquareData;
@@ -100,11 +100,12 @@ use crate::num::batch::LANES;
 use crate::num::double_double::DoubleDouble;
 use crate::num::octuple::ComplexOctuple;
 use crate::num::vector_unit::on_vector_unit;
+pub(crate) use cluster::ProvedCluster;
+use cluster::clusters_near;
 use coordinates::{
     PrecisePoint, deviation, enclose_pose, enclose_pose_widely, pose_in_double, pose_of, rotation_distance,
     rounded_pose, study_at, study_of,
 };
-use cluster::{ProvedCluster, clusters_near};
 use krawczyk::{Centre, Digits, RootBall, one_root_about};
 use refine::refine_study;
 use side_by_side::{EightPoints, FoundInDoubles};

@@ -520,9 +520,7 @@ impl LegSystem {
             let own = 5.0 * U * (h.size[i] * k.size[i] + s.abs() * p) + 0.5 * self.s_blur(i) * p;
             error[i] = (from_vectors + own + TINY) * UP;
         }
-        let mixed = |x: &Increment, y: &Increment| {
-            sum(std::array::from_fn(|j| term(of(x, j), of(y, 4 + j))))
-        };
+        let mixed = |x: &Increment, y: &Increment| sum(std::array::from_fn(|j| term(of(x, j), of(y, 4 + j))));
         let (one, other) = (mixed(h, k), mixed(k, h));
         value[6] = Complex64::new(0.5 * (one.0 + other.0), 0.5 * (one.1 + other.1));
         error[6] = (16.0 * U * (e_h * g_k + e_k * g_h) + TINY) * UP;
