@@ -157,13 +157,13 @@ impl LegEquations {
         self.refine_from(start, None)
     }
 
-    /// Lengths of the first Newton steps from beside a point, relative to its scale, in double-double: they halve where the root is a double one (Reddien 1978), shrink to two
+    /// Lengths of the first Newton steps from a relative distance beside a point, relative to its scale, in double-double: they halve where the root is a double one (Reddien 1978), shrink to two
     /// thirds where it is threefold, and quadratically where it is simple.
-    pub(super) fn steps_from_beside(&self, point: &Point) -> Vec<f64> {
+    pub(super) fn steps_from_beside(&self, point: &Point, distance: f64) -> Vec<f64> {
         let scale = point.scale();
         let mut x = *point;
         for (k, entry) in x.0.iter_mut().enumerate() {
-            *entry = *entry + Z::from(Complex64::new(BESIDE * scale * (1.0 + 0.3 * (k as f64).sin()), 0.0));
+            *entry = *entry + Z::from(Complex64::new(distance * scale * (1.0 + 0.3 * (k as f64).sin()), 0.0));
         }
         let mut out = Vec::new();
         for _ in 0..STEPS_BESIDE {
@@ -196,9 +196,7 @@ impl LegEquations {
     }
 }
 
-/// How far beside a point [`LegEquations::steps_from_beside`] starts, relative to its scale.
-const BESIDE: f64 = 1e-5;
-/// Steps that it takes.
+/// Steps that [`LegEquations::steps_from_beside`] takes.
 const STEPS_BESIDE: usize = 9;
 
 /// Corrections of this relative length are as good as `R`, `p` ever give.

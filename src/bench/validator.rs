@@ -19,6 +19,8 @@ const MOVED: f64 = 1e-6;
 const SINGULAR_RADIUS: f64 = 1e-3;
 /// Two refined roots closer than this are one.
 const SAME: f64 = 1e-14;
+/// Relative distances from a multiple root at which the steps of Newton's method are looked at: nearer than the next root.
+const BESIDE: [f64; 3] = [1e-5, 1e-9, 1e-13];
 /// What a certificate without an enclosure claims: half of the digits of a double.
 const CLAIMED: f64 = 4e-8;
 
@@ -61,7 +63,10 @@ pub struct Validation {
 /// A claim that is right.
 struct Root {
     point: Point,
+    /// What is as near as this is accounted for by it.
     radius: f64,
+    /// A claim as near as this repeats it: smaller where discs hold a multiple root, since another may be close.
+    own: f64,
 }
 
 /// Validates `claims` for `problem`. `others` are poses believed to be roots (the generating pose, roots found from another
@@ -76,25 +81,27 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
         let start = equations.point(&claim.pose);
         let refined = equations.refine_from(&start, claim.dual_quaternion.as_ref());
         verdict.worst_residual = verdict.worst_residual.max(refined.residual);
-        let double = claim.multiplicity == 2 && is_double(&equations, claim, &start);
+        let multiple = claim.multiplicity > 1 && is_multiple(&equations, claim, &start);
         // from close to a double root even halving looks like convergence
-        let regular =
-            !double && (is_regular(&start, &refined) || encloses(claim, &start, &refined, equations.unit()));
+        let regular = !multiple
+            && (is_regular(&start, &refined) || encloses(claim, &start, &refined, equations.unit()));
         let as_claimed =
-            double || regular && claim.multiplicity < 2 && is_as_claimed(claim, &refined, equations.unit());
+            multiple || regular && claim.multiplicity < 2 && is_as_claimed(claim, &refined, equations.unit());
         if claim.certified && !as_claimed {
             verdict.false_certificates += 1;
         }
         // a double root is found to about the root of rounding: its residual is small all the same
         let singular = !regular && refined.residual <= RESIDUAL && claim.multiplicity > 1;
         let root = if singular {
-            Root { point: start, radius: SINGULAR_RADIUS * start.scale() }
+            let radius = SINGULAR_RADIUS * start.scale();
+            let own = if multiple { held_within(claim, equations.unit()).min(radius) } else { radius };
+            Root { point: start, radius, own }
         } else {
-            Root { point: refined.point, radius: radius(&refined) }
+            Root { point: refined.point, radius: radius(&refined), own: radius(&refined) }
         };
         let proper = if singular { root.point.is_rotation() } else { refined.proper };
         let wrong = !(regular && refined.residual <= RESIDUAL || singular) || !proper;
-        if wrong || holds(&roots, &root.point) {
+        if wrong || repeats(&roots, &root.point) {
             verdict.spurious += 1;
             continue;
         }
@@ -112,14 +119,18 @@ fn is_regular(start: &Point, refined: &NewtonEnd) -> bool {
     refined.converged && start.distance(&refined.point) <= MOVED * start.scale()
 }
 
-/// Steps of Newton's method from beside it halve, once the directions in which the root is simple are settled; the claimed discs hold the pose.
-fn is_double(equations: &LegEquations, claim: &Claim, start: &Point) -> bool {
-    let steps = equations.steps_from_beside(start);
-    let ratios: Vec<f64> = steps.windows(2).skip(3).map(|pair| pair[1] / pair[0]).collect();
-    let halved = ratios.len() >= 4 && ratios.iter().all(|r| (r - 0.5).abs() < 0.05);
+/// Steps of Newton's method from beside a root of multiplicity `m` shrink by `(m - 1) / m`, once the directions in which the root is simple are settled; the claimed discs hold the pose.
+fn is_multiple(equations: &LegEquations, claim: &Claim, start: &Point) -> bool {
+    let expected = 1.0 - 1.0 / f64::from(claim.multiplicity);
+    let shrink_so = |distance: f64| {
+        let steps = equations.steps_from_beside(start, distance);
+        let ratios: Vec<f64> = steps.windows(2).skip(3).map(|pair| pair[1] / pair[0]).collect();
+        ratios.len() >= 4 && ratios.iter().all(|r| (r - expected).abs() < 0.05)
+    };
+    let slow = BESIDE.into_iter().any(shrink_so);
     let held =
         claim.enclosure.as_deref().is_some_and(|discs| in_discs(discs, start, 1e-28, equations.unit()));
-    halved && held
+    slow && held
 }
 
 /// The claimed discs hold both what is claimed and the root the iteration converged to. Far out, where discs are wider than
@@ -145,6 +156,17 @@ fn in_discs(discs: &[Disc], x: &Point, slack: f64, unit: f64) -> bool {
 
 fn radius(refined: &NewtonEnd) -> f64 {
     (SAME + 100.0 * refined.error) * refined.point.scale()
+}
+
+/// The diameter of the widest of the claimed discs.
+fn held_within(claim: &Claim, unit: f64) -> f64 {
+    let discs = claim.enclosure.as_deref().unwrap_or_default();
+    let width = |(k, disc): (usize, &Disc)| 2.0 * disc.radius / if k < 9 { 1.0 } else { unit };
+    discs.iter().enumerate().map(width).fold(0.0, f64::max)
+}
+
+fn repeats(roots: &[Root], x: &Point) -> bool {
+    roots.iter().any(|r| r.point.distance(x) <= r.own)
 }
 
 fn holds(roots: &[Root], x: &Point) -> bool {
@@ -185,10 +207,10 @@ fn missed(
         let known = holds(roots, &refined.point) || holds(&absent, &refined.point);
         if near && refined.converged && refined.proper && !known {
             let (point, radius) = (refined.point, radius(&refined));
-            absent.push(Root { point, radius });
+            absent.push(Root { point, radius, own: radius });
             let conjugate = point.conjugate();
             if !holds(roots, &conjugate) && !holds(&absent, &conjugate) {
-                absent.push(Root { point: conjugate, radius });
+                absent.push(Root { point: conjugate, radius, own: radius });
             }
         }
     };

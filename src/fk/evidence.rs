@@ -1,14 +1,20 @@
 //! Certificates for the roots of a method, and completeness when they reach a proved bound.
 
+use num_complex::Complex64;
+
 use super::bounds::{class_bound, special_bound};
 use super::{
     Completeness, FkError, FkRoot, FkSolutions, Reality, Reason, Rejected, RejectionReason, Theorem,
 };
+use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, Distinctness, DoubleCertificate, NewtonStart, ProvedReality,
-    RootCertificate, RootRelation, distinct, relation,
+    Certificate, CertifiedPose, Certifier, ClusterCertificate, Distinctness, NewtonStart, PoseEnclosure,
+    ProvedCluster, ProvedReality, RootCertificate, RootRelation, distinct, is_of, relation,
 };
+
+/// Candidates closer than this, in design sizes and rotation entries, may be of one cluster.
+const NEARBY: f64 = 1e-3;
 
 /// Tries to certify every root that is not yet; a certified root takes its reality from the proof. `known` are the
 /// certificates of those that are; all certificates together are the result, `None` where nothing can be certified.
@@ -40,7 +46,8 @@ pub(super) fn certify(
         root.multiplicity = 1;
         known.push(certificate);
     }
-    certify_double(doubtful, &certifier, m, s);
+    let mut known = Known { certifier: &certifier, simple: known, clusters: Vec::new() };
+    let further = certify_clusters(doubtful, &mut known, m, s);
     if repeated.contains(&true) {
         let mut repeated = repeated.iter();
         let duplicates = withdraw(solutions, |_| repeated.next() == Some(&true));
@@ -48,47 +55,145 @@ pub(super) fn certify(
         solutions.rejected.extend(duplicates.iter().map(duplicate));
         solutions.completeness.doubt(Reason::CandidatesRepeated { candidates: duplicates.len() });
     }
-    Some(known)
+    let of_one = |r: &FkRoot| match &r.certificate {
+        Some(RootCertificate::Study(c)) => known.clusters.iter().any(|k| is_of(c, k)),
+        _ => false,
+    };
+    if !known.clusters.is_empty() {
+        let counted = withdraw(solutions, of_one);
+        let rejected = |r: &FkRoot| Rejected { reason: RejectionReason::Duplicate, residual: r.residual };
+        solutions.rejected.extend(counted.iter().map(rejected));
+    }
+    solutions.roots.extend(further);
+    Some(known.simple)
 }
 
-/// Two poses that are one, or too close to be told apart, are proved together. Of two candidates in one such pair the first has it.
-fn certify_double(roots: Vec<&mut FkRoot>, certifier: &Certifier, m: &Manipulator, s: &SquaredLegLengths) {
-    let mut known: Vec<DoubleCertificate> = Vec::new();
-    for root in roots {
-        let Ok((pose, certificate)) = certifier.two_roots_near(&root.pose) else { continue };
-        if !known.iter().all(|k| k.enclosure().is_disjoint(certificate.enclosure())) {
-            continue;
+/// What is proved about poses that are one, or too close to be told apart.
+struct Together {
+    cluster: ProvedCluster,
+    /// A simple root beside them that no candidate stands for.
+    beside: Option<CertifiedPose>,
+}
+
+/// The clusters proved so far, and the certificates of single roots that are of none of them.
+struct Known<'a> {
+    certifier: &'a Certifier,
+    simple: Vec<Certificate>,
+    clusters: Vec<ClusterCertificate>,
+}
+
+impl Known<'_> {
+    /// Whether it is known which single roots are of the cluster: one that may have a root and may not is none to count.
+    fn may_count(&self, cluster: &ClusterCertificate) -> bool {
+        self.simple.iter().all(|c| c.enclosure().is_disjoint(cluster.enclosure()) || is_of(c, cluster))
+    }
+
+    /// The smallest cluster near a pose at which so many paths ended, with the root that is beside it where there is just one; else, as far as it can be proved, one of so many roots.
+    fn together(&self, pose: &ComplexPose, ends: usize) -> Option<Together> {
+        let mut best: Option<ProvedCluster> = None;
+        for found in self.certifier.clusters_near(pose) {
+            let apart = |k: &ClusterCertificate| k.enclosure().is_disjoint(found.1.enclosure());
+            if !self.clusters.iter().all(apart) {
+                break;
+            }
+            if !self.may_count(&found.1) {
+                continue;
+            }
+            let one_less = |b: &ProvedCluster| b.1.multiplicity() + 1 == found.1.multiplicity();
+            let beside = best.as_ref().filter(|b| one_less(b)).and_then(|b| self.beside(b, &found));
+            if let (Some(cluster), Some(root)) = (best, beside) {
+                return Some(Together { cluster, beside: Some(root) });
+            }
+            let enough = found.1.multiplicity() >= ends;
+            if best.as_ref().is_none_or(|b| b.1.multiplicity() < found.1.multiplicity()) {
+                best = Some(found);
+            }
+            if enough {
+                break;
+            }
         }
-        root.pose = pose;
-        root.residual = pose.residual(m, s);
-        root.reality = proved(certificate.reality());
-        root.dual_quaternion = Some(certificate.point());
-        root.certificate = Some(RootCertificate::Double(certificate));
-        root.multiplicity = 2;
-        known.push(certificate);
+        best.map(|cluster| Together { cluster, beside: None })
+    }
+
+    /// The one root that a cluster has beside those of a smaller one: the middles are means of the roots, to first order.
+    fn beside(&self, fewer: &ProvedCluster, all: &ProvedCluster) -> Option<CertifiedPose> {
+        let (m, one) = (Complex64::from(fewer.1.multiplicity() as f64), Complex64::ONE);
+        let rest = |all, fewer| -> ComplexPose {
+            let (all, fewer): (&ComplexPose, &ComplexPose) = (all, fewer);
+            ComplexPose {
+                rotation: all.rotation * (m + one) - fewer.rotation * m,
+                position: all.position * (m + one) - fewer.position * m,
+            }
+        };
+        let root = self.certifier.root_near(NewtonStart::Pose(&rest(&all.0, &fewer.0))).ok()?;
+        let apart = |e: &PoseEnclosure| e.is_disjoint(root.certificate.enclosure());
+        let new = self.simple.iter().all(|c| apart(c.enclosure())) && apart(fewer.1.enclosure());
+        (new && is_of(&root.certificate, &all.1)).then_some(root)
     }
 }
 
-/// The certificates of pairs of poses that are close or one.
-pub(super) fn double_certificates(solutions: &FkSolutions) -> Vec<DoubleCertificate> {
-    let double = |r: &FkRoot| match r.certificate {
-        Some(RootCertificate::Double(c)) => Some(c),
-        _ => None,
-    };
-    solutions.roots.iter().filter_map(double).collect()
+/// Poses that are one, or too close to be told apart, are proved together. Of two candidates in one such cluster the first has it; the single roots that are of it count with it. Roots
+/// that are found beside clusters are given back.
+fn certify_clusters(
+    mut roots: Vec<&mut FkRoot>,
+    known: &mut Known<'_>,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+) -> Vec<FkRoot> {
+    let mut further = Vec::new();
+    let places: Vec<(ComplexPose, usize)> = roots.iter().map(|r| (r.pose, r.multiplicity as usize)).collect();
+    for root in &mut roots {
+        let near = |p: &&(ComplexPose, usize)| p.0.distance(&root.pose, m.size()) < NEARBY;
+        let ends = places.iter().filter(near).map(|p| p.1).sum();
+        let Some(Together { cluster: (pose, cluster), beside }) = known.together(&root.pose, ends) else {
+            continue;
+        };
+        known.simple.retain(|c| !is_of(c, &cluster));
+        known.clusters.push(cluster);
+        root.pose = pose;
+        root.residual = pose.residual(m, s);
+        root.reality = proved(cluster.reality());
+        root.dual_quaternion = Some(cluster.point());
+        root.certificate = Some(RootCertificate::Cluster(cluster));
+        root.multiplicity = cluster.multiplicity() as u32;
+        if let Some(CertifiedPose { pose, certificate }) = beside {
+            known.simple.push(certificate);
+            further.push(FkRoot {
+                pose,
+                reality: proved(certificate.reality()),
+                certificate: Some(certificate.into()),
+                multiplicity: 1,
+                residual: pose.residual(m, s),
+                condition: root.condition,
+                dual_quaternion: Some(certificate.point()),
+            });
+        }
+    }
+    further
 }
 
-/// Whether all certified poses are proved to be different ones, those of pairs apart from all others.
-pub(super) fn all_distinct(certificates: &[Certificate], pairs: &[DoubleCertificate]) -> Distinctness {
-    let enclosures =
-        certificates.iter().map(Certificate::enclosure).chain(pairs.iter().map(DoubleCertificate::enclosure));
+/// The certificates of poses that are close or one.
+pub(super) fn cluster_certificates(solutions: &FkSolutions) -> Vec<ClusterCertificate> {
+    let cluster = |r: &FkRoot| match r.certificate {
+        Some(RootCertificate::Cluster(c)) => Some(c),
+        _ => None,
+    };
+    solutions.roots.iter().filter_map(cluster).collect()
+}
+
+/// Whether all certified poses are proved to be different ones, those of clusters apart from all others.
+pub(super) fn all_distinct(certificates: &[Certificate], clusters: &[ClusterCertificate]) -> Distinctness {
+    let enclosures = certificates
+        .iter()
+        .map(Certificate::enclosure)
+        .chain(clusters.iter().map(ClusterCertificate::enclosure));
     let mut doubtful = match distinct(certificates) {
         Distinctness::AllDistinct => Vec::new(),
         Distinctness::NotAll(pairs) => pairs,
     };
-    for (j, pair) in pairs.iter().enumerate().map(|(k, p)| (certificates.len() + k, p)) {
+    for (j, cluster) in clusters.iter().enumerate().map(|(k, c)| (certificates.len() + k, c)) {
         let others = enclosures.clone().take(j).enumerate();
-        let near = others.filter(|(_, e)| !e.is_disjoint(pair.enclosure()));
+        let near = others.filter(|(_, e)| !e.is_disjoint(cluster.enclosure()));
         doubtful.extend(near.map(|(i, _)| (i, j, RootRelation::Undecided)));
     }
     if doubtful.is_empty() { Distinctness::AllDistinct } else { Distinctness::NotAll(doubtful) }
@@ -140,9 +245,9 @@ pub(super) fn conclude(
     certificates: &[Certificate],
     theorem: Theorem,
 ) -> Result<(), FkError> {
-    let pairs = double_certificates(solutions);
-    let distinct = all_distinct(certificates, &pairs);
-    let count = certificates.len() + 2 * pairs.len();
+    let clusters = cluster_certificates(solutions);
+    let distinct = all_distinct(certificates, &clusters);
+    let count = certificates.len() + clusters.iter().map(ClusterCertificate::multiplicity).sum::<usize>();
     if distinct == Distinctness::AllDistinct && conclude_by_number(solutions, m, count, theorem)? {
         return Ok(());
     }

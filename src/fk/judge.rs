@@ -4,7 +4,7 @@
 //! are not all; more contradict it. Where the lengths are known within radii only, those of generic lengths are counted, which are as many or more: as many certified roots are all isolated ones,
 //! fewer may be all.
 
-use super::evidence::{all_distinct, double_certificates, reject_others};
+use super::evidence::{all_distinct, cluster_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs};
@@ -59,10 +59,10 @@ fn are_distinct(found: &FkSolutions) -> bool {
         _ => None,
     };
     let certificates: Vec<Certificate> = found.roots.iter().filter_map(study).collect();
-    let pairs = double_certificates(found);
+    let clusters = cluster_certificates(found);
     // those of octahedral platforms are not compared
-    certificates.len() + pairs.len() == found.roots.iter().filter(|r| r.certified()).count()
-        && all_distinct(&certificates, &pairs) == Distinctness::AllDistinct
+    certificates.len() + clusters.len() == found.roots.iter().filter(|r| r.certified()).count()
+        && all_distinct(&certificates, &clusters) == Distinctness::AllDistinct
 }
 
 /// Compares the certified roots with the count and files both.

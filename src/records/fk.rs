@@ -18,7 +18,7 @@ use crate::poly::{Dyadic, RealRoot};
 use crate::rotary::RotaryPlatform;
 use crate::solve::certify::octahedral::OctahedralCertificate;
 use crate::solve::certify::{
-    CentrePrecision, Certificate, DoubleCertificate, PoseEnclosure, ProvedReality, RootCertificate,
+    CentrePrecision, Certificate, ClusterCertificate, PoseEnclosure, ProvedReality, RootCertificate,
 };
 use crate::solve::pose_count::{CountUndecided, CountedLengths, PoseCount, PoseSet};
 use crate::topology::{JointIndex, Step};
@@ -521,8 +521,10 @@ pub enum CertificateRecord {
         /// What holds the pose of the root.
         enclosure: Box<EnclosureRecord>,
     },
-    /// Two roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1, that are close or one: both lie on a curve through the centre, parametrised by t with |t| below `reach`.
-    Double {
+    /// Roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1, that are close or one: all lie on a curve through the centre, parametrised by t with |t| below `reach`.
+    Cluster {
+        /// Their number, each counted with its multiplicity; 2 or more.
+        multiplicity: usize,
         /// The coordinate that is 1.
         patch: usize,
         /// Design units.
@@ -531,15 +533,17 @@ pub enum CertificateRecord {
         centre: ComplexRecord<[Number; 8]>,
         /// What the doubles of the centre leave of it.
         centre_low: ComplexRecord<[Number; 8]>,
-        /// Both roots lie within this distance of the centre.
+        /// All of them lie within this distance of the centre.
         radius: Number,
+        /// No others lie within this distance; it may be smaller than the radius.
+        uniqueness_radius: Number,
         /// Radius of the disc of t.
         reach: Number,
-        /// What is left beside the square of t over it, on the circle; below 1.
+        /// What is left beside the power of t that has the multiplicity as exponent, over this power, on the circle; below 1.
         dominance: Number,
-        /// `non_real` when neither is real; else it is undecided.
+        /// `non_real` when none is real; else it is undecided.
         reality: ProvedReality,
-        /// What holds both poses.
+        /// What holds all of their poses.
         enclosure: Box<EnclosureRecord>,
     },
     /// In three angles: legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles h^2 + z^2 = rho about P1 P2, P2 P3, P3 P1, with z along n = (P2 - P1) x (P3 - P1) and h towards the left of the way from the first joint to the second; with u = h + i z the distance is the largest of the three |log(u / centre)|.
@@ -570,7 +574,7 @@ impl From<&RootCertificate> for CertificateRecord {
         match c {
             RootCertificate::Study(c) => c.into(),
             RootCertificate::Octahedral(c) => c.into(),
-            RootCertificate::Double(c) => c.into(),
+            RootCertificate::Cluster(c) => c.into(),
         }
     }
 }
@@ -592,14 +596,16 @@ impl From<&Certificate> for CertificateRecord {
     }
 }
 
-impl From<&DoubleCertificate> for CertificateRecord {
-    fn from(c: &DoubleCertificate) -> Self {
-        Self::Double {
+impl From<&ClusterCertificate> for CertificateRecord {
+    fn from(c: &ClusterCertificate) -> Self {
+        Self::Cluster {
+            multiplicity: c.multiplicity(),
             patch: c.patch(),
             unit: Number(c.unit()),
             centre: (*c.centre()).into(),
             centre_low: (*c.low()).into(),
             radius: Number(c.radius()),
+            uniqueness_radius: Number(c.uniqueness_radius()),
             reach: Number(c.reach()),
             dominance: Number(c.dominance()),
             reality: c.reality(),

@@ -49,6 +49,9 @@ pub struct MapRecord {
     /// For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the share t), the t at which det A vanishes while the other legs stay, as an exact number;
     /// null for other legs and where there is none; null as a whole where `det_exact` is.
     pub singular_shares: Option<[Option<String>; 6]>,
+    /// det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the other legs as they stand: TO is singular where it is zero, and only there; null where there is no such leg, and
+    /// where `det_exact` is.
+    pub det_of_shares: Option<String>,
     /// The largest of the residuals.
     pub residual: Number,
     /// Relative distance of each leg of TO from the span of the legs of FROM.
@@ -93,6 +96,7 @@ impl From<&LegMapOutcome> for MapRecord {
             matrix_exact: exact.map(|numbers| numbers.a.clone()),
             constants_exact: exact.map(|numbers| numbers.c.clone()),
             singular_shares: exact.map(|numbers| numbers.singular_shares.clone()),
+            det_of_shares: exact.and_then(|numbers| numbers.determinant_of_shares.clone()),
             residual: Number(o.residual),
             residuals: o.residuals.map(Number),
             leg_rank: o.leg_rank,

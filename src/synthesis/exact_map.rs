@@ -3,6 +3,8 @@
 //! A leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`; `A` writes the vectors of TO as combinations of those of FROM, and
 //! `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. Both platforms are equivalent if and only if `det A` is not zero.
 
+use std::fmt::Write as _;
+
 use crate::manipulator::{ExactEnds, squares_of_ends, vector_of_ends};
 use crate::num::surd::{Surd, combination, eliminate};
 
@@ -59,8 +61,8 @@ impl ExactMap {
         if holds { Ok(map) } else { Err(NoExactMap::TooLong) }
     }
 
-    /// The share `t` for which the determinant vanishes when row `i` is `1 - t` and `t` beside zeros: `det A` is affine in `t`.
-    pub(crate) fn singular_share(&self, i: usize) -> Option<Surd> {
+    /// The columns of `1 - t` and of `t` where row `i` is these beside zeros.
+    fn share_columns(&self, i: usize) -> Option<(usize, usize)> {
         let (zero, one) = (Surd::zero(), Surd::integer(1));
         let filled: Vec<usize> = (0..6).filter(|k| self.a[i][*k] != zero).collect();
         let (first, second) = match filled[..] {
@@ -68,14 +70,68 @@ impl ExactMap {
             _ => return None,
         };
         // in the circulant order of the legs a leg has its own number first
-        let (own, other) = if second == i { (second, first) } else { (first, second) };
-        let at = |k: usize| {
-            let mut a = self.a.clone();
-            a[i] = (0..6).map(|l| Surd::integer(i64::from(l == k))).collect();
-            determinant(&a)
-        };
+        Some(if second == i { (second, first) } else { (first, second) })
+    }
+
+    /// The determinant with rows that have a single one each, in the columns given, in the place of those of `A`.
+    fn determinant_with(&self, columns: &[(usize, usize)]) -> Option<Surd> {
+        let mut a = self.a.clone();
+        for (i, column) in columns {
+            a[*i] = (0..6).map(|l| Surd::integer(i64::from(l == *column))).collect();
+        }
+        determinant(&a)
+    }
+
+    /// The share `t` for which the determinant vanishes when row `i` is `1 - t` and `t` beside zeros: `det A` is affine in `t`.
+    pub(crate) fn singular_share(&self, i: usize) -> Option<Surd> {
+        let (own, other) = self.share_columns(i)?;
+        let at = |k: usize| self.determinant_with(&[(i, k)]);
         let start = at(own)?;
         start.times(&start.minus(&at(other)?)?.inverse()?)
+    }
+
+    /// `det A` for all shares `t1` to `t6` at once, of the rows that are `1 - t` and `t` beside zeros, the other rows as they stand: a sum of products of `(1 - t)` and `t`, since the determinant is affine in
+    /// each row. Its zeros are the singular ones of the platforms whose leg ends stay on the same edges. `None` where there is no such row, or a number becomes too long.
+    pub(crate) fn determinant_of_shares(&self) -> Option<String> {
+        let free: Vec<(usize, (usize, usize))> =
+            (0..6).filter_map(|i| Some((i, self.share_columns(i)?))).collect();
+        if free.is_empty() {
+            return None;
+        }
+        let mut text = String::new();
+        for choice in 0..1_usize << free.len() {
+            let moved = |k: usize| choice >> k & 1 == 1;
+            let columns: Vec<(usize, usize)> = free
+                .iter()
+                .enumerate()
+                .map(|(k, (i, (own, other)))| (*i, if moved(k) { *other } else { *own }))
+                .collect();
+            let number = self.determinant_with(&columns)?;
+            if number.is_zero() {
+                continue;
+            }
+            let factor = |(k, (i, _)): (usize, &(usize, (usize, usize)))| {
+                if moved(k) { format!("t{}", i + 1) } else { format!("(1 - t{})", i + 1) }
+            };
+            let product = free.iter().enumerate().map(factor).collect::<Vec<_>>().join(" ");
+            let number = number.to_string();
+            let (sign, size) = match number.strip_prefix('-') {
+                Some(rest) if !number.contains(' ') => ("-", rest),
+                _ => ("+", number.as_str()),
+            };
+            let size = match size {
+                "1" => String::new(),
+                sum if sum.contains(' ') => format!("({sum}) "),
+                one => format!("{one} "),
+            };
+            let _ = match (text.is_empty(), sign) {
+                (true, "+") => write!(text, "{size}{product}"),
+                (true, _) => write!(text, "-{size}{product}"),
+                (false, sign) => write!(text, " {sign} {size}{product}"),
+            };
+        }
+        // no choice gives a regular matrix: singular whatever the shares are
+        Some(if text.is_empty() { "0".into() } else { text })
     }
 
     /// Whether every vector of TO is the sum that `A` says, entry by entry.

@@ -222,6 +222,8 @@ pub struct ExactNumbers {
     /// For each leg of TO whose row of `A` is `1 - t` and `t` beside zeros, the number `t` for which `det A` vanishes while the other legs stay; `None` for other rows, and where
     /// there is no such number. A leg end at the share `t` of an edge has such a row.
     pub singular_shares: [Option<String>; 6],
+    /// `det A` as a polynomial in the shares `t1` to `t6` of all such rows at once, the others as they stand: its zeros are the singular shares. `None` where there is no such row.
+    pub determinant_of_shares: Option<String>,
 }
 
 impl LegMapOutcome {
@@ -247,6 +249,7 @@ impl LegMapOutcome {
                 c: from_fn(|i| map.c[i].to_string()),
                 determinant: map.determinant.to_string(),
                 singular_shares: from_fn(|i| map.singular_share(i).map(|share| share.to_string())),
+                determinant_of_shares: map.determinant_of_shares(),
             }),
             ..self
         }

@@ -196,3 +196,12 @@ fn false_claims_of_certificates_and_reality_are_caught() {
     });
     assert!(real.false_certificates > 60, "most roots of random problems are not real");
 }
+
+/// An exact double pose with a simple one `2e-5` beside it: three paths end there, and the two are told from the third.
+#[test]
+fn a_double_pose_with_a_third_beside_it_is_proved() {
+    let plan = Plan { first: 174, count_poses: true, ..plan(Class::DoubleRoot, 1) };
+    let report = run(&plan, solver(None).as_ref(), &Homotopy).unwrap();
+    assert_eq!((report.expected, report.complete), (40, 1), "{:?}", report.failures);
+    assert!(report.passed(), "{:?}", report.failures);
+}

@@ -12,8 +12,9 @@ certified ones to 2^-26; far out, where the enclosure is wider (2^-10 at most), 
 How it is checked. Newton's method from the centre, then Krawczyk's test in balls about its end, proves a root and says where it is. Uniqueness: F(x) - F(y) = J((x + y) / 2) (x - y) for
 quadrics, and for the angles the second derivatives over the ball bound what J(c) leaves; with Y the inverse of J at the centre, |1 - Y J| < 1 is checked.
 
-Of kind `double`: exactly two roots, counted with multiplicity, lie within `radius` of the centre, and R and p of both in `enclosure`. How it is checked: bordered equations of this file's own, a
-Newton map that contracts for all t in a disc, the smallest that does, and Rouche's theorem for the quadratic term on its circle.
+Of kind `cluster`: exactly `multiplicity` roots, counted with multiplicity, lie within `radius` of the centre, R and p of all of them in `enclosure`, and no others within `uniqueness_radius`. How it is
+checked: bordered equations of this file's own and the expansion of their solution, a Newton map that contracts for all t in a disc, the smallest that does, and Rouche's theorem for the term of that order on its
+circle; for other roots the same on the circle that the stated radius needs.
 """
 
 import json
@@ -240,7 +241,7 @@ def check_study(legs, lengths, solution, record):
     return (patch, unit, system.whole(box))
 
 
-# --- kind `double` -----------------------------------------------------------------------------------------------------------------------------------
+# --- kind `cluster` ------------------------------------------------------------------------------------------------------------------------------------
 
 
 def flat_directions(matrix):
@@ -252,14 +253,30 @@ def flat_directions(matrix):
     return [acb(z.real, z.imag) for z in u[:, 6]], [acb(z.real, z.imag) for z in v[6, :]]
 
 
-def check_double(legs, lengths, solution, record):
-    unit, patch = exact(record["unit"]), record["patch"]
-    need(0 <= patch < 4 and bool(unit > 0), "no patch or unit")
+def expansion(system, y, patch, order):
+    """The terms of the solution of the bordered equations, to twice the order, products of terms up to the order."""
+    whole = lambda t: acb_mat([[x] for x in t[:patch] + [acb(0)] + t[patch:7]])
+    z = [[y[i, 7] for i in range(8)]]
+    for n in range(2, 2 * order + 1):
+        values = []
+        for m in system.matrices:
+            value = acb(0)
+            for i in range(max(1, n - order), min(order, n - 1) + 1):
+                h, image = whole(z[i - 1]), m * whole(z[n - i - 1])
+                value += sum((h[k, 0] * image[k, 0] for k in range(8)), acb(0))
+            values.append(value)
+        z.append([-sum((y[r, k] * values[k] for k in range(7)), acb(0)) for r in range(8)])
+    return z
+
+
+def check_cluster(legs, lengths, solution, record):
+    unit, patch, count = exact(record["unit"]), record["patch"], record["multiplicity"]
+    need(0 <= patch < 4 and bool(unit > 0) and count >= 2, "no patch, unit or number of roots")
     system = Study(legs, lengths, patch, unit)
     centre = [complex_of(record["centre"], k) + complex_of(record["centre_low"], k) for k in range(8)]
     need(bool(abs(centre[patch] - 1) == 0), "the patch is not 1 at the centre")
     centre = [centre[k] for k in system.free]
-    radius = exact(record["radius"])
+    radius, alone = exact(record["radius"]), exact(record["uniqueness_radius"])
     j = system.jacobian(centre)
     w, l = flat_directions(j)
     bordered = acb_mat([[j[i, k] for k in range(7)] + [-w[i]] for i in range(7)] + [l + [acb(0)]])
@@ -277,32 +294,43 @@ def check_double(legs, lengths, solution, record):
             combined = part if combined is None else combined + part
         curved.append(sum((upper(combined[p, q]) for p in system.free for q in system.free), arb(0)))
     eta, beta = largest(steps), largest(curved)
-    direction = [y[i, 7] for i in range(7)]
-    v, z = largest(direction), largest(direction + [y[7, 7]])
-    column = acb_mat([[x] for x in direction[:patch] + [acb(0)] + direction[patch:]])
-    bend = acb(0)
-    for k, m in enumerate(system.matrices):
-        image = m * column
-        bend = bend + y[7, k] * sum((column[i, 0] * image[i, 0] for i in range(8)), acb(0))
-    bend = abs(bend).lower()
-    for exponent in range(-140, -3):
-        rho = arb(2) ** exponent
-        rest = 3 * (eta + kappa * rho * z + beta * (rho * v) ** 2)
-        away = rho * v + rest
-        inside = below(kappa * (rest + rho * z) + eta + beta * away**2, rest)
-        contracts = below(kappa + 2 * beta * away, arb(1))
-        other = rho * upper(y[7, 7]) + rows[7] * (rest + rho * z) + steps[7] + curved[7] * (2 * rho * v * rest + rest**2)
-        if inside and contracts and below(other, bend * rho**2):
-            break
-    else:
-        raise Refuted("no disc in which there are two roots")
+    order = count + 1
+    z = expansion(system, y, patch, order)
+    whole, own, last = ([largest(t[a:b]) for t in z] for a, b in ((0, 8), (0, 7), (7, 8)))
+    main = abs(z[count - 1][7]).lower()
+
+    def total(sizes, numbers, rho):
+        return sum((sizes[n - 1] * rho**n for n in numbers), arb(0))
+
+    def proved(rho):
+        """The radius of the ball that holds the roots if so many are proved on this circle."""
+        first, all_orders = range(1, order + 1), range(1, 2 * order + 1)
+        h, size = total(own, first, rho), total(whole, first, rho)
+        rest = 3 * (eta + kappa * size + total(whole, range(order + 1, 2 * order + 1), rho))
+        quadratic = 2 * h * rest + rest**2
+        inside = below(rest / 3 + kappa * rest + beta * quadratic, rest)
+        contracts = below(kappa + 2 * beta * (h + rest), arb(1))
+        other = total(last, [n for n in all_orders if n != count], rho)
+        other += steps[7] + rows[7] * (size + rest) + curved[7] * quadratic
+        return h + rest if inside and contracts and below(other, main * rho**count) else None
+
+    away = next((x for x in (proved(arb(2) ** e) for e in range(-140, -3)) if x is not None), None)
+    if away is None:
+        raise Refuted(f"no disc in which there are {count} roots")
     need(bool(away <= radius), f"the roots are within {away.str(5)} of the centre, not {radius.str(5)}")
+    if bool(alone > 0):
+        rho = alone * sum((upper(x) for x in l), arb(0))
+        first = range(1, order + 1)
+        h = total(own, first, rho)
+        wide = ((1 - kappa) / (2 * beta) - h) * arb("0.999")
+        alone_there = below(alone + h, wide) and below(total(last, first, rho), wide)
+        need(alone_there and proved(rho) is not None, f"others may lie within {alone.str(5)}")
     box = [ball(x, away) for x in centre]
     stated = record["reality"]
-    need(stated in ("undecided", "non_real"), f"two roots are said to be {stated}")
+    need(stated in ("undecided", "non_real"), f"roots of a cluster are said to be {stated}")
     need(stated == "undecided" or any(not x.imag.contains(0) for x in box), "said to be not real without proof")
     need(solution["real"] is {"undecided": None, "non_real": False}[stated], "`real` is not what is proved")
-    need(solution["multiplicity"] == 2, "two roots that do not count twice")
+    need(solution["multiplicity"] == count, "roots of a cluster that are not counted")
     rotation, position = pose_of(system.whole(box), unit)
     e = record["enclosure"]
     for i in range(3):
@@ -500,8 +528,8 @@ def check(legs, lengths, solution):
     try:
         if record["kind"] == "study":
             return "", check_study(legs, lengths, solution, record)
-        if record["kind"] == "double":
-            return "", check_double(legs, lengths, solution, record)
+        if record["kind"] == "cluster":
+            return "", check_cluster(legs, lengths, solution, record)
         if record["kind"] == "octahedral":
             return "", check_octahedral(legs, lengths, solution, record)
         return f"unknown kind {record['kind']}", None
@@ -546,14 +574,15 @@ FAULTS = {
 
 def shifted(s):
     record = s["certificate"]
-    return (record["patch"] + 1) % 4 if record["kind"] in ("study", "double") else 0
+    return (record["patch"] + 1) % 4 if record["kind"] in ("study", "cluster") else 0
 
 
 def wider(s):
-    """More is said to be free of other roots than is; of two roots, that there are three."""
+    """More is said to be free of other roots than is; of a cluster, that there is one root more."""
     record = s["certificate"]
-    if record["kind"] == "double":
-        s["multiplicity"] = 3
+    if record["kind"] == "cluster":
+        s["multiplicity"] += 1
+        record["multiplicity"] += 1
     else:
         record["uniqueness_radius"] *= 1e6
 

@@ -98,6 +98,12 @@ fn remark(s: &SampleRecord) -> String {
 /// What people read.
 fn text(v: &VerifyAnswer, a: &str, b: &str) -> String {
     let mut out = format!("{a} ~ {b}: {}\n{}\n", v.verdict.as_str(), v.explanation);
+    if let Some(polynomial) = &v.map.det_of_shares {
+        let _ = writeln!(
+            out,
+            "singular offsets: with any shares t of the edges that the leg ends of B are on, det A = {polynomial}, and B is singular where it is zero"
+        );
+    }
     if !v.samples.is_empty() {
         out.push_str("\nsample  poses A  poses B  matched  real  certified  worst distance\n");
     }

@@ -252,3 +252,44 @@ fn simple_poses_and_a_proved_double_one_are_a_complete_answer() {
     }
     assert!(whole >= 8, "{whole}");
 }
+
+/// Platforms with a mirror plane at poses with it, in whole numbers: an odd twist changes no length to first order, so that the equations along it have an odd function of its
+/// parameter, and the pose counts three times.
+#[test]
+fn exact_triple_roots_are_proved_and_counted_three_times() {
+    let mut rng = Rng::new(0x3001);
+    let mut proved = 0;
+    for round in 0..8 {
+        let mut whole = |most: f64| rng.uniform(-most, most).round();
+        let (velocity, turn) = (Vector3::x() * whole(4.0), Vector3::new(0.0, whole(4.0), whole(4.0)));
+        let position = Vector3::new(0.0, whole(4.0), whole(4.0) + 9.0);
+        let mut pair = || {
+            let tip = Vector3::new(whole(6.0), whole(6.0), whole(6.0));
+            let across = Vector3::new(whole(3.0), whole(3.0), whole(3.0));
+            let leg = (velocity + turn.cross(&tip)).cross(&across);
+            let mirrored = |v: Vector3<f64>| Vector3::new(-v.x, v.y, v.z);
+            [(tip, leg), (mirrored(tip), mirrored(leg))]
+        };
+        let legs = [pair(), pair(), pair()].concat();
+        if legs.iter().any(|(tip, leg)| leg.norm() < 0.5 || tip.x.abs() < 0.5) {
+            continue;
+        }
+        let base: [Point3<f64>; 6] = std::array::from_fn(|i| Point3::from(legs[i].0 + position - legs[i].1));
+        let legs_of = std::array::from_fn(|i| Leg { base: base[i], platform: Point3::from(legs[i].0) });
+        let m = Manipulator::from_legs(legs_of).unwrap();
+        let s = SquaredLegLengths::try_new(std::array::from_fn(|i| legs[i].1.norm_squared())).unwrap();
+        let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+        let triple: Vec<_> = found.roots.iter().filter(|r| r.multiplicity == 3).collect();
+        for root in &triple {
+            assert!(root.certified(), "{round}");
+            let off =
+                root.pose.position.iter().zip(&position).map(|(z, p)| (z - p).norm()).fold(0.0, f64::max);
+            assert!(off < 1e-6 * m.size(), "{round}: {off:e}");
+        }
+        // 33 simple ones and the triple one; the number is that of the algebra, which shares nothing with certificates
+        let whole = found.is_complete() && triple.len() == 1;
+        assert!(!whole || found.certified_count() == found.roots.len() + 2, "{round}");
+        proved += usize::from(whole);
+    }
+    assert!(proved >= 6, "{proved}");
+}

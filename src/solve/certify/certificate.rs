@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 use thiserror::Error;
 
-use super::double::DoubleCertificate;
+use super::cluster::ClusterCertificate;
 use super::octahedral::OctahedralCertificate;
 use crate::geom::ComplexPose;
 use crate::num::ball::Disc;
@@ -238,8 +238,8 @@ pub enum RootCertificate {
     Study(Certificate),
     /// In two squared distances; octahedral platforms.
     Octahedral(OctahedralCertificate),
-    /// Of two roots that are close or one; any six legs.
-    Double(DoubleCertificate),
+    /// Of two roots or more that are close or one; any six legs.
+    Cluster(ClusterCertificate),
 }
 
 impl RootCertificate {
@@ -249,7 +249,7 @@ impl RootCertificate {
         match self {
             Self::Study(c) => c.enclosure(),
             Self::Octahedral(c) => c.enclosure(),
-            Self::Double(c) => c.enclosure(),
+            Self::Cluster(c) => c.enclosure(),
         }
     }
 
@@ -259,7 +259,7 @@ impl RootCertificate {
         match self {
             Self::Study(c) => c.reality(),
             Self::Octahedral(c) => c.pair().reality,
-            Self::Double(c) => c.reality(),
+            Self::Cluster(c) => c.reality(),
         }
     }
 }

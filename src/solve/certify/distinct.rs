@@ -1,6 +1,7 @@
 //! Telling certified roots of one problem apart, whatever patches they were certified on.
 
 use super::certificate::{CentrePrecision, Certificate, PoseEnclosure};
+use super::cluster::ClusterCertificate;
 use crate::num::ball::UP;
 use crate::num::ball::WideDisc;
 
@@ -36,7 +37,7 @@ pub fn relation(a: &Certificate, b: &Certificate) -> RootRelation {
     if is_plainly_captured(a, b) || is_plainly_captured(b, a) {
         return RootRelation::Same;
     }
-    let seen = [(a, b), (b, a)].map(|(inner, outer)| (on_patch_of(inner, outer), outer));
+    let seen = [(a, b), (b, a)].map(|(inner, outer)| (on_patch(inner, outer.patch, outer.unit), outer));
     let any = |holds: &dyn Fn(&[WideDisc; 8], &Certificate) -> bool| {
         seen.iter().any(|(x, outer)| x.is_some_and(|x| holds(&x, outer)))
     };
@@ -54,18 +55,18 @@ fn coordinate(c: &Certificate, j: usize) -> WideDisc {
     WideDisc::about(c.centre[j], c.low[j], if j == c.patch { 0.0 } else { c.radius })
 }
 
-/// The coordinates of the root of `inner` in the unit of `outer`, divided by the one that is 1 on its patch. `None` when that one may vanish.
-fn on_patch_of(inner: &Certificate, outer: &Certificate) -> Option<[WideDisc; 8]> {
+/// The coordinates of the root of `inner` in `unit`, divided by the one of the patch. `None` when that one may vanish.
+fn on_patch(inner: &Certificate, patch: usize, unit: f64) -> Option<[WideDisc; 8]> {
     // both units are powers of two: products with their ratio are exact
-    let ratio = inner.unit / outer.unit;
+    let ratio = inner.unit / unit;
     let disc = |j: usize| coordinate(inner, j).scaled(if j < 4 { 1.0 } else { ratio });
     if !ratio.is_normal() {
         return None;
     }
-    if inner.patch == outer.patch {
+    if inner.patch == patch {
         return Some(std::array::from_fn(disc));
     }
-    let factor = disc(outer.patch).reciprocal()?;
+    let factor = disc(patch).reciprocal()?;
     Some(std::array::from_fn(|j| disc(j) * factor))
 }
 
@@ -76,10 +77,23 @@ fn is_apart(x: &[WideDisc; 8], outer: &Certificate) -> bool {
 
 /// Proves that `x` lies in the uniqueness ball of `outer`.
 fn is_captured(x: &[WideDisc; 8], outer: &Certificate) -> bool {
-    (0..8).filter(|j| *j != outer.patch).all(|j| {
-        let gap = (x[j] - WideDisc::about(outer.centre[j], outer.low[j], 0.0)).rounded();
-        (gap.centre.norm() + gap.radius) * UP <= outer.uniqueness_radius
+    let centre = |j: usize| WideDisc::about(outer.centre[j], outer.low[j], 0.0);
+    lies_within(x, outer.patch, outer.uniqueness_radius, centre)
+}
+
+fn lies_within(x: &[WideDisc; 8], patch: usize, radius: f64, centre: impl Fn(usize) -> WideDisc) -> bool {
+    (0..8).filter(|j| *j != patch).all(|j| {
+        let gap = (x[j] - centre(j)).rounded();
+        (gap.centre.norm() + gap.radius) * UP <= radius
     })
+}
+
+/// Proves that a root is one of a cluster: it lies where there are no others.
+#[must_use]
+pub fn is_of(root: &Certificate, cluster: &ClusterCertificate) -> bool {
+    let (patch, radius) = (cluster.patch(), cluster.uniqueness_radius());
+    let centre = |j: usize| WideDisc::about(cluster.centre()[j], cluster.low()[j], 0.0);
+    on_patch(root, patch, cluster.unit()).is_some_and(|x| lies_within(&x, patch, radius, centre))
 }
 
 /// [`is_captured`] for centres in doubles on one patch, without balls: a computed difference is off by rounding of itself, which [`UP`] takes up.

@@ -34,7 +34,8 @@
 //! | `certificate_about` | does a ball about the centre hold exactly one root, with finite `R` and `p` in known discs? is the root real? | `one_root_about`; disc arithmetic over the ball, in which `e.e` must not vanish; conjugation for reality | as above; reality has an [`Undecided`](ProvedReality::Undecided) of its own |
 //! | `one_root_about` | does a ball about the centre hold exactly one root? | the contraction theorem of `krawczyk.rs`; the centre is finite, on its patch, with a Newton step of at most [`NEAR`] | no ball contracts: no root, two close ones, or data or digits that are not good enough |
 //! | `pose_is_the_root` | has the pose the digits of the certified root? | the distance from all points of the enclosure is at most [`NEAR`] | the root is proved, but is not shown to be this pose |
-//! | [`Certifier::two_roots_near`] | do exactly two roots, counted with multiplicity, lie near this pose? | the bordered equations and Rouche's theorem of `double.rs`; the Jacobian has one small singular value | as above |
+//! | [`Certifier::cluster_near`] | do exactly so many roots, two or more, counted with multiplicity, lie near this pose? | the bordered equations and Rouche's theorem of `cluster.rs`; the Jacobian has one small singular value | as above |
+//! | [`is_of()`] | is a certified root one of a cluster? | it lies in the ball in which the roots of the cluster are the only ones | it may be or not |
 //! | [`relation()`], [`distinct()`] | are two certified roots different, or one? | different where enclosures are disjoint, one where an enclosure lies in the other's ball of uniqueness; certificates of one problem | [`RootRelation::Undecided`]: enclosures overlap |
 //!
 //! [`Certifier::refine`] proves nothing: it is Newton's method in double-double. Octahedral platforms have a certificate of all sixteen poses
@@ -63,10 +64,10 @@
 //! ```
 
 mod certificate;
+mod cluster;
 mod coordinates;
 mod differences;
 mod distinct;
-mod double;
 mod inverse;
 mod krawczyk;
 pub mod octahedral;
@@ -83,10 +84,10 @@ pub use certificate::{
     WhyUncertified,
 };
 pub(crate) use certificate::{CertifiedPose, MIRROR};
+pub use cluster::ClusterCertificate;
 pub(crate) use coordinates::dual_quaternion;
 pub(crate) use distinct::overlapping_pairs;
-pub use distinct::{Distinctness, RootRelation, distinct, relation};
-pub use double::DoubleCertificate;
+pub use distinct::{Distinctness, RootRelation, distinct, is_of, relation};
 pub use refine::RefinedPose;
 pub use system::SquareData;
 
@@ -99,11 +100,12 @@ use crate::num::batch::LANES;
 use crate::num::double_double::DoubleDouble;
 use crate::num::octuple::ComplexOctuple;
 use crate::num::vector_unit::on_vector_unit;
+pub(crate) use cluster::ProvedCluster;
+use cluster::clusters_near;
 use coordinates::{
     PrecisePoint, deviation, enclose_pose, enclose_pose_widely, pose_in_double, pose_of, rotation_distance,
     rounded_pose, study_at, study_of,
 };
-use double::two_roots_near;
 use krawczyk::{Centre, Digits, RootBall, one_root_about};
 use refine::refine_study;
 use side_by_side::{EightPoints, FoundInDoubles};
@@ -344,16 +346,29 @@ impl Certifier {
         if distance <= NEAR || far_out { Ok(()) } else { Err(WhyUncertified::Deviation { distance }) }
     }
 
-    /// Decides whether exactly two roots, counted with multiplicity, lie near the pose: two close ones or a double one. The pose of the answer is the middle
-    /// between them.
+    /// Decides whether some roots, two or more, counted with multiplicity, lie near the pose apart from all others: a multiple one, or close ones. The smallest number that
+    /// can be proved is taken; the pose of the answer is the middle of the roots.
     ///
     /// # Errors
-    /// [`WhyUncertified`]: not that there are no two.
-    pub fn two_roots_near(
+    /// [`WhyUncertified`] of two roots: not that there are none.
+    pub fn cluster_near(
         &self,
         pose: &ComplexPose,
-    ) -> Result<(ComplexPose, DoubleCertificate), WhyUncertified> {
-        two_roots_near(&self.0, pose)
+    ) -> Result<(ComplexPose, ClusterCertificate), WhyUncertified> {
+        let mut why = WhyUncertified::SingularJacobian;
+        for (k, attempt) in clusters_near(&self.0, pose)?.enumerate() {
+            match attempt {
+                Ok(found) => return Ok(found),
+                Err(reason) if k == 0 => why = reason,
+                Err(_) => {}
+            }
+        }
+        Err(why)
+    }
+
+    /// [`cluster_near`](Self::cluster_near) of more and more roots, where more than one number can be proved.
+    pub(crate) fn clusters_near(&self, pose: &ComplexPose) -> impl Iterator<Item = ProvedCluster> {
+        clusters_near(&self.0, pose).into_iter().flatten().filter_map(Result::ok)
     }
 
     /// Newton in double-double from the pose, as far as it leads: about `2^-102` times the condition of the root.

@@ -35,9 +35,18 @@
 //!
 //! These are widths of the data, as those of the squared lengths are: what is proved is proved for every choice.
 //!
+//! **Second-order part of two vectors** (always in double, for the polar form of `F`, whose value on `h`, `h` is `F(h)` where `h_patch = 0`). With `D_h = delta_h + omega_h`, what rounding and radii
+//! do to a component of `w(h) = h_g + T h_e`, and `W_h = |w(h)|` as computed:
+//!
+//! * `Q_i(h, k) = (w(h).w(k) - s h_e.k_e) / 2`: from `w`, `D_h W_k + D_k W_h + 2 D_h D_k`; its own, as above, below `5U (W_h W_k + s sqrt(P_h P_k))`; the squared length's low part and radius,
+//!   half of their sum times `sqrt(P_h P_k)`.
+//! * `Q_7(h, k) = (h_e.k_g + k_e.h_g) / 2`: five roundings of eight products in each part, below `16U (E_h G_k + E_k G_h)`.
+//!
 //! `gamma_n < nU (1 + 2^-44)` and the rounding of the bounds themselves are covered by the factor [`UP`], underflow by [`TINY`].
 
 use std::ops::{Add, Mul, Neg, Sub};
+
+use num_complex::Complex64;
 
 use super::certificate::WhyUncertified;
 use super::second_order::SecondOrder;
@@ -154,6 +163,16 @@ pub(super) struct Jacobian {
     pub(super) im: [[f64; 8]; N],
     /// Bound of a row's sum of error moduli, width of the data included.
     pub(super) error: [f64; N],
+}
+
+/// A vector of increments with what the second-order part needs of it.
+pub(super) struct Increment {
+    x: Study<f64>,
+    v_re: [[f64; 4]; 6],
+    v_im: [[f64; 4]; 6],
+    /// `W` and `D` of the module's text.
+    size: [f64; 6],
+    error: [f64; 6],
 }
 
 /// The equations of one problem; see the module's text.
@@ -459,6 +478,53 @@ impl LegSystem {
         }
         rounding[6] = (32.0 * unit * e * g + TINY) * UP;
         (rounding, width)
+    }
+
+    /// Increments of the seven unknowns, in the order of the columns of [`jacobian`](Self::jacobian).
+    pub(super) fn increment(&self, h: &[Complex64; N], patch: usize) -> Increment {
+        let mut x = Study { re: [0.0; 8], im: [0.0; 8], patch };
+        for (k, z) in h.iter().enumerate() {
+            let j = if k == patch { 7 } else { k };
+            (x.re[j], x.im[j]) = (z.re, z.im);
+        }
+        let (e, g, _) = x.magnitudes();
+        let (mut v_re, mut v_im) = ([[0.0; 4]; 6], [[0.0; 4]; 6]);
+        let (mut size, mut error) = ([0.0; 6], [0.0; 6]);
+        for i in 0..6 {
+            (v_re[i], v_im[i]) =
+                (leg_vector(&self.d[i], &self.c[i], &x.re), leg_vector(&self.d[i], &self.c[i], &x.im));
+            size[i] = square_sum(&v_re[i], &v_im[i]).sqrt() * UP;
+            error[i] = (self.delta(i, e, g, U) + self.turn_radius[i] * e) * UP;
+        }
+        Increment { x, v_re, v_im, size, error }
+    }
+
+    /// `Q(h, k)`, and bounds of its error, width of the data included.
+    pub(super) fn second_order_part(&self, h: &Increment, k: &Increment) -> ([Complex64; N], [f64; N]) {
+        let term = |a: (f64, f64), b: (f64, f64)| (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0);
+        let sum = |t: [(f64, f64); 4]| {
+            ((t[0].0 + t[1].0) + (t[2].0 + t[3].0), (t[0].1 + t[1].1) + (t[2].1 + t[3].1))
+        };
+        let of = |x: &Increment, j: usize| (x.x.re[j], x.x.im[j]);
+        let turn = sum(std::array::from_fn(|j| term(of(h, j), of(k, j))));
+        let ((e_h, g_h, p_h), (e_k, g_k, p_k)) = (h.x.magnitudes(), k.x.magnitudes());
+        let p = (p_h * p_k).sqrt();
+        let (mut value, mut error) = ([Complex64::ZERO; N], [0.0; N]);
+        for i in 0..6 {
+            let of = |x: &Increment, r: usize| (x.v_re[i][r], x.v_im[i][r]);
+            let v = sum(std::array::from_fn(|r| term(of(h, r), of(k, r))));
+            let s = self.s[i];
+            value[i] = Complex64::new(0.5 * (v.0 - s * turn.0), 0.5 * (v.1 - s * turn.1));
+            let from_vectors =
+                h.error[i] * k.size[i] + k.error[i] * h.size[i] + 2.0 * h.error[i] * k.error[i];
+            let own = 5.0 * U * (h.size[i] * k.size[i] + s.abs() * p) + 0.5 * self.s_blur(i) * p;
+            error[i] = (from_vectors + own + TINY) * UP;
+        }
+        let mixed = |x: &Increment, y: &Increment| sum(std::array::from_fn(|j| term(of(x, j), of(y, 4 + j))));
+        let (one, other) = (mixed(h, k), mixed(k, h));
+        value[6] = Complex64::new(0.5 * (one.0 + other.0), 0.5 * (one.1 + other.1));
+        error[6] = (16.0 * U * (e_h * g_k + e_k * g_h) + TINY) * UP;
+        (value, error)
     }
 
     /// Bounds `|sum_i y_i Q_i(h, k)|` on the unit polydisc, `weights` being the `|y_i|_1`; see the `second_order` module.

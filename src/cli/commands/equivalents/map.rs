@@ -109,5 +109,11 @@ fn exact_rows(r: &MapRecord) -> String {
             singular.map_or_else(String::new, |t| format!("    (det A = 0 with t = {t} in this row)"));
         let _ = writeln!(text, "  s{}' = {row}{singular}", i + 1);
     }
+    if let Some(polynomial) = &r.det_of_shares {
+        let _ = writeln!(
+            text,
+            "  with any shares t of these edges det A = {polynomial}: singular where it is zero"
+        );
+    }
     text
 }

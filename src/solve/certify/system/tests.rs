@@ -162,6 +162,31 @@ fn gradients_and_second_order_part_stay_within_their_bounds() {
 }
 
 #[test]
+fn the_second_order_part_of_two_vectors_stays_within_its_bounds() {
+    let mut rng = Rng::new(84);
+    let half = (exact(0.5), exact(0.0));
+    for round in 0..20 {
+        let system = random_system(&mut rng);
+        let mut vector = |size: f64| -> [Complex64; N] {
+            std::array::from_fn(|_| Complex64::new(rng.uniform(-size, size), rng.uniform(-size, size)))
+        };
+        let (h, k) = (vector(1.0), vector([1.0, 1e-5][round % 2]));
+        let (patch, value) = (round % 4, |z: Complex64| (exact(z.re), exact(z.im)));
+        let (x, y) = (system.increment(&h, patch), system.increment(&k, patch));
+        let (computed, bounds) = system.second_order_part(&x, &y);
+        let (h, k) = (lift(&x.x.lifted()), lift(&y.x.lifted()));
+        let both: [ExactComplex; 8] = std::array::from_fn(|j| add(&h[j], &k[j], 1.0));
+        // polarised: F is homogeneous
+        let [of_both, of_h, of_k] = [&both, &h, &k].map(|x| truth(&system, x));
+        for i in 0..N {
+            let mixed = add(&add(&of_both[i], &of_h[i], -1.0), &of_k[i], -1.0);
+            assert_within(&value(computed[i]), &mul(&mixed, &half), bounds[i], "second-order part");
+            assert!(bounds[i] < 1e-12 && computed[i].norm() > 1e3 * bounds[i], "{:?} {bounds:?}", computed);
+        }
+    }
+}
+
+#[test]
 fn the_combined_second_order_bound_holds_and_is_nearly_attained() {
     let mut rng = Rng::new(83);
     let mut closest = 0.0_f64;
