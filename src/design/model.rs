@@ -117,6 +117,19 @@ pub enum CalibratedNumber {
     Offset(usize),
 }
 
+impl CalibratedNumber {
+    /// What it is called: `base.A1.x`, `offset.3`.
+    #[must_use]
+    pub fn name(&self, design: &Design) -> String {
+        match *self {
+            Self::Coordinate { body, joint, axis } => {
+                format!("{body}.{}.{}", design.joint_names(body)[joint], ["x", "y", "z"][axis])
+            }
+            Self::Offset(leg) => format!("offset.{}", leg + 1),
+        }
+    }
+}
+
 /// Correlations of the numbers of a calibration. They have no unit; numbers that are not listed are off each for itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlations {
@@ -164,6 +177,23 @@ impl CalibrationTable {
             CalibratedNumber::Coordinate { body, joint, axis } => Some(self.deviation(body, joint)?[axis]),
             CalibratedNumber::Offset(leg) => Some(self.offset_deviations?[leg]),
         }
+    }
+
+    /// Correlations of these numbers: 1 of each with itself, what the table says of two that it lists, and 0 of others.
+    #[must_use]
+    pub fn correlations_of(&self, numbers: &[CalibratedNumber]) -> DMatrix<f64> {
+        let mut out = DMatrix::identity(numbers.len(), numbers.len());
+        let Some(known) = &self.correlations else { return out };
+        let listed = |number: &CalibratedNumber| known.unknowns.iter().position(|unknown| unknown == number);
+        let places: Vec<Option<usize>> = numbers.iter().map(listed).collect();
+        for (i, row) in places.iter().enumerate() {
+            for (j, column) in places.iter().enumerate() {
+                if let (Some(row), Some(column)) = (row, column) {
+                    out[(i, j)] = known.triangle[*row.max(column)][*row.min(column)];
+                }
+            }
+        }
+        out
     }
 
     /// Distances of the joints from lengths that the legs show: what every other question about lengths is asked in.

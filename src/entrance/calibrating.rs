@@ -109,20 +109,7 @@ impl Design {
         if deviations.iter().all(Option::is_none) {
             return None;
         }
-        let mut matrix = DMatrix::identity(all.len(), all.len());
-        if let Some(known) = &table.correlations {
-            let whole = known.matrix();
-            let place = |number: &CalibratedNumber| all.iter().position(|n| n == number);
-            // joints without legs have no place
-            let places: Vec<Option<usize>> = known.unknowns.iter().map(place).collect();
-            for (i, row) in places.iter().enumerate() {
-                for (j, column) in places.iter().enumerate() {
-                    if let (Some(row), Some(column)) = (row, column) {
-                        matrix[(*row, *column)] = whole[(i, j)];
-                    }
-                }
-            }
-        }
+        let matrix = table.correlations_of(&all);
         let deviations: Vec<f64> = deviations.into_iter().map(Option::unwrap_or_default).collect();
         MachineUncertainty::new(&deviations, &matrix)
     }
@@ -159,13 +146,7 @@ pub(crate) fn carried(found: &Calibration, frames: Option<&CarriedFrames>) -> (L
 
 /// What a column of the unknowns is called: `base.A1.x`, `offset.3`.
 pub(crate) fn unknown_names(design: &Design, unknowns: &Unknowns) -> Vec<String> {
-    let name = |unknown: &Unknown| match *unknown {
-        Unknown::Joint { body, joint, axis } => {
-            format!("{body}.{}.{}", design.joint_names(body)[joint], ["x", "y", "z"][axis])
-        }
-        Unknown::Offset { leg } => format!("offset.{}", leg + 1),
-    };
-    unknowns.list().iter().map(name).collect()
+    numbers(unknowns).iter().map(|number| number.name(design)).collect()
 }
 
 #[cfg(test)]

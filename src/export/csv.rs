@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::text::{commented, csv_field, real, reals, scaled};
-use super::{Export, ExportedFile, Unsupported, Writer};
+use super::{Export, ExportCalibration, ExportedFile, Unsupported, Writer};
 use crate::geom::Pose;
 
 /// The format `csv`.
@@ -26,6 +26,9 @@ impl Writer for Csv {
             ExportedFile::new("parts.csv", export.parts_csv()),
             ExportedFile::new("lengths-workspace.csv", lengths(export, &export.workspace)),
         ];
+        if let Some(found) = &export.calibration {
+            out.push(ExportedFile::new("calibration.csv", calibration(export, found)));
+        }
         if !export.trajectory.is_empty() {
             out.push(ExportedFile::new("lengths-trajectory.csv", lengths(export, &export.trajectory)));
         }
@@ -57,6 +60,22 @@ fn legs(export: &Export) -> String {
         let (a, b) = export.ends_of(leg);
         let length = real(leg.length() * export.unit.millimetres);
         let _ = writeln!(out, "{},{},{},{length}", leg.number, csv_field(a), csv_field(b));
+    }
+    out
+}
+
+fn calibration(export: &Export, found: &ExportCalibration) -> String {
+    let mut out = comments(
+        export,
+        "calibrated coordinates of joints in the frames of their bodies and leg offsets (length shown less distance of the joints), their standard deviations, and correlations in columns in the order of the rows",
+    );
+    let names: Vec<_> = found.names.iter().map(|name| csv_field(name)).collect();
+    let _ = writeln!(out, "unknown,value_mm,deviation_mm,{}", names.join(","));
+    let mm = export.unit.millimetres;
+    for (i, name) in names.iter().enumerate() {
+        let row = reals(found.correlations.row(i).iter().copied(), ",");
+        let _ =
+            writeln!(out, "{name},{},{},{row}", real(found.values[i] * mm), real(found.deviations[i] * mm));
     }
     out
 }

@@ -2,7 +2,10 @@
 
 use serde::Serialize;
 
-use super::{Export, ExportBody, ExportLeg, ExportedFile, Plate, PlateHole, SizeChoice, Unsupported, Writer};
+use super::{
+    Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, Plate, PlateHole, SizeChoice,
+    Unsupported, Writer,
+};
 use crate::geom::Pose;
 
 /// The format `json`.
@@ -44,6 +47,9 @@ struct ExportedDocument<'a> {
     base: BodyRecord<'a>,
     platform: BodyRecord<'a>,
     legs: Vec<LegRecord<'a>>,
+    /// Absent where the design has no standard deviations of a calibration.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    calibration: Option<UncertaintyRecord<'a>>,
     workspace: Vec<LengthsRecord>,
     trajectory: Vec<LengthsRecord>,
     choices: Vec<ChoiceRecord<'a>>,
@@ -123,6 +129,29 @@ struct LegRecord<'a> {
     cylinder_length: f64,
 }
 
+/// How uncertain calibrated joints and leg offsets are. Two numbers with deviations `d`, `e` and correlation `r` have the covariance `r d e`.
+#[derive(Debug, Serialize)]
+struct UncertaintyRecord<'a> {
+    unknowns: &'a [String],
+    values: Vec<f64>,
+    deviations: Vec<f64>,
+    /// Lower triangle with the diagonal.
+    correlations: Vec<Vec<f64>>,
+}
+
+impl<'a> UncertaintyRecord<'a> {
+    fn of(found: &'a ExportCalibration, mm: f64) -> Self {
+        let scaled = |list: &[f64]| list.iter().map(|x| x * mm).collect();
+        let row = |i: usize| (0..=i).map(|j| found.correlations[(i, j)]).collect();
+        Self {
+            unknowns: &found.names,
+            values: scaled(&found.values),
+            deviations: scaled(&found.deviations),
+            correlations: (0..found.names.len()).map(row).collect(),
+        }
+    }
+}
+
 #[derive(Debug, Serialize)]
 struct ChoiceRecord<'a> {
     what: &'a str,
@@ -161,6 +190,7 @@ impl<'a> ExportedDocument<'a> {
             base: BodyRecord::of(&export.bodies[0], mm),
             platform: BodyRecord::of(&export.bodies[1], mm),
             legs: export.legs.iter().map(leg).collect(),
+            calibration: export.calibration.as_ref().map(|found| UncertaintyRecord::of(found, mm)),
             workspace: lengths(export, &export.workspace),
             trajectory: lengths(export, &export.trajectory),
             choices: export.choices.iter().map(choice).collect(),

@@ -38,7 +38,7 @@ use crate::names::{UnknownName, named};
 
 pub use crate::requirements::{Outline, OutlinePart};
 pub use controller::EquivalentOctahedral;
-pub use model::{Export, ExportBody, ExportCranks, ExportLeg, ExportedJoint};
+pub use model::{Export, ExportBody, ExportCalibration, ExportCranks, ExportLeg, ExportedJoint};
 pub use parts::{PART_COLUMNS, PartLine};
 pub use plate::{Plate, PlateHole};
 pub use sizes::{ExportOptions, NoExport, SizeChoice};

@@ -1,6 +1,6 @@
 //! What all formats need, worked out once.
 
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Point3, Vector3};
 
 use super::controller::EquivalentOctahedral;
 use super::plate::Plate;
@@ -8,7 +8,7 @@ use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_d
 use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
 use crate::coupled::CoupledLegs;
-use crate::design::Design;
+use crate::design::{CalibratedNumber, Design};
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
 use crate::requirements::{ForceUnit, Hardware, KeepOutShape, LegMasses, MassUnit, plate_normal};
@@ -91,6 +91,10 @@ pub struct ExportCranks {
     pub home_angles: [f64; 6],
     /// Greatest torque of a crank, newton metres, where the design limits it.
     pub greatest_torque: Option<f64>,
+    /// How far the joints at the tips let rods lean out of the planes of their cranks, radians, where the design limits it.
+    pub tip_swing: Option<f64>,
+    /// How far the joints at the platform let rods swing from their directions at home, radians, where the design limits it.
+    pub platform_swing: Option<f64>,
 }
 
 impl ExportCranks {
@@ -101,8 +105,81 @@ impl ExportCranks {
         let home_angles = platform
             .ik(home)
             .map_err(|why| unfit(&format!("the cranks do not hold the home pose: {why}")))?;
-        let greatest_torque = design.crank_limits().max_torque.map(|t| t * torque_unit);
-        Ok(Some(Self { platform, home_angles, greatest_torque }))
+        let limits = design.crank_limits();
+        Ok(Some(Self {
+            platform,
+            home_angles,
+            greatest_torque: limits.max_torque.map(|t| t * torque_unit),
+            tip_swing: limits.tip_swing_deg.map(f64::to_radians),
+            platform_swing: limits.platform_swing_deg.map(f64::to_radians),
+        }))
+    }
+}
+
+/// How uncertain the joints and leg offsets of a calibrated machine are, and together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExportCalibration {
+    /// The numbers of which the design says a standard deviation: coordinates of joints, then leg offsets.
+    pub numbers: Vec<CalibratedNumber>,
+    /// What each is called: `base.A1.x`, `offset.3`.
+    pub names: Vec<String>,
+    /// What each is, design units.
+    pub values: Vec<f64>,
+    /// Its standard deviation, design units.
+    pub deviations: Vec<f64>,
+    /// Correlations of these numbers.
+    pub correlations: DMatrix<f64>,
+}
+
+impl ExportCalibration {
+    /// `None` for a design without standard deviations.
+    fn of(design: &Design) -> Option<Self> {
+        let table = design.calibration.as_ref()?;
+        let of_body = |body: Body| {
+            (0..design.joint_names(body).len()).flat_map(move |joint| {
+                (0..3).map(move |axis| CalibratedNumber::Coordinate { body, joint, axis })
+            })
+        };
+        let all = Body::BOTH.into_iter().flat_map(of_body).chain((0..6).map(CalibratedNumber::Offset));
+        let (numbers, deviations): (Vec<_>, Vec<_>) =
+            all.filter_map(|number| Some((number, table.deviation_of(number)?))).unzip();
+        if numbers.is_empty() {
+            return None;
+        }
+        let m = design.manipulator();
+        let value = |number: &CalibratedNumber| match *number {
+            CalibratedNumber::Coordinate { body, joint, axis } => {
+                body.of((m.base_joints(), m.platform_joints()))[joint][axis]
+            }
+            CalibratedNumber::Offset(leg) => table.offsets[leg],
+        };
+        Some(Self {
+            names: numbers.iter().map(|number| number.name(design)).collect(),
+            values: numbers.iter().map(value).collect(),
+            correlations: table.correlations_of(&numbers),
+            deviations,
+            numbers,
+        })
+    }
+
+    /// The covariance of all legs, design units squared: rows and columns by legs, of each the base joint, the platform joint and the offset. What is not uncertain has zeros.
+    #[must_use]
+    pub fn of_legs(&self, pairs: &[(usize, usize); 6]) -> DMatrix<f64> {
+        let numbers = (0..6).flat_map(|leg| {
+            let coordinates = move |body: Body, joint: usize| {
+                (0..3).map(move |axis| CalibratedNumber::Coordinate { body, joint, axis })
+            };
+            let (base, platform) = pairs[leg];
+            coordinates(Body::Base, base)
+                .chain(coordinates(Body::Platform, platform))
+                .chain(std::iter::once(CalibratedNumber::Offset(leg)))
+        });
+        let places: Vec<Option<usize>> =
+            numbers.map(|number| self.numbers.iter().position(|own| *own == number)).collect();
+        DMatrix::from_fn(places.len(), places.len(), |i, j| match (places[i], places[j]) {
+            (Some(i), Some(j)) => self.correlations[(i, j)] * self.deviations[i] * self.deviations[j],
+            _ => 0.0,
+        })
     }
 }
 
@@ -137,6 +214,8 @@ pub struct Export {
     pub coupled: Option<CoupledLegs>,
     /// What the length that each leg shows is longer than the distance of its joints, design units, where the design was calibrated.
     pub leg_offsets: Option<[f64; 6]>,
+    /// What a calibration does not know, where the design says it.
+    pub calibration: Option<ExportCalibration>,
     /// Least and greatest length of a leg, design units, where the design limits them.
     pub leg_range: Option<(f64, f64)>,
     /// Poses of the workspace, home first.
@@ -273,6 +352,7 @@ impl Export {
             cranks,
             coupled,
             leg_offsets: design.calibration.as_ref().map(|table| table.offsets),
+            calibration: ExportCalibration::of(design),
             leg_range: hardware.leg_length.map(|l| l.range()),
             workspace,
             trajectory,

@@ -1,7 +1,9 @@
 //! What a controller computes: the pose by the octahedral formula, then Newton steps on the calibrated joints.
 
+use nalgebra::Point3;
 use thiserror::Error;
 
+use super::uncertainty::{MachineUncertainty, PoseCovariance};
 use crate::fk::{FkError, NearSolver, OcticSolver};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{InvalidManipulator, Manipulator, Octahedral, SquaredLegLengths};
@@ -71,6 +73,7 @@ pub struct Controller {
     octic: OcticSolver,
     follow: NearSolver,
     calibrated: NearSolver,
+    machine: Manipulator,
     size: f64,
 }
 
@@ -95,6 +98,7 @@ impl Controller {
             octic,
             follow: NearSolver::new(octahedral),
             calibrated: NearSolver::new(calibrated),
+            machine: calibrated.clone(),
             size: octahedral.size(),
         })
     }
@@ -117,5 +121,17 @@ impl Controller {
     #[must_use]
     pub fn corrected(&self, s: &SquaredLegLengths, pose: &Pose, steps: u32) -> Option<Pose> {
         self.calibrated.newton_steps(s, pose, steps)
+    }
+
+    /// The covariance of a [corrected](Self::corrected) pose by what is not known of the calibrated joints and offsets, to first order; the noise of the lengths is not in it.
+    /// `None` at a singular pose and for an uncertainty of another machine.
+    #[must_use]
+    pub fn covariance(
+        &self,
+        known: &MachineUncertainty,
+        pose: &Pose,
+        tool: &Point3<f64>,
+    ) -> Option<PoseCovariance> {
+        known.pose_covariance(&self.machine, pose, tool)
     }
 }

@@ -1,6 +1,6 @@
 //! First order against what is solved, worst cases against random errors, laws of the budget, the correction.
 
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::*;
 use crate::fk::NearSolver;
@@ -294,6 +294,48 @@ fn a_step_of_the_correction_squares_the_error() {
         assert!((before - 2.0).abs() < 0.05 && (after - 4.0).abs() < 0.3, "{before} {after}");
     }
     assert!(fine.corrected[1].position.max < 1e-9 && coarse.corrected[0].position.max > 1e-7);
+}
+
+/// Machines drawn with the covariance of a calibration, of which the controller has the mean: the poses that it corrects have the covariance that it states.
+#[test]
+fn corrected_poses_have_the_covariance_that_is_stated() {
+    let (m, mut rng) = (free(), Rng::new(31));
+    let octahedral = equivalent_octahedral(&m).unwrap();
+    let controller = Controller::new(&octahedral, &m, &m).unwrap();
+    let n = 3 * joints(&m).len() + 6;
+    // joints that are off together: few common causes, and something of each for itself
+    let mixing = DMatrix::from_fn(n, 4, |_, _| rng.normal());
+    let covariance = 1e-10 * (&mixing * mixing.transpose() + DMatrix::identity(n, n));
+    let deviations: Vec<f64> = (0..n).map(|k| covariance[(k, k)].sqrt()).collect();
+    let scaled = DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] / (deviations[i] * deviations[j]));
+    let known = MachineUncertainty::new(&deviations, &scaled).unwrap();
+    let truth = space().pose(&Vector6::from_fn(|_, _| rng.uniform(-1.0, 1.0)));
+    let wanted = controller.covariance(&known, &truth, &TOOL).unwrap();
+    let count = 4000;
+    let mut found = Matrix6::zeros();
+    for _ in 0..count {
+        let (errors, offsets) = known.draw(&mut rng);
+        let built = displaced(&m, &errors).unwrap();
+        let lengths = truth.squared_lengths(&built).unwrap().lengths().get();
+        let shown: [f64; 6] = std::array::from_fn(|leg| lengths[leg] + offsets[leg]);
+        let shown = LegLengths::try_new(shown).unwrap().squared();
+        let pose = controller.corrected(&shown, &controller.formula(&shown, &truth).unwrap(), 2).unwrap();
+        let shift = pose.transform(&TOOL) - truth.transform(&TOOL);
+        let turn = (pose.rotation * truth.rotation.inverse()).scaled_axis();
+        let off = Vector6::from_iterator(shift.iter().chain(turn.iter()).copied());
+        found += off * off.transpose() / f64::from(count);
+    }
+    // in units of the deviations stated, entries are off by the square root of two over the count at most, five times over
+    let worst = |stated: &Matrix6<f64>| {
+        let unit = |i: usize| stated[(i, i)].sqrt();
+        let off = |i: usize, j: usize| (found[(i, j)] - stated[(i, j)]).abs() / (unit(i) * unit(j));
+        (0..36).map(|k| off(k / 6, k % 6)).fold(0.0, f64::max)
+    };
+    let within = 5.0 * (2.0 / f64::from(count)).sqrt();
+    assert!(worst(&wanted.matrix) < within, "{} {within}", worst(&wanted.matrix));
+    // without the correlations it is another covariance
+    let independent = controller.covariance(&known.independent(), &truth, &TOOL).unwrap();
+    assert!(worst(&independent.matrix) > 2.0 * within, "{}", worst(&independent.matrix));
 }
 
 #[test]

@@ -90,8 +90,8 @@ impl MachineUncertainty {
         })
     }
 
-    /// Errors of the joints and of the offsets, drawn from the normal distribution with the covariance.
-    pub(super) fn draw(&self, rng: &mut Rng) -> (Vec<Vector3<f64>>, [f64; 6]) {
+    /// Errors of the joints, in the order of [`joints`](super::joints), and of the offsets, drawn from the normal distribution with the covariance.
+    pub fn draw(&self, rng: &mut Rng) -> (Vec<Vector3<f64>>, [f64; 6]) {
         let normal = nalgebra::DVector::from_fn(self.root.ncols(), |_, _| rng.normal());
         let errors = &self.root * normal;
         let count = (self.root.nrows() - 6) / 3;

@@ -3,11 +3,14 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{DriveLengthsRecord, Number, PoseRecord, RotaryIkRecord, RotaryIkRowsAnswer};
+use super::{
+    DriveLengthsRecord, Number, PoseRecord, PoseUncertaintyRecord, RotaryIkRecord, RotaryIkRowsAnswer,
+};
 use crate::coupled::{CoupledLegs, DriveState};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{inverse_condition, jacobian};
+use crate::manufacture::MachineUncertainty;
 use crate::requirements::{JointAngles, TermKind, Terms};
 
 /// The answer of `ik`.
@@ -61,6 +64,9 @@ pub struct IkRecord {
     /// What the flexures do to the platform when they bend, where the design has some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flexures: Option<FlexureRecord>,
+    /// How uncertain the pose is that the calibrated machine computes from its lengths here, where the design has standard deviations of a calibration and joints are ideal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<PoseUncertaintyRecord>,
     /// The least margin of each kind of requirement at this pose.
     pub margins: Vec<PoseMarginRecord>,
 }
@@ -144,8 +150,21 @@ impl IkRecord {
                 let three = |v: &nalgebra::Vector3<f64>| [v.x, v.y, v.z].map(Number);
                 FlexureRecord { force: three(&wrench.force), torque: three(&wrench.torque) }
             }),
+            uncertainty: None,
             margins: PoseMarginRecord::all(design, terms, pose),
         }
+    }
+
+    /// With the covariance of the pose that the calibrated machine computes here.
+    #[must_use]
+    pub(crate) fn with_uncertainty(
+        mut self,
+        design: &Design,
+        known: &MachineUncertainty,
+        pose: &Pose,
+    ) -> Self {
+        self.uncertainty = PoseUncertaintyRecord::at(design, known, pose);
+        self
     }
 
     /// The same where joints are not ideal, with the legs at the pose.

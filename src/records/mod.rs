@@ -47,6 +47,7 @@ mod statistics;
 mod sweep;
 mod tolerances;
 mod topologies;
+mod uncertainty;
 mod verify;
 mod written;
 
@@ -93,6 +94,7 @@ pub use self::statistics::*;
 pub use self::sweep::*;
 pub use self::tolerances::*;
 pub use self::topologies::*;
+pub use self::uncertainty::{CorrelationsWord, PoseUncertaintyRecord};
 pub use self::verify::*;
 pub use self::written::*;
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Number, PoseRecord};
+use super::{Number, PoseRecord, PoseUncertaintyRecord};
 use crate::fk::NearOutcome;
 use crate::geom::Pose;
 
@@ -34,6 +34,9 @@ pub struct NearRecord {
     pub distance: Number,
     /// The angle the platform turned by.
     pub angle_deg: Number,
+    /// How uncertain the pose reached is, where the design has standard deviations of a calibration and joints are ideal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<PoseUncertaintyRecord>,
 }
 
 /// What came of following a pose.
@@ -73,6 +76,7 @@ impl NearRecord {
             kantorovich: Number(e.kantorovich),
             distance: Number(e.distance),
             angle_deg: Number(e.angle.to_degrees()),
+            uncertainty: None,
         }
     }
 }

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::uncertainty::{CorrelationsWord, in_degrees};
 use super::{AssessAnswer, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
 use crate::design::Design;
 use crate::geom::Pose;
@@ -58,16 +59,6 @@ pub struct CalibratedPosesRecord {
     pub rotation_deg: DeviationRecord,
 }
 
-/// How the errors of a calibration go together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CorrelationsWord {
-    /// As the design file says.
-    Design,
-    /// The design file has no correlations: every coordinate and offset counts as off for itself.
-    Independent,
-}
-
 /// A standard deviation over the poses looked at.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DeviationRecord {
@@ -99,14 +90,12 @@ impl DeviationRecord {
         let worst = poses.iter().max_by(|a, b| of(&a.kept).total_cmp(&of(&b.kept)))?;
         let mut all: Vec<f64> = poses.iter().map(|p| of(&p.kept)).collect();
         all.sort_by(f64::total_cmp);
-        let unit = |k: usize| if k < 3 { 1.0 } else { 1_f64.to_degrees() };
-        let entry = |i: usize, j: usize| Number(worst.kept.matrix[(i, j)] * unit(i) * unit(j));
         Some(Self {
             median: Number(all[(all.len() - 1) / 2]),
             greatest: Number(of(&worst.kept)),
             independent: Number(of(&worst.independent)),
             pose: (&worst.pose).into(),
-            covariance: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))),
+            covariance: in_degrees(&worst.kept),
         })
     }
 }
@@ -115,9 +104,8 @@ impl CalibratedPosesRecord {
     /// Of the poses looked at; `None` without one.
     #[must_use]
     pub(crate) fn new(design: &Design, poses: &[PoseDeviations]) -> Option<Self> {
-        let known = design.calibration.as_ref().is_some_and(|table| table.correlations.is_some());
         Some(Self {
-            correlations: if known { CorrelationsWord::Design } else { CorrelationsWord::Independent },
+            correlations: CorrelationsWord::of(design),
             poses: poses.len(),
             position: DeviationRecord::new(poses, |c| c.position)?,
             rotation_deg: DeviationRecord::new(poses, |c| c.rotation.to_degrees())?,

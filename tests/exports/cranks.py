@@ -1,6 +1,7 @@
-"""MuJoCo with a platform on cranks: the actuators hold the angles of `equipod ik`, and the platform comes to the pose they were asked for."""
+"""MuJoCo with a platform on cranks: the actuators hold the angles of `equipod ik`, the platform comes to the pose they were asked for, and the swing of the rods is limited at both ends."""
 
 import json
+import math
 
 from common import absent, compare, run
 from models import smooth
@@ -42,6 +43,84 @@ def complaint(path, wanted):
     return ""
 
 
+LIMITS = {"tip": 25.0, "platform": 35.0}
+
+
+def swings(model, data, crank_axes, rod_axes):
+    """Of each rod the angle out of the plane in which its crank turns, and the angle from its direction at home in the platform frame, from the frames of the bodies."""
+    import numpy as np
+    turn = data.body("platform").xmat.reshape(3, 3)
+    out = []
+    for k in range(6):
+        u = data.body(f"rod{k + 1}").xmat.reshape(3, 3)[:, 2]
+        axis = turn @ rod_axes[k]
+        lean = math.asin(np.clip(u @ crank_axes[k], -1, 1))
+        out.append((lean, math.atan2(np.linalg.norm(np.cross(u, axis)), u @ axis)))
+    return out
+
+
+def swing_complaint(path):
+    """What is wrong with the limits of the swing: at random states they act beyond the angles of the design and not below."""
+    import mujoco
+    import numpy as np
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    mujoco.mj_forward(model, data)
+    crank_axes = [data.body(f"crank{k}").xmat.reshape(3, 3)[:, 2].copy() for k in range(1, 7)]
+    turn = data.body("platform").xmat.reshape(3, 3)
+    rod_axes = [turn.T @ data.body(f"rod{k}").xmat.reshape(3, 3)[:, 2] for k in range(1, 7)]
+    tip, platform = (math.radians(LIMITS[end]) for end in ("tip", "platform"))
+    hinges = [model.joint(f"swing{k}y").id for k in range(1, 7)]
+    tendons = [model.tendon(f"swing{k}").id for k in range(1, 7)]
+    if not (model.jnt_limited[hinges].all() and model.tendon_limited[tendons].all()):
+        return "hinges or tendons without limits"
+    home = data.qpos.copy()
+    kinds = mujoco.mjtConstraint
+    counts = [[0, 0], [0, 0]]
+    rng = np.random.default_rng(19)
+    for _ in range(200):
+        data.qpos[:] = home + 0.7 * rng.uniform(-1, 1, model.nq)
+        mujoco.mj_normalizeQuat(model, data.qpos)
+        mujoco.mj_forward(model, data)
+        acting = lambda kind, number: any(data.efc_type[j] == kind and data.efc_id[j] == number for j in range(data.nefc))
+        for k, (lean, swing) in enumerate(swings(model, data, crank_axes, rod_axes)):
+            acts = acting(kinds.mjCNSTR_LIMIT_JOINT, hinges[k])
+            # a hinge turned beyond a right angle from the plane leans less again
+            at = data.qpos[model.jnt_qposadr[hinges[k]]]
+            if abs(at) < 1.0 and acts != (abs(lean) > tip):
+                return f"rod {k + 1} leans by {math.degrees(lean):.3f} degrees: the limit {'acts' if acts else 'does not act'}"
+            counts[0][acts] += 1
+            # rod 1 carries the platform; the others hang loose, so that their ends are where they are
+            if k:
+                continue
+            acts = acting(kinds.mjCNSTR_LIMIT_TENDON, tendons[k])
+            if acts != (swing > platform):
+                return f"rod {k + 1} swings by {math.degrees(swing):.3f} degrees: the limit {'acts' if acts else 'does not act'}"
+            counts[1][acts] += 1
+    if not all(all(c) for c in counts):
+        return f"states within and beyond the limits: {counts}"
+    return ""
+
+
+def check_swing_of_rods(program, folder, design):
+    folder.mkdir(parents=True, exist_ok=True)
+    limited = folder / "limited.toml"
+    limits = f"tip_swing_deg = {LIMITS['tip']}\nplatform_swing_deg = {LIMITS['platform']}\n"
+    limited.write_text(design.read_text().replace("[cranks]\n", f"[cranks]\n{limits}", 1))
+    run(program, "export", limited, "--to", "mjcf", "-o", folder)
+
+    def more(text):
+        """The ranges of the second hinges a tenth wider."""
+        before, after = text.split('name="swing1y"', 1)
+        start, end = after.split('range="', 1)
+        old, rest = end.split('"', 1)
+        wide = " ".join(repr(1.1 * float(x)) for x in old.split())
+        return f'{before}name="swing1y"{start}range="{wide}"{rest}'
+
+    compare("cranks: MuJoCo, swing of rods", swing_complaint, folder / "platform.xml", folder / "wrong.xml", more)
+
+
 def check_cranks(program, folder, design):
     try:
         import mujoco  # noqa: F401
@@ -53,3 +132,4 @@ def check_cranks(program, folder, design):
     # a rod that is a hundredth too long
     fault = lambda text: text.replace('body2="platform" anchor="0.0 0.0 0.085"', 'body2="platform" anchor="0.0 0.0 0.0851"', 1)
     compare("cranks: MuJoCo", lambda path: complaint(path, wanted), folder / "platform.xml", folder / "wrong.xml", fault)
+    check_swing_of_rods(program, folder / "swing", design)

@@ -106,6 +106,83 @@ fn measurements_give_joints_offsets_and_a_design_with_their_uncertainty() {
     assert!(read("platform.json").contains("\"offset\":"));
 }
 
+/// A pose of a calibrated machine has the same covariance in the answers of `ik` and `fk --near`, and from what is exported; a design without a calibration has none.
+#[test]
+fn poses_and_exports_of_a_calibrated_machine_say_how_uncertain_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let out = path("calibrated.toml");
+    assert_eq!(asked(&[&[DESIGN, TABLE, "-o", &out], SIGMAS.as_slice()].concat()).0, Some(0));
+    let answer = |args: &[&str]| {
+        let out = equipod(&[args, &["--json"]].concat());
+        assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+        document(&out)
+    };
+    let pose = "--pose=3,-4,205,2,-3,4";
+    let ik = answer(&["ik", &out, pose]);
+    let uncertainty = &ik["uncertainty"];
+    assert_eq!(uncertainty["correlations"], "design");
+    let entry = |i: usize, j: usize| number(&uncertainty["covariance"][i][j]);
+    let trace = |from: usize| (from..from + 3).map(|k| entry(k, k)).sum::<f64>().sqrt();
+    assert!((trace(0) / number(&uncertainty["position"]) - 1.0).abs() < 1e-12);
+    assert!((trace(3) / number(&uncertainty["rotation_deg"]) - 1.0).abs() < 1e-12);
+    let lengths: Vec<String> =
+        ik["lengths"].as_array().unwrap().iter().map(|l| number(l).to_string()).collect();
+    let fk = answer(&["fk", &out, "--lengths", &lengths.join(","), "--near", "home"]);
+    let near = &fk["near"]["uncertainty"];
+    for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
+        let unit = (entry(i, i) * entry(j, j)).sqrt();
+        assert!((number(&near["covariance"][i][j]) - entry(i, j)).abs() < 1e-6 * unit, "{i} {j}");
+    }
+    assert!(answer(&["ik", DESIGN, pose]).get("uncertainty").is_none());
+
+    // numbers of the exported document against the definition: derivatives of the pose by differences of Newton's method are those of J^-1 and the directions of the legs
+    let files = path("files");
+    assert!(equipod(&["export", &out, "--to", "c,csv,json", "-o", &files]).status.success());
+    let read = |name: &str| {
+        let mut found = ["", "c/", "csv/", "json/"].iter().map(|f| format!("{files}/{f}{name}"));
+        found.find_map(|path| std::fs::read_to_string(path).ok()).unwrap_or_else(|| panic!("{name}"))
+    };
+    let doc: Value = serde_json::from_str(&read("platform.json")).unwrap();
+    let exported = &doc["calibration"];
+    let names: Vec<&str> =
+        exported["unknowns"].as_array().unwrap().iter().map(|n| n.as_str().unwrap()).collect();
+    let place = |name: String| names.iter().position(|n| *n == name).unwrap();
+    let covariance = |p: usize, q: usize| {
+        let deviation = |k: usize| number(&exported["deviations"][k]);
+        number(&exported["correlations"][p.max(q)][p.min(q)]) * deviation(p) * deviation(q)
+    };
+    let j = nalgebra::Matrix6::from_fn(|i, k| number(&ik["J"][i][k]));
+    let r = nalgebra::Matrix3::from_fn(|i, k| number(&ik["pose"]["R"][i][k]));
+    let mut errors = nalgebra::DMatrix::zeros(6, names.len());
+    for (i, leg) in doc["legs"].as_array().unwrap().iter().enumerate() {
+        let u = nalgebra::Vector3::new(j[(i, 0)], j[(i, 1)], j[(i, 2)]);
+        let back = r.transpose() * u;
+        for (k, axis) in ["x", "y", "z"].iter().enumerate() {
+            let [base, platform] = ["base", "platform"]
+                .map(|body| format!("{body}.{}.{axis}", leg[&format!("{body}_joint")].as_str().unwrap()));
+            errors[(i, place(base))] = -u[k];
+            errors[(i, place(platform))] = back[k];
+        }
+        errors[(i, place(format!("offset.{}", i + 1)))] = 1.0;
+    }
+    let all = nalgebra::DMatrix::from_fn(names.len(), names.len(), covariance);
+    let inverse = j.try_inverse().unwrap();
+    let found = inverse * (&errors * all * errors.transpose()) * inverse.transpose();
+    let unit = |k: usize| if k < 3 { 1.0 } else { 1_f64.to_degrees() };
+    for (i, k) in (0..6).flat_map(|i| (0..6).map(move |k| (i, k))) {
+        let off = (found[(i, k)] * unit(i) * unit(k) - entry(i, k)).abs();
+        assert!(off < 1e-8 * (entry(i, i) * entry(k, k)).sqrt(), "{i} {k}: {off}");
+    }
+    let table = read("calibration.csv");
+    let rows: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!((rows.len(), rows[0].split(',').count()), (43, 45), "{table}");
+    let cells: Vec<&str> = rows[1 + 5].split(',').collect();
+    assert_eq!((cells[0], cells[3 + 5]), (names[5], "1.0"));
+    assert!(read("equipod_design.h").contains("EQUIPOD_HAS_CALIBRATION 1"));
+    assert!(read("equipod_design.c").contains("const real_t equipod_calibration[42][42] = {"));
+}
+
 #[test]
 fn the_noise_is_estimated_and_frames_are_carried() {
     let (code, doc) = asked(&[DESIGN, TABLE, "--frames", "design", "--next", "0"]);

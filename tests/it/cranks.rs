@@ -373,6 +373,57 @@ fn simulators_and_controllers_get_cranks_and_every_other_format_is_refused() {
     );
 }
 
+/// The numbers of an attribute of the element with this name.
+fn attribute(model: &str, element: &str, name: &str) -> Vec<f64> {
+    let line = model.lines().find(|line| line.contains(&format!("name=\"{element}\""))).unwrap();
+    let text = line.split(&format!(" {name}=\"")).nth(1).unwrap().split('"').next().unwrap();
+    text.split(' ').map(|x| x.parse().unwrap()).collect()
+}
+
+#[test]
+fn simulators_limit_the_swing_of_rods_at_both_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let path = folder.path().join("limited.toml");
+    let text = std::fs::read_to_string(HEAD).unwrap();
+    let limits = "max_torque = 520.0\ntip_swing_deg = 25.0\nplatform_swing_deg = 35.0";
+    std::fs::write(&path, text.replace("max_torque = 520.0", limits)).unwrap();
+    let path = path.to_str().unwrap();
+    let done = equipod(&["export", path, "--to", "mjcf", "-o", out, "--json"]);
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    let model = std::fs::read_to_string(folder.path().join("platform.xml")).unwrap();
+    let home = document(&equipod(&["ik", path, "--pose=home", "--json"]));
+    let margin = |name: &str| {
+        let all = home["margins"].as_array().unwrap();
+        all.iter().find(|m| m["name"] == name).unwrap()["margin"].as_f64().unwrap().to_radians()
+    };
+    // at home the hinge is at zero, and what is left to the nearer end is the margin of `ik`
+    let mut left = f64::INFINITY;
+    for i in 1..=6 {
+        let range = attribute(&model, &format!("swing{i}y"), "range");
+        assert!((range[1] - range[0] - 50_f64.to_radians()).abs() < 1e-12, "{range:?}");
+        left = left.min(range[1].min(-range[0]));
+        let [rod, seat] = [format!("rod{i}_swing"), format!("platform{i}_swing")]
+            .map(|site| Vector3::from_vec(attribute(&model, &site, "pos")));
+        // a tenth of the rod of 85 mm before its end, in metres
+        assert!((rod - Vector3::new(0.0, 0.0, 0.9 * 0.085)).norm() < 1e-12, "{rod}");
+        let range = attribute(&model, &format!("swing{i}"), "range");
+        assert!((range[1] - 2.0 * 0.0085 * 17.5_f64.to_radians().sin()).abs() < 1e-12, "{range:?}");
+        let design = parse_with_cranks(&std::fs::read_to_string(path).unwrap(), Format::Toml).unwrap().0;
+        let joint = design.manipulator().legs()[i - 1].platform.coords * 1e-3;
+        assert!(((joint - seat).norm() - 0.0085).abs() < 1e-12, "{seat}");
+    }
+    assert!((left - margin("tip_swing")).abs() < 1e-9, "{left} {}", margin("tip_swing"));
+    // at home no rod swings at the platform
+    assert!((margin("platform_swing") - 35_f64.to_radians()).abs() < 1e-9);
+    // without limits there are none
+    let done = equipod(&["export", HEAD, "--to", "mjcf", "-o", out, "--json"]);
+    assert_eq!(done.status.code(), Some(0));
+    let free = std::fs::read_to_string(folder.path().join("platform.xml")).unwrap();
+    assert!(!free.contains("<tendon>") && !free.contains("_swing"), "{free}");
+    assert_eq!(free.matches(" range=").count() + 6, model.matches(" range=").count() - 6);
+}
+
 #[test]
 fn nothing_takes_cranks_for_legs_that_change_their_lengths() {
     let preset = PRESETS.iter().find(|p| p.name == "reachy-mini").unwrap();

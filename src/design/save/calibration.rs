@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::as_map;
-use crate::design::{CalibratedNumber, CalibrationTable, Correlations, Design};
+use crate::design::{CalibrationTable, Correlations, Design};
 use crate::manipulator::Body;
 
 /// `[calibration]`.
@@ -31,13 +31,10 @@ pub(super) struct CorrelationsFile<'a> {
 
 impl<'a> CorrelationsFile<'a> {
     fn of(design: &Design, found: &'a Correlations) -> Self {
-        let name = |number: &CalibratedNumber| match *number {
-            CalibratedNumber::Coordinate { body, joint, axis } => {
-                format!("{body}.{}.{}", design.joint_names(body)[joint], ["x", "y", "z"][axis])
-            }
-            CalibratedNumber::Offset(leg) => format!("offset.{}", leg + 1),
-        };
-        Self { unknowns: found.unknowns.iter().map(name).collect(), matrix: &found.triangle }
+        Self {
+            unknowns: found.unknowns.iter().map(|number| number.name(design)).collect(),
+            matrix: &found.triangle,
+        }
     }
 
     /// The table with a row of the triangle a line, which the writer of TOML would put on one line of ten thousand characters.

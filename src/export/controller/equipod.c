@@ -998,6 +998,58 @@ int equipod_jacobian(const equipod_legs *legs, const equipod_pose *pose, real_t 
     return regular;
 }
 
+int equipod_pose_covariance(const equipod_legs *legs, const equipod_pose *pose, const real_t joints[42][42], real_t covariance[6][6])
+{
+    /* With u_i the direction of leg i its length is shown too long by (R^T u_i) . db_i - u_i . da_i + do_i. */
+    real_t by[6][7], along[6][42], of_lengths[6][6];
+    matrix6 j, inverse;
+    int i, k, l, n;
+    if (!equipod_jacobian(legs, pose, j)) {
+        return 0;
+    }
+    for (i = 0; i < 6; i++) {
+        for (k = 0; k < 3; k++) {
+            by[i][k] = -j[i][k];
+            by[i][3 + k] = pose->rotation[0][k] * j[i][0] + pose->rotation[1][k] * j[i][1] + pose->rotation[2][k] * j[i][2];
+        }
+        by[i][6] = R(1);
+        for (n = 0; n < 42; n++) {
+            along[i][n] = R(0);
+            for (k = 0; k < 7; k++) {
+                along[i][n] += by[i][k] * joints[7 * i + k][n];
+            }
+        }
+    }
+    for (i = 0; i < 6; i++) {
+        for (l = 0; l < 6; l++) {
+            of_lengths[i][l] = R(0);
+            for (k = 0; k < 7; k++) {
+                of_lengths[i][l] += along[i][7 * l + k] * by[l][k];
+            }
+            inverse[i][l] = i == l ? R(1) : R(0);
+        }
+    }
+    if (!invert(j, inverse)) {
+        return 0;
+    }
+    for (i = 0; i < 6; i++) {
+        real_t half[6];
+        for (l = 0; l < 6; l++) {
+            half[l] = R(0);
+            for (k = 0; k < 6; k++) {
+                half[l] += inverse[i][k] * of_lengths[k][l];
+            }
+        }
+        for (l = 0; l < 6; l++) {
+            covariance[i][l] = R(0);
+            for (k = 0; k < 6; k++) {
+                covariance[i][l] += half[k] * inverse[l][k];
+            }
+        }
+    }
+    return 1;
+}
+
 static real_t angle_degrees(const real_t u[3], const real_t v[3])
 {
     real_t c[3];

@@ -132,6 +132,11 @@ void equipod_lengths(const equipod_legs *legs, const equipod_pose *pose, real_t 
  * 0 where a leg has length zero. */
 int equipod_jacobian(const equipod_legs *legs, const equipod_pose *pose, real_t j[6][6]);
 
+/* How uncertain a pose is that is computed from shown lengths with joints and leg offsets that are uncertain themselves, to first order: the covariance of the shift of the
+ * platform origin and of the rotation vector in radians, base frame. `joints` is the covariance by legs, of each a_i, b_i and the offset (7 numbers). The noise of the lengths is
+ * not in it. 0 at a singular pose and where a leg has length zero. */
+int equipod_pose_covariance(const equipod_legs *legs, const equipod_pose *pose, const real_t joints[42][42], real_t covariance[6][6]);
+
 /* Continues the pose `start` to the squared lengths `s` in at most `segments` segments.
  * `radius` says how far the squares may be off, leg by leg; a null pointer says that they are exact. */
 equipod_status equipod_track(const equipod_legs *legs, const real_t s[6], const real_t *radius, const equipod_pose *start,

@@ -1,4 +1,4 @@
-/* Compares equipod.c with numbers of the library: bit for bit in double, within the stated bounds in float.
+/* Compares equipod.c with numbers of the library: bit for bit in double, within the stated bounds in float; covariances of poses to their rounding.
  *
  *     cc -std=c99 -ffp-contract=off equipod.c equipod_design.c equipod_selftest.c -lm -o selftest && ./selftest
  *
@@ -60,6 +60,14 @@ typedef struct {
     unsigned corrections;
     pose_numbers corrected;
 } map_vector;
+
+#ifdef EQUIPOD_HAS_CALIBRATION
+/* Covariance of a computed pose. */
+typedef struct {
+    pose_numbers pose;
+    double covariance[6][6];
+} covariance_vector;
+#endif
 
 /* How far a way is free. */
 typedef struct {
@@ -386,6 +394,27 @@ static void check_prepared(void)
     check(off <= 1e3 * EPSILON, "joints made ready", 0);
 }
 
+#ifdef EQUIPOD_HAS_CALIBRATION
+/* Entries over the deviations of their rows and columns, which have no unit. */
+static void check_covariance(void)
+{
+    unsigned n;
+    for (n = 0; n < COUNT(covariance_vectors); n++) {
+        const covariance_vector *v = &covariance_vectors[n];
+        const equipod_pose pose = pose_from(&v->pose);
+        real_t found[6][6];
+        int i, j, good = equipod_pose_covariance(&equipod_nominal, &pose, equipod_calibration, found);
+        for (i = 0; good && i < 6; i++) {
+            for (j = 0; j < 6; j++) {
+                const double unit = sqrt(v->covariance[i][i] * v->covariance[j][j]);
+                good = good && fabs((double)found[i][j] - v->covariance[i][j]) <= 1e5 * EPSILON * unit;
+            }
+        }
+        check(good, "covariance of a pose", n);
+    }
+}
+#endif
+
 int main(void)
 {
 #if !defined(EQUIPOD_FLOAT) && defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
@@ -396,6 +425,9 @@ int main(void)
     check_tracked();
     check_newton();
     check_free();
+#ifdef EQUIPOD_HAS_CALIBRATION
+    check_covariance();
+#endif
 #ifdef EQUIPOD_HAS_OCTAHEDRAL
     check_mapped();
 #endif

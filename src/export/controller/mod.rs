@@ -168,6 +168,12 @@ fn header(export: &Export) -> String {
              #define EQUIPOD_HAS_LEG_OFFSETS 1\nextern const real_t equipod_leg_offsets[6];\n",
         );
     }
+    if export.calibration.is_some() {
+        out.push_str(
+            "\n/* Covariance of calibrated joints and leg offsets for equipod_pose_covariance. */\n\
+             #define EQUIPOD_HAS_CALIBRATION 1\nextern const real_t equipod_calibration[42][42];\n",
+        );
+    }
     if export.octahedral.is_some() {
         out.push_str(
             "\n/* The octahedral platform the design is equivalent to, and the map of squared lengths to its own. */\n\
@@ -200,6 +206,11 @@ fn source(export: &Export) -> String {
     }
     if let Some(offsets) = export.leg_offsets {
         let _ = writeln!(out, "\nconst real_t equipod_leg_offsets[6] = {};", reals(offsets));
+    }
+    if let Some(found) = &export.calibration {
+        let whole = found.of_legs(&export.manipulator.pairs());
+        let rows = whole.row_iter().map(|row| reals(row.iter().copied())).collect::<Vec<_>>().join(",\n    ");
+        let _ = writeln!(out, "\nconst real_t equipod_calibration[42][42] = {{\n    {rows}\n}};");
     }
     if let Some(octahedral) = &export.octahedral {
         out.push('\n');

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
 use super::{EquivalentOctahedral, braces, heading, number};
 use crate::export::Export;
@@ -43,6 +43,11 @@ pub(super) fn text(export: &Export) -> String {
     list(&mut out, "track_vector", "track_vectors", ways(export, &mut rng).iter().map(|w| track(export, w)));
     list(&mut out, "newton_vector", "newton_vectors", newton(export, &about, &mut rng));
     list(&mut out, "free_vector", "free_vectors", free(export, &mut rng));
+    if let Some(found) = &export.calibration {
+        let whole = found.of_legs(&export.manipulator.pairs());
+        let entries = about.iter().filter_map(|pose| covariance(export, &whole, pose));
+        list(&mut out, "covariance_vector", "covariance_vectors", entries);
+    }
     if let Some(octahedral) = &export.octahedral {
         let starts = about.iter().filter_map(|start| {
             let end = moved(start, 1e-2, export.size, &mut rng);
@@ -95,6 +100,26 @@ fn inverse(export: &Export, pose: &Pose) -> Option<String> {
     });
     let entries = [pose_numbers(pose), row(&squares.get()), row(&lengths), braces(rows)];
     Some(braces(entries.into_iter().chain(margins)))
+}
+
+/// The covariance of a pose, `J^-1 E C E^T J^-T` with the covariance `C` of joints and offsets by legs; `None` at a singular pose.
+fn covariance(export: &Export, by_legs: &DMatrix<f64>, pose: &Pose) -> Option<String> {
+    let m = &export.manipulator;
+    let j = jacobian(m, pose, 1.0);
+    let mut errors = DMatrix::zeros(6, 42);
+    for i in 0..6 {
+        let u = Vector3::new(j[(i, 0)], j[(i, 1)], j[(i, 2)]);
+        let back = pose.rotation.inverse() * u;
+        for k in 0..3 {
+            (errors[(i, 7 * i + k)], errors[(i, 7 * i + 3 + k)]) = (-u[k], back[k]);
+        }
+        errors[(i, 7 * i + 6)] = 1.0;
+    }
+    let shown = &errors * by_legs * errors.transpose();
+    let inverse = j.try_inverse()?;
+    let found = inverse * shown * inverse.transpose();
+    let rows = (0..6).map(|i| row(&std::array::from_fn::<f64, 6, _>(|k| found[(i, k)])));
+    Some(braces([pose_numbers(pose), braces(rows)]))
 }
 
 /// Where a tracked pose begins and which squared lengths it goes to.

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use super::swing::{self, SwingTendon};
 use super::{ARMATURE, Export, LEG_MASS, Scale, Unsupported, opening, platform, quat, shape};
 use crate::export::model::ExportCranks;
 use crate::export::text::{real, reals};
@@ -36,6 +37,15 @@ fn frames(cranks: &ExportCranks, leg: usize, end: &Vector3<f64>) -> Result<[Pose
     Ok([turned, Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: tip }])
 }
 
+/// Range of the second hinge of a rod, where the design limits how far the rod leans out of the plane of its crank.
+///
+/// The first hinge turns about the axis of the crank and leaves that angle as it is, and the second is across both: turned by `b` it makes the angle larger by `b` than at home.
+fn lean_range(cranks: &ExportCranks, at_home: f64) -> String {
+    cranks.tip_swing.map_or_else(String::new, |most| {
+        format!(" range=\"{} {}\"", real(-most - at_home), real(most - at_home))
+    })
+}
+
 fn leg(
     out: &mut String,
     scale: &Scale,
@@ -61,6 +71,8 @@ fn leg(
         .limits
         .map_or_else(String::new, |(least, most)| format!(" range=\"{} {}\"", real(least), real(most)));
     let first = rod.rotation.inverse() * leg.crank.axis.into_inner();
+    // the third axis of the rod is its line
+    let lean = lean_range(cranks, first.z.clamp(-1.0, 1.0).asin());
     let (_, damping) = gains(scale, leg.crank.length);
     let _ = writeln!(
         out,
@@ -68,7 +80,7 @@ fn leg(
          <joint name=\"angle{number}\" type=\"hinge\" axis=\"0 0 1\" ref=\"{}\" armature=\"{}\"{range}/>\n        {}\n        {}\n        \
          <body name=\"rod{number}\" pos=\"{}\" quat=\"{}\"{}>\n          \
          <joint name=\"swing{number}x\" type=\"hinge\" axis=\"{}\" damping=\"{damp}\"/>\n          \
-         <joint name=\"swing{number}y\" type=\"hinge\" axis=\"0 1 0\" damping=\"{damp}\"/>\n          {}\n          {}",
+         <joint name=\"swing{number}y\" type=\"hinge\" axis=\"0 1 0\" damping=\"{damp}\"{lean}/>\n          {}\n          {}",
         scale.at(&turned.position),
         quat(&turned),
         scale.gravity,
@@ -84,6 +96,9 @@ fn leg(
         capsule(&Vector3::zeros(), &(z * leg.rod), thin),
         damp = real(1e-4 * damping),
     );
+    if let Some(tendon) = SwingTendon::of(export, &export.legs[i])? {
+        tendon.at_rod(out, scale);
+    }
     if i == 0 {
         platform(out, scale, export, &export.legs[0], &seen(&rod, &export.home));
     }
@@ -96,7 +111,7 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
     let scale = Scale::of(export);
     let angles = reals(cranks.home_angles, " ");
     let rods = reals(cranks.platform.rods().get().map(|l| l * scale.metres), " ");
-    let text = format!(
+    let mut text = format!(
         "Hinge angleN and its actuator hold the angle of crank N in radians, counted as in the design.\n  \
          Home angles: {angles}\n  Lengths of the rods: {rods}\n  \
          Assumed: platform with payload {} kg, each crank and rod {} of it; time step and gains follow from mass and size\n  \
@@ -104,6 +119,12 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
         real(scale.mass),
         real(LEG_MASS),
     );
+    if cranks.tip_swing.is_some() {
+        text.push_str("  Range of hinge swingNy: how far rod N may lean out of the plane in which crank N turns, less how far it does at home.\n");
+    }
+    if swing::limit(export).is_some() {
+        text.push_str(swing::COMMENT);
+    }
     let mut out = opening(export, &scale, &text);
     shape(&mut out, &scale, &export.bodies[0], "      ");
     for i in 0..6 {
@@ -118,7 +139,9 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
             i + 1
         );
     }
-    out.push_str("  </equality>\n  <actuator>\n");
+    out.push_str("  </equality>\n");
+    swing::tendons(&mut out, &scale, export)?;
+    out.push_str("  <actuator>\n");
     let force = cranks
         .greatest_torque
         .map_or_else(String::new, |t| format!(" forcerange=\"{0} {1}\"", real(-t), real(t)));

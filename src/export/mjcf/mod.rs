@@ -30,7 +30,7 @@ impl Writer for Mjcf {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "contacts, friction, limits of speeds, of the swing of rods on cranks and of the angles of universal joints"
+        "contacts, friction, limits of speeds and of the angles of universal joints"
     }
 
     fn takes_cranks(&self) -> bool {
@@ -383,7 +383,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
         text.push_str("  Ranges of the hinges at the base: boxes around the cones in which the design lets legs swing.\n");
     }
     if swing::limit(export).is_some() {
-        text.push_str("  Tendon swingN limits the swing at the platform: it joins a site of rod N to one behind its joint on the axis of the joint, as far from it, so that its length is twice\n  that distance times the sine of half the angle between leg and axis, and that of no turn about the leg.\n");
+        text.push_str(swing::COMMENT);
     }
     if export.payload_shape.is_some() {
         text.push_str("  Geom payload: the room that the payload takes up. It touches nothing, and its mass is that of the platform.\n");

@@ -14,7 +14,8 @@ use crate::fk::{
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator, inverse_condition, jacobian};
 use crate::records::{
-    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord, SolvedRecord,
+    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord, PoseUncertaintyRecord,
+    SolvedRecord,
 };
 use crate::solve::certify::{Certifier, ProvedReality, RootCertificate};
 
@@ -87,6 +88,7 @@ pub(super) fn followed(
 /// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
 pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table: &Table) -> Answer {
     let (solver, machine) = (NearSolver::new(design.manipulator()), Machine::of(design));
+    let known = design.machine_uncertainty();
     let mut from = start;
     followed(
         design,
@@ -95,14 +97,22 @@ pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table:
         "line  outcome           segments  inverse condition  position",
         |lengths, number| {
             let outcome = solver.solve(&lengths.squared(), &from);
-            let record = record(&machine, lengths, &from, &outcome, seed);
-            from = outcome.tracked().copied().unwrap_or(from);
-            Followed {
-                exit: exit_of(&outcome),
-                record,
-                sentence: sentence(&machine, &outcome),
-                line: line(number, &machine, &outcome),
+            let mut record = record(&machine, lengths, &from, &outcome, seed);
+            let uncertainty =
+                known.as_ref().and_then(|known| PoseUncertaintyRecord::at(design, known, outcome.pose()));
+            let mut sentence = sentence(&machine, &outcome);
+            if let Some(found) = &uncertainty {
+                let _ = writeln!(
+                    sentence,
+                    "standard deviations by what the calibration does not know: {:.3e} {} and {:.3e} degrees",
+                    found.position.0, design.units, found.rotation_deg.0
+                );
             }
+            if let Some(near) = &mut record.near {
+                near.uncertainty = uncertainty;
+            }
+            from = outcome.tracked().copied().unwrap_or(from);
+            Followed { exit: exit_of(&outcome), record, sentence, line: line(number, &machine, &outcome) }
         },
     )
 }

@@ -47,9 +47,15 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let required = design.requirements();
     let terms = Terms::new(design.manipulator(), &required, &poses::home(&design));
     let coupled = Context::coupled_of(&design)?;
+    let known = design.machine_uncertainty();
     let record = |row: &SeriesRow<Pose>| {
         let record = record(&design, &terms, row, from_table)?;
-        let Some(legs) = &coupled else { return Ok(record) };
+        let Some(legs) = &coupled else {
+            return Ok(match &known {
+                Some(known) => record.with_uncertainty(&design, known, &row.value),
+                None => record,
+            });
+        };
         let states = legs.states(&row.value).map_err(|why| {
             let message = format!("pose {}: the drives have no lengths: {why}", row.line);
             Failure::refused("ik::no_drive_length", message)
@@ -98,7 +104,7 @@ fn record(
 }
 
 /// What `--details` adds to the lengths: names of columns and values, the same for every pose.
-fn details(record: &IkRecord) -> Vec<(String, f64)> {
+fn details(record: &IkRecord, units: &str) -> Vec<(String, f64)> {
     let mut out = Vec::new();
     let joints = &record.joints;
     let mut list = |name: &str, values: &[Number; 6]| {
@@ -122,6 +128,10 @@ fn details(record: &IkRecord) -> Vec<(String, f64)> {
             out.extend(["x", "y", "z"].iter().zip(values).map(|(axis, x)| (format!("{name}_{axis}"), x.0)));
         }
     }
+    if let Some(found) = &record.uncertainty {
+        out.push((format!("deviation_position_{}", column_unit(units)), found.position.0));
+        out.push(("deviation_rotation_deg".into(), found.rotation_deg.0));
+    }
     for m in &record.margins {
         out.push((format!("margin_{}_{}", m.name.code(), column_unit(&m.unit)), m.margin.0));
     }
@@ -140,7 +150,7 @@ fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord], with_de
     header.extend((1..=6).map(|leg| format!("leg_{leg}_{unit}")));
     header.extend(limited.then(|| "within_limits".to_string()));
     if let Some(first) = records.first().filter(|_| with_details) {
-        header.extend(details(first).into_iter().map(|(name, _)| name));
+        header.extend(details(first, &design.units).into_iter().map(|(name, _)| name));
     }
     let mut out = csv_line(&header);
     for record in records {
@@ -152,7 +162,7 @@ fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord], with_de
         cells.extend(record.lengths.map(number));
         cells.extend(record.within_limits.map(|within| within.to_string()));
         if with_details {
-            cells.extend(details(record).into_iter().map(|(_, value)| number(value)));
+            cells.extend(details(record, &design.units).into_iter().map(|(_, value)| number(value)));
         }
         out.push_str(&csv_line(&cells));
     }
