@@ -17,10 +17,15 @@ use crate::requirements::JointAxes;
 /// Distance of both ends of the tendon from the joint, over the length of the leg at home.
 const AWAY: f64 = 0.1;
 
-/// The greatest angle at the platform, radians, where the design limits it.
-pub(super) fn limit(export: &Export) -> Option<f64> {
+/// The greatest angle of a leg (from 0) at the platform, radians, where the design limits it.
+fn limit(export: &Export, leg: usize) -> Option<f64> {
     let swing = export.hardware.platform_swing.filter(|_| export.cranks.is_none())?;
-    Some(swing.limit_deg.to_radians()).filter(|most| *most < std::f64::consts::PI)
+    Some(swing.limits_deg[leg].to_radians()).filter(|most| *most < std::f64::consts::PI)
+}
+
+/// Whether the swing of any leg at the platform is limited.
+pub(super) fn is_limited(export: &Export) -> bool {
+    (0..6).any(|leg| limit(export, leg).is_some())
 }
 
 /// The tendon of a leg.
@@ -37,7 +42,8 @@ pub(super) struct SwingTendon {
 impl SwingTendon {
     /// `None` where nothing limits the swing.
     pub(super) fn of(export: &Export, leg: &ExportLeg) -> Result<Option<Self>, Unsupported> {
-        let (Some(swing), Some(most)) = (export.hardware.platform_swing, limit(export)) else {
+        let (Some(swing), Some(most)) = (export.hardware.platform_swing, limit(export, leg.number - 1))
+        else {
             return Ok(None);
         };
         let axis = match swing.axes {
@@ -74,7 +80,7 @@ impl SwingTendon {
 
 /// The tendons of all legs.
 pub(super) fn tendons(out: &mut String, scale: &Scale, export: &Export) -> Result<(), Unsupported> {
-    if limit(export).is_none() {
+    if !is_limited(export) {
         return Ok(());
     }
     out.push_str("  <tendon>\n");
