@@ -387,7 +387,7 @@ pub(crate) fn offset_problem(
         characteristic_length: table.characteristic_length.unwrap_or(default.characteristic_length),
         min_joint_distance: table.min_joint_distance.unwrap_or(default.min_joint_distance),
         min_abs_det: table.min_abs_det.unwrap_or(default.min_abs_det),
-        bounds: [(-extension, 1.0 + extension); 6],
+        bounds: [(0.0 - extension, 1.0 + extension); 6],
         ..default
     }
 }
@@ -482,7 +482,7 @@ pub(crate) fn dimensional_problem(design: &Design, extension: f64) -> Dimensiona
     if Body::BOTH.into_iter().all(|body| variables.keeps_body(body)) {
         variables.triangles = Triangles::Fixed;
     }
-    variables.offset_bounds = [search.offset_bounds.unwrap_or((-extension, 1.0 + extension)); 6];
+    variables.offset_bounds = [search.offset_bounds.unwrap_or((0.0 - extension, 1.0 + extension)); 6];
     variables.stretch_bounds = search.stretch_bounds.unwrap_or(variables.stretch_bounds);
     variables.height_bounds = search.height_bounds.unwrap_or(variables.height_bounds);
     let mut requirements = design.requirements();
