@@ -78,8 +78,8 @@ struct Built {
 #[allow(clippy::large_types_passed_by_value, reason = "a test makes them on the spot")]
 fn hardware(axes: [[Vector3<f64>; 6]; 2], offsets: [f64; 2], lead: Option<f64>) -> Hardware {
     let joint = |k: usize| UniversalJoint {
-        first_axes: axes[k].map(Unit::new_normalize),
-        limits_deg: None,
+        first_axes: axes[k].map(|a| Some(Unit::new_normalize(a))),
+        limits_deg: [None; 6],
         axes: JointAxes::Home,
         offset: offsets[k],
     };

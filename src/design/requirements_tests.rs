@@ -400,17 +400,17 @@ platform_joint = { model = \"universal\", first_axis = [[1, 0, 0], [0, 1, 0], [1
     let base = design.hardware.base_universal.unwrap();
     assert_eq!(
         (base.limits_deg, base.offset, design.hardware.screw_lead),
-        (Some([120.0, 40.5]), 2.0, Some(-4.5))
+        ([Some([120.0, 40.5]); 6], 2.0, Some(-4.5))
     );
     assert!(
         base.first_axes
             .iter()
-            .all(|a| (a.into_inner() - nalgebra::Vector3::new(0.6, 0.0, 0.8)).norm() < 1e-15)
+            .all(|a| (a.unwrap().into_inner() - nalgebra::Vector3::new(0.6, 0.0, 0.8)).norm() < 1e-15)
     );
     assert!(matches!(base.axes, JointAxes::Given(_)), "the axes that swing has");
     let platform = design.hardware.platform_universal.unwrap();
-    assert_eq!((platform.limits_deg, platform.axes), (None, JointAxes::Home));
-    assert!((platform.first_axes[2].x - 0.5f64.sqrt()).abs() < 1e-15);
+    assert_eq!((platform.limits_deg, platform.axes), ([None; 6], JointAxes::Home));
+    assert!((platform.first_axes[2].unwrap().x - 0.5f64.sqrt()).abs() < 1e-15);
     for format in [Format::Toml, Format::Json] {
         let text = match format {
             Format::Toml => design.to_toml(),
@@ -421,11 +421,107 @@ platform_joint = { model = \"universal\", first_axis = [[1, 0, 0], [0, 1, 0], [1
     // flexures bend within the swing and are ideal joints
     let flexure = format!("{JOINTS}platform_joint = {{ model = \"flexure\", bending_stiffness = 7e3 }}\n");
     let design = parse(&GOOD.replacen(JOINTS, &flexure, 1), Format::Toml).unwrap().0;
-    assert_eq!((design.hardware.platform_bending, design.hardware.base_bending), (Some(7e3), None));
+    assert_eq!((design.hardware.platform_bending, design.hardware.base_bending), ([Some(7e3); 6], [None; 6]));
     assert_eq!(parse(&design.to_toml(), Format::Toml).unwrap().0, design);
     let ideal = GOOD.replacen(JOINTS, "base_joint = { model = \"universal\", first_axis = [1, 0, 0] }\n", 1);
     let ideal = parse(&ideal, Format::Toml).unwrap().0;
     assert!(!ideal.hardware.is_coupled() && ideal.to_toml().contains("first_axis = [1.0, 0.0, 0.0]"));
+}
+
+/// Three universal joints, one of them without limits, two balls and a flexure.
+const PER_LEG: &str = "base_joint = [
+  { model = \"universal\", first_axis = [3, 0, 4], angle_deg = [120, 40.5] },
+  { model = \"ball\" },
+  { model = \"universal\", first_axis = [1, 0, 0], angle_deg = [50, 60], swing_deg = 170 },
+  { model = \"ball\", swing_deg = 12 },
+  { model = \"universal\", first_axis = [0, 1, 0] },
+  { model = \"flexure\", bending_stiffness = 7e3, swing_deg = 3.5 },
+]
+";
+
+#[test]
+fn kinds_of_joints_per_leg_are_read_scaled_and_written_back_to_the_bit() {
+    use crate::requirements::JointKind::{Ball, Flexure, Universal};
+    let design = parse(&GOOD.replacen(JOINTS, PER_LEG, 1), Format::Toml).unwrap().0;
+    let h = &design.hardware;
+    let kinds: [_; 6] = std::array::from_fn(|leg| h.joint_kind(Body::Base, leg));
+    assert_eq!(kinds, [Universal, Ball, Universal, Ball, Universal, Flexure]);
+    assert!((0..6).all(|leg| h.joint_kind(Body::Platform, leg) == Ball));
+    let joints = h.base_universal.unwrap();
+    assert_eq!(joints.limits_deg[..3], [Some([120.0, 40.5]), None, Some([50.0, 60.0])]);
+    assert!((joints.first_axes[0].unwrap().z - 0.8).abs() < 1e-15 && joints.first_axes[1].is_none());
+    assert_eq!(h.base_bending, [None, None, None, None, None, Some(7e3)]);
+    // the limit of the body is that of the legs without one of their own
+    assert_eq!(h.base_swing.unwrap().limits_deg, [45.0, 45.0, 170.0, 12.0, 45.0, 3.5]);
+    assert_eq!(h.platform_swing.unwrap().limits_deg, [60.0; 6]);
+    for format in [Format::Toml, Format::Json] {
+        let text = match format {
+            Format::Toml => design.to_toml(),
+            Format::Json => design.to_json(),
+        };
+        assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
+    }
+    // without a limit of the body the others have none
+    let free = GOOD.replacen(JOINTS, PER_LEG, 1).replacen("base_swing_deg = 45\n", "", 1);
+    let free = parse(&free, Format::Toml).unwrap().0;
+    assert_eq!(free.hardware.base_swing.unwrap().limits_deg, [180.0, 180.0, 170.0, 12.0, 180.0, 3.5]);
+    assert_eq!(parse(&free.to_toml(), Format::Toml).unwrap().0, free, "{}", free.to_toml());
+    // six tables that say the same are one
+    let ball = "{ model = \"ball\", swing_deg = 45 }, ".repeat(6);
+    let same = parse(&GOOD.replacen(JOINTS, &format!("base_joint = [{ball}]\n"), 1), Format::Toml).unwrap().0;
+    let plain = parse(&GOOD.replacen(JOINTS, "", 1), Format::Toml).unwrap().0;
+    assert_eq!(same.hardware, plain.hardware);
+}
+
+#[test]
+fn faults_of_kinds_of_joints_per_leg_are_refused_at_their_place() {
+    let (first, last) = (
+        "{ model = \"universal\", first_axis = [3, 0, 4], angle_deg = [120, 40.5] }",
+        "{ model = \"ball\" }",
+    );
+    let line_of = |old: &str, new: &str| -> Vec<String> {
+        assert!(PER_LEG.contains(old), "{old}");
+        let text = GOOD.replacen(JOINTS, &PER_LEG.replacen(old, new, 1), 1);
+        let begin = text.lines().position(|l| l.starts_with("base_joint")).unwrap() + 1;
+        let found = parse(&text, Format::Toml).unwrap_err();
+        found.iter().map(|v| format!("+{} {} {}", v.line - begin, v.code, v.message)).collect()
+    };
+    let model = |new: &str| line_of(last, new);
+    assert_eq!(model("{ model = \"cardan\" }"), ["+2 design::wrong_type `model` is \"cardan\""]);
+    assert_eq!(
+        model("{ swing_deg = 3 }"),
+        ["+2 design::missing_key `model` of `base_joint` of leg 2 in [hardware] is missing"]
+    );
+    assert_eq!(model("{ model = \"ball\", offset = 1 }").len(), 1);
+    assert!(model("{ model = \"ball\", swing_deg = 200 }")[0].starts_with("+2 design::out_of_range"));
+    assert!(model("{ model = \"ball\", swings = 20 }")[0].starts_with("+2 design::unknown_key"));
+    assert!(model("\"ball\"")[0].starts_with("+2 design::wrong_type"));
+    // five tables, six directions for one joint, an axis along the first axis
+    assert!(
+        model("{ model = \"ball\" }, { model = \"ball\" }")[0]
+            .starts_with("+0 design::wrong_type `base_joint` is a list of 7")
+    );
+    let six = "{ model = \"universal\", first_axis = [[1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]] }";
+    assert!(line_of(first, six)[0].starts_with("+1 design::"));
+    let along = line_of(first, "{ model = \"universal\", first_axis = [0, 0, 1] }");
+    assert!(along[0].contains("the axis of leg 1 is the first axis"), "{along:?}");
+    // an offset is one of all six joints
+    let offset = line_of("angle_deg = [120, 40.5]", "angle_deg = [120, 40.5], offset = 2");
+    assert!(
+        offset
+            .iter()
+            .any(|v| v.starts_with("+2 design::conflicting_keys leg 2 has a joint without the `offset`")),
+        "{offset:?}"
+    );
+    // a flexure without any greatest angle, and a lead of legs that turn freely
+    let text = GOOD.replacen(JOINTS, &PER_LEG.replacen(", swing_deg = 3.5", "", 1), 1).replacen(
+        "base_swing_deg = 45\n",
+        "",
+        1,
+    );
+    assert_eq!(parse(&text, Format::Toml).unwrap_err()[0].code, Code::MissingKey);
+    let lead = GOOD.replacen(JOINTS, &format!("screw_lead = 5\n{PER_LEG}"), 1);
+    assert_eq!(parse_with_cranks(&lead, Format::Toml).unwrap_err()[0].code, Code::MissingKey);
 }
 
 #[test]

@@ -174,8 +174,8 @@ impl Design {
         length(&mut hardware.max_leg_speed);
         length(&mut hardware.screw_lead);
         // torques are force units times the unit of length
-        length(&mut hardware.base_bending);
-        length(&mut hardware.platform_bending);
+        hardware.base_bending.iter_mut().for_each(length);
+        hardware.platform_bending.iter_mut().for_each(length);
         for joint in [&mut hardware.base_universal, &mut hardware.platform_universal].into_iter().flatten() {
             joint.offset = ratio.of(joint.offset);
         }

@@ -171,11 +171,11 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
                 cos.clamp(-1.0, 1.0).acos().to_degrees() - limit
             };
             let lean = |limit: f64| beyond(limit, l.length[leg]);
-            let hinge = kind.hinge().zip(h.angle_limit_deg(kind));
+            let hinge = kind.hinge().zip(h.angle_limit_deg(kind, leg));
             let miss = match kind {
-                TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| lean(s.limit_deg - reserve(kind))),
+                TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| lean(s.limits_deg[leg] - reserve(kind))),
                 TermKind::PlatformSwing => {
-                    h.platform_swing.map_or(0.0, |s| lean(s.limit_deg - reserve(kind)))
+                    h.platform_swing.map_or(0.0, |s| lean(s.limits_deg[leg] - reserve(kind)))
                 }
                 kind if kind.hinge().is_some() => match hinge {
                     Some(((body, HingeAngle::First), limit)) => {

@@ -26,7 +26,8 @@ mod worst_pose;
 
 pub use self::outcome::evaluate;
 pub use outcome::{
-    ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, Give,
+    ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
+    Give,
 };
 pub use pareto::{ParetoPoint, ParetoReport, pareto};
 pub use problem::{DimensionalProblem, InvalidProblem, Mode, Triangles, Variables};

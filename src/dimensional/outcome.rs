@@ -17,6 +17,19 @@ use crate::requirements::{
 };
 use crate::synthesis::{Normalisation, leg_vector};
 
+/// A variable of the search that is not a component of a joint axis, with what it was and what it has become.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChosenVariable {
+    /// Its name in reports.
+    pub name: String,
+    /// Its value in the design that the search began with.
+    pub start: f64,
+    /// Its value in the platform found.
+    pub value: f64,
+    /// Least and greatest value that it may have.
+    pub bounds: (f64, f64),
+}
+
 /// A platform that meets the requirements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DimensionalSolution {
@@ -26,8 +39,8 @@ pub struct DimensionalSolution {
     pub home: Pose,
     /// Chosen axes of the base joints (base frame) and of the platform joints (platform frame).
     pub axes: [Option<[Unit<Vector3<f64>>; 6]>; 2],
-    /// Names and values of the variables, axes left out.
-    pub variables: Vec<(String, f64)>,
+    /// The variables, axes left out.
+    pub variables: Vec<ChosenVariable>,
     /// The same as the search sees them, axes included; a start for another search.
     pub point: Vec<f64>,
     /// Offsets in cyclic order, when they were chosen.
@@ -36,6 +49,8 @@ pub struct DimensionalSolution {
     pub objectives: Vec<(Objective, f64)>,
     /// First-order gain still promised for a unit of the variables; near 0 at a local optimum.
     pub stationarity: f64,
+    /// Whether the model of the last step promised no further gain.
+    pub converged: bool,
     /// Poses at which the requirements were held in the end, home lifted.
     pub poses: Vec<Pose>,
     /// Steps of the run that found it.
@@ -156,7 +171,13 @@ pub(crate) fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> 
     let lift = model.shape.ends(x).lift;
     let lifted = |pose: &Pose| Pose { position: pose.position + lift, ..*pose };
     let held = refined.poses.iter().map(|at| if at.follows { lifted(&at.pose) } else { at.pose });
-    let named = model.shape.free().into_iter().map(|j| (model.shape.names[j].clone(), x[j]));
+    let shape = &model.shape;
+    let chosen = |j: usize| ChosenVariable {
+        name: shape.names[j].clone(),
+        start: shape.start[j],
+        value: x[j],
+        bounds: shape.bounds[j],
+    };
     // every objective is reported, the ones left out of the last level too
     let all = Task { weights: vec![1.0; task.weights.len()], ..task.clone() };
     let gains = model.judge(&refined.poses, x, &all, model.sign(x)).gains;
@@ -165,11 +186,12 @@ pub(crate) fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> 
         manipulator,
         home: lifted(&home),
         axes: axes(model, refined),
-        variables: named.collect(),
+        variables: shape.free().into_iter().map(chosen).collect(),
         point: x.clone(),
         offsets: model.shape.offsets(x),
         objectives,
         stationarity: refined.run.stationarity,
+        converged: refined.run.converged,
         poses: held.collect(),
         history: refined.run.history.clone(),
     })

@@ -253,9 +253,9 @@ impl DimensionalProblem {
         }
         for (swing, wanted) in [hardware.base_swing, hardware.platform_swing].iter().zip(self.axes_wanted()) {
             if let (Some(swing), true) = (swing, wanted)
-                && swing.limit_deg >= 90.0
+                && swing.least_deg() >= 90.0
             {
-                return Err(InvalidProblem::SwingTooWide(swing.limit_deg));
+                return Err(InvalidProblem::SwingTooWide(swing.least_deg()));
             }
         }
         for body in Body::BOTH {

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use super::conflict::{Clash, conflict, demand, elastic};
 use super::model::{Model, Task};
 use super::outcome::{
-    ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, outcome, solution,
+    ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
+    outcome, solution,
 };
 use super::population::{Judge, Worth, evolve, is_close, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
@@ -494,7 +495,7 @@ fn searched(
 /// As [`optimize`].
 pub(crate) fn meet(
     problem: &DimensionalProblem,
-    known: &[(String, f64)],
+    known: &[ChosenVariable],
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Option<DimensionalSolution>, InvalidProblem> {
@@ -502,8 +503,8 @@ pub(crate) fn meet(
     let task = first_task(problem);
     let mut start = model.shape.start.clone();
     for (x, name) in start.iter_mut().zip(&model.shape.names) {
-        if let Some((_, value)) = known.iter().find(|(n, _)| n == name) {
-            *x = *value;
+        if let Some(known) = known.iter().find(|v| v.name == *name) {
+            *x = known.value;
         }
     }
     let mut watch = Watch::new(&model, progress);

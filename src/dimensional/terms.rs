@@ -14,7 +14,6 @@ use crate::manipulator::Body;
 use crate::requirements;
 use crate::requirements::{
     Envelope, HingeAngle, Housing, JointAxes, KeepOut, LegBody, Load, Requirements, Swing, TermKind,
-    UniversalJoint,
 };
 
 /// A pose at which the requirements are held.
@@ -221,7 +220,7 @@ impl<'a> RequirementTerms<'a> {
         (body, kind, i): (usize, TermKind, usize),
         swing: &Swing,
     ) -> Item<P> {
-        let cos = (swing.limit_deg - self.required.reserve(kind)).to_radians().cos();
+        let cos = (swing.limits_deg[i] - self.required.reserve(kind)).to_radians().cos();
         let here = |c: &Vector3<f64>| if body == 0 { *c } else { l.rotation * c };
         let back = |g: &Vector3<f64>| if body == 0 { *g } else { l.rotation.inverse() * g };
         let mut pull = P::none();
@@ -262,15 +261,18 @@ impl<'a> RequirementTerms<'a> {
         let hardware = &self.required.hardware;
         for kind in TermKind::HINGES {
             let Some((body, angle)) = kind.hinge() else { continue };
-            let (Some(limit), Some(joint)) = (hardware.angle_limit_deg(kind), hardware.universal(body))
-            else {
-                continue;
-            };
-            let limit = (limit - self.required.reserve(kind)).to_radians();
+            let Some(joint) = hardware.universal(body) else { continue };
             for i in 0..6 {
-                let first = joint.first_axes[i].into_inner();
+                let (Some(limit), Some(first)) = (hardware.angle_limit_deg(kind, i), joint.first_axes[i])
+                else {
+                    continue;
+                };
+                let limit = (limit - self.required.reserve(kind)).to_radians();
+                let first = first.into_inner();
                 match angle {
-                    HingeAngle::First => see(self.first_angle_of(l, ends, (body, kind, i), &joint, limit)),
+                    HingeAngle::First => {
+                        see(self.first_angle_of(l, ends, (body, kind, i), (first, joint.axes), limit));
+                    }
                     HingeAngle::Second => {
                         let first = if body == Body::Base { first } else { l.rotation * first };
                         for (part, side) in [1.0, -1.0].into_iter().enumerate() {
@@ -290,7 +292,7 @@ impl<'a> RequirementTerms<'a> {
         l: &LegLines,
         ends: &JointEnds,
         (body, kind, i): (Body, TermKind, usize),
-        joint: &UniversalJoint,
+        (first, rest_axes): (Vector3<f64>, JointAxes),
         limit: f64,
     ) -> Item<P> {
         let (turn, home) = if body == Body::Base {
@@ -299,12 +301,11 @@ impl<'a> RequirementTerms<'a> {
             (l.rotation, self.home.rotation)
         };
         // everything in the frame of the body
-        let first = joint.first_axes[i].into_inner();
         let across = |v: &Vector3<f64>| first.cross(&v.cross(&first));
         let d = turn.inverse() * l.line[i];
         let aside = across(&d);
         let at_home = self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
-        let axis = match joint.axes {
+        let axis = match rest_axes {
             JointAxes::Given(axes) => axes[i].into_inner(),
             JointAxes::Home | JointAxes::Optimize => home.inverse() * at_home.normalize(),
         };
@@ -316,7 +317,7 @@ impl<'a> RequirementTerms<'a> {
             return Item { id, value, pull: P::none(), exact: None };
         };
         let mut pull = P::none();
-        if !matches!(joint.axes, JointAxes::Given(_)) {
+        if !matches!(rest_axes, JointAxes::Given(_)) {
             let g = home * ((aside - rest * rest.dot(&aside)) / spread.norm());
             let u = at_home.normalize();
             pull.set_home(i, (g - u * u.dot(&g)) / (at_home.norm() * self.size));
@@ -329,8 +330,9 @@ impl<'a> RequirementTerms<'a> {
 
     /// The length of the part of a leg across the first axis of its universal joint.
     pub(crate) fn across_first_axis(&self, l: &LegLines, body: Body, leg: usize) -> f64 {
-        let Some(joint) = self.required.hardware.universal(body) else { return l.length[leg] };
-        let first = joint.first_axes[leg].into_inner();
+        let joint = self.required.hardware.universal(body);
+        let Some(first) = joint.and_then(|joint| joint.first_axes[leg]) else { return l.length[leg] };
+        let first = first.into_inner();
         let first = if body == Body::Base { first } else { l.rotation * first };
         first.cross(&l.line[leg]).norm()
     }

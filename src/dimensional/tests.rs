@@ -61,8 +61,8 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
     h.platform_housing = Some(Housing::Box(Vector3::new(30.0, 25.0, 10.0)));
     h.leg_body = Some(LegBody { diameter: 24.0, rod: Some((150.0, 10.0)) });
     h.leg_clearance = Some(3.0);
-    h.base_swing = Some(Swing { limit_deg: 25.0, axes });
-    h.platform_swing = Some(Swing { limit_deg: 35.0, axes });
+    h.base_swing = Some(Swing::of_all(25.0, axes));
+    h.platform_swing = Some(Swing::of_all(35.0, axes));
     h.max_leg_force = Some(90.0);
     h.max_leg_speed = Some(150.0);
     h.leg_stiffness = Some(12.0);
@@ -225,11 +225,11 @@ fn holes_and_plates_are_those_of_the_margins() {
 #[test]
 fn gradients_are_those_of_differences() {
     let all = [VariableKind::Offsets, VariableKind::Triangles, VariableKind::HomeHeight];
-    let tangents = std::array::from_fn(|i| Unit::new_normalize(Vector3::new(1.0, 0.3 * i as f64, 0.2)));
+    let tangents = std::array::from_fn(|i| Some(Unit::new_normalize(Vector3::new(1.0, 0.3 * i as f64, 0.2))));
     let given = std::array::from_fn(|i| Unit::new_normalize(Vector3::new(0.1, -0.2, 1.0 + i as f64)));
     let joint = |axes, first| UniversalJoint {
         first_axes: tangents,
-        limits_deg: Some([first, 40.0]),
+        limits_deg: [Some([first, 40.0]); 6],
         axes,
         offset: 0.0,
     };
@@ -459,7 +459,7 @@ fn height_of_least_stroke_is_the_one_on_paper() {
 fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
     let mut p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
     p.requirements.hardware.leg_body = Some(LegBody { diameter: 20.0, rod: None });
-    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 45.0, axes: JointAxes::Home });
+    p.requirements.hardware.base_swing = Some(Swing::of_all(45.0, JointAxes::Home));
     let found =
         optimize(&p, &[], &ShapeSearchOptions { populations: 4, generations: 60, ..quick() }, &mut |_| {
             ControlFlow::Continue(())
@@ -587,13 +587,14 @@ fn families_of_an_octahedral_design_are_its_offsets() {
 /// The functions of the angles of universal joints have the sign of the margins that `assess` has.
 #[test]
 fn angles_of_universal_joints_are_those_of_the_margins() {
-    let first_axes = std::array::from_fn(|i| Unit::new_normalize(Vector3::new(1.0, 0.5 * i as f64, 0.1)));
+    let first_axes =
+        std::array::from_fn(|i| Some(Unit::new_normalize(Vector3::new(1.0, 0.5 * i as f64, 0.1))));
     let mut signs = [0; 2];
     for limit in [4.0, 9.0, 15.0] {
         let mut p = problem(&[VariableKind::Offsets], Objective::WorstConditioning);
         let joint = UniversalJoint {
             first_axes,
-            limits_deg: Some([limit, 2.0 * limit]),
+            limits_deg: [Some([limit, 2.0 * limit]); 6],
             axes: JointAxes::Home,
             offset: 0.0,
         };

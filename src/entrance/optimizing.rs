@@ -13,7 +13,7 @@ use crate::dimensional::{
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::{FkOptions, Threads};
 use crate::geom::Pose;
-use crate::manipulator::{Body, Manipulator, Octahedral};
+use crate::manipulator::{Body, Manipulator, Octahedral, inverse_condition, jacobian};
 use crate::num::Cancel;
 use crate::offsets::{self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution};
 use crate::requirements::{
@@ -314,11 +314,11 @@ impl Design {
         let problem = offset_problem(self, octahedral, poses, options.extension);
         let report =
             offsets::optimize(&problem, &search, &mut |p| options.flow(OptimizeProgress::Offsets(p)))?;
-        let design = report.solution().map(|s| optimised_design(self, &problem, s, seed));
-        let assessed = design.as_ref().and_then(|d| d.assessed(seed));
+        let of = |s: &OffsetSolution| checked_offsets(self, &problem, s, seed);
+        let checked = report.solution().map(of).transpose()?;
         Ok(OptimizeReport {
-            status: offset_status(&report, met_or_nothing_required(assessed.as_ref())),
-            design,
+            status: offset_status(&report, checked.as_ref()),
+            design: checked.map(|c| c.design),
             nearest: None,
             candidates: Vec::new(),
             symmetry: None,
@@ -327,11 +327,12 @@ impl Design {
     }
 }
 
-/// What became of a search for offsets; `met`: what [`Design::assess`] says of the platform found, `Some(true)` where nothing is required.
-pub(crate) fn offset_status(report: &OffsetReport, met: Option<bool>) -> OptimizeStatus {
+/// What became of a search for offsets, with the check that does not use its code.
+pub(crate) fn offset_status(report: &OffsetReport, checked: Option<&Checked>) -> OptimizeStatus {
+    let met = checked.map(Checked::met);
     match report.outcome {
         _ if report.interrupted => OptimizeStatus::Interrupted,
-        _ if report.solution().is_some() && met != Some(true) => missed(met),
+        _ if met.is_some_and(|met| met != Some(true)) => missed(met.flatten()),
         OffsetOutcome::Optimal(_) => OptimizeStatus::Optimal,
         OffsetOutcome::LocalOptimum(_) | OffsetOutcome::NotConverged(_) => OptimizeStatus::Feasible,
         OffsetOutcome::Infeasible => OptimizeStatus::Infeasible,
@@ -386,7 +387,7 @@ pub(crate) fn offset_problem(
         characteristic_length: table.characteristic_length.unwrap_or(default.characteristic_length),
         min_joint_distance: table.min_joint_distance.unwrap_or(default.min_joint_distance),
         min_abs_det: table.min_abs_det.unwrap_or(default.min_abs_det),
-        bounds: [(-extension, 1.0 + extension); 6],
+        bounds: [(0.0 - extension, 1.0 + extension); 6],
         ..default
     }
 }
@@ -452,6 +453,8 @@ pub struct Checked {
     pub assessed: Option<AssessReport>,
     /// Objectives, densely.
     pub objectives: Vec<(Objective, f64)>,
+    /// Of the poses that the search held, the one with the worst conditioning and its place among them, where the first objective is the worst conditioning.
+    pub worst_pose: Option<(usize, Pose)>,
     /// Equivalence with the design, where the variables keep it.
     pub verification: Option<Verification>,
 }
@@ -479,7 +482,7 @@ pub(crate) fn dimensional_problem(design: &Design, extension: f64) -> Dimensiona
     if Body::BOTH.into_iter().all(|body| variables.keeps_body(body)) {
         variables.triangles = Triangles::Fixed;
     }
-    variables.offset_bounds = [search.offset_bounds.unwrap_or((-extension, 1.0 + extension)); 6];
+    variables.offset_bounds = [search.offset_bounds.unwrap_or((0.0 - extension, 1.0 + extension)); 6];
     variables.stretch_bounds = search.stretch_bounds.unwrap_or(variables.stretch_bounds);
     variables.height_bounds = search.height_bounds.unwrap_or(variables.height_bounds);
     let mut requirements = design.requirements();
@@ -524,16 +527,53 @@ pub(crate) fn checked(
     seed: u64,
 ) -> Result<Checked, VerifyError> {
     let out = optimised(design, problem, s, seed);
-    let space = problem.space.with_home(s.home);
+    let v = &problem.variables;
+    let keeps_class = (v.offsets || v.components) && v.triangles == Triangles::Fixed;
+    judged(design, problem, out, (&s.home, &s.poses), keeps_class, seed)
+}
+
+/// The platform of a search for offsets, evaluated in the same way.
+pub(crate) fn checked_offsets(
+    design: &Design,
+    problem: &OffsetProblem,
+    s: &OffsetSolution,
+    seed: u64,
+) -> Result<Checked, VerifyError> {
+    let general = as_dimensional(design, problem);
+    let out = optimised_design(design, problem, s, seed);
+    judged(design, &general, out, (&design.home_or_default(), &problem.poses), true, seed)
+}
+
+/// The question of a search for offsets as that of a search under requirements.
+fn as_dimensional(design: &Design, problem: &OffsetProblem) -> DimensionalProblem {
+    let mut general = dimensional_problem(design, EXTENSION);
+    general.variables.offset_bounds = problem.bounds;
+    general.characteristic_length = problem.characteristic_length;
+    general.min_abs_det = problem.min_abs_det;
+    general.requirements.min_joint_distance = Some(problem.min_joint_distance);
+    general
+}
+
+/// A platform found for a design over poses that were held, evaluated by code that no search uses; `keeps_class`: it is meant to be equivalent to the design.
+fn judged(
+    design: &Design,
+    problem: &DimensionalProblem,
+    out: Design,
+    (home, held): (&Pose, &[Pose]),
+    keeps_class: bool,
+    seed: u64,
+) -> Result<Checked, VerifyError> {
+    let space = problem.space.with_home(*home);
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
     let options = AssessOptions { points: POINTS, seed, ..AssessOptions::default() };
     // the platform that is written, which may differ from that of the search by rounding
     let platform = out.manipulator();
     let assessment = assess(platform, &requirements, &space, &options);
-    let values = evaluate(problem, platform, &space, &s.poses, POINTS, seed);
-    let objectives = problem.objectives.iter().map(|o| o.0).zip(values).collect();
-    let v = &problem.variables;
-    let keeps_class = (v.offsets || v.components) && problem.variables.triangles == Triangles::Fixed;
+    let values = evaluate(problem, platform, &space, held, POINTS, seed);
+    let objectives: Vec<(Objective, f64)> = problem.objectives.iter().map(|o| o.0).zip(values).collect();
+    let conditioned = objectives.first().is_some_and(|o| o.0 == Objective::WorstConditioning);
+    let worst_pose =
+        if conditioned { worst_conditioned(platform, held, problem.characteristic_length) } else { None };
     let verification = if keeps_class {
         let plan = sample_plan(design, SAMPLES, seed);
         let options = FkOptions::new().seed(seed);
@@ -542,7 +582,15 @@ pub(crate) fn checked(
         None
     };
     let assessed = out.assessed(seed);
-    Ok(Checked { design: out, assessment, assessed, objectives, verification })
+    Ok(Checked { design: out, assessment, assessed, objectives, worst_pose, verification })
+}
+
+/// The pose with the least inverse condition number, with its place.
+fn worst_conditioned(m: &Manipulator, poses: &[Pose], length: f64) -> Option<(usize, Pose)> {
+    let value = |pose: &Pose| inverse_condition(&jacobian(m, pose, length));
+    let values = poses.iter().map(value).enumerate();
+    let (k, _) = values.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((k, poses[k]))
 }
 
 /// The platform with the tables of the design, its axes and its home.

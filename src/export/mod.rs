@@ -113,6 +113,11 @@ pub enum Unsupported {
         "the joints are not ideal (`offset` of universal joints or `screw_lead` in [hardware]), and the format has drives as long as the distances of their joints"
     )]
     NotIdeal,
+    /// The format has one greatest swing for all joints of a body.
+    #[error(
+        "the joints of the {0} have different greatest angles (`swing_deg`), and the format has one for all joints of a body"
+    )]
+    SwingOfLegs(Body),
     /// A rod is along the axis of its crank at home.
     #[error("the rod of leg {leg} is along the axis of its crank at home, where the crank does not move it")]
     RodAlongAxis {

@@ -11,6 +11,15 @@ const SAME_LENGTH: f64 = 1e-6;
 /// Kinds of joint by body.
 const JOINTS: [&str; 2] = ["base joint", "platform joint"];
 
+/// What a joint is, for the list of parts.
+#[derive(Debug, Clone, PartialEq)]
+struct JointSort {
+    /// The word of the model, or the words of those about one centre.
+    models: String,
+    /// Greatest swing, degrees; `None` where there is none, or where those about one centre differ.
+    swing_deg: Option<f64>,
+}
+
 /// A line of the bill of materials; millimetres and kilograms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartLine {
@@ -90,11 +99,18 @@ impl Export {
             self.bodies.iter().map(|body| plate(body, mm, self.unit.metres)).collect();
         for body in &self.bodies {
             let k = body.body.index();
-            let limit = [self.hardware.base_swing, self.hardware.platform_swing][k].map(|s| s.limit_deg);
-            let swing = limit.map_or_else(String::new, |deg| format!("swings by {} deg; ", real(deg)));
-            let names: Vec<&str> = body.joints.iter().map(|j| j.name.as_str()).collect();
-            let line = PartLine::new(JOINTS[k], names.len(), format!("{swing}{}", names.join(" ")));
-            out.push(PartLine { thickness: Some(body.ball_diameter * mm), ..line });
+            let kinds = self.joint_kinds(body);
+            for (kind, names) in &kinds {
+                let name = if kinds.len() == 1 {
+                    JOINTS[k].to_owned()
+                } else {
+                    format!("{}, {}", JOINTS[k], kind.models)
+                };
+                let swing =
+                    kind.swing_deg.map_or_else(String::new, |deg| format!("swings by {} deg; ", real(deg)));
+                let line = PartLine::new(name, names.len(), format!("{swing}{}", names.join(" ")));
+                out.push(PartLine { thickness: Some(body.ball_diameter * mm), ..line });
+            }
             out.extend(bolts(body, mm));
         }
         self.legs_by_kind(&mut out);
@@ -122,12 +138,50 @@ impl Export {
         out
     }
 
+    /// The joint of a leg at a body.
+    fn joint_of(&self, body: Body, leg: usize) -> JointSort {
+        let h = &self.hardware;
+        let swing = body.of((h.base_swing, h.platform_swing));
+        JointSort {
+            models: h.joint_kind(body, leg).name().to_owned(),
+            swing_deg: swing.map(|s| s.limits_deg[leg]).filter(|deg| *deg < 180.0),
+        }
+    }
+
+    /// The joints of a body by what they are, with their names; legs that share a joint may have different ones about one centre.
+    fn joint_kinds<'b>(&self, body: &'b ExportBody) -> Vec<(JointSort, Vec<&'b str>)> {
+        let mut kinds: Vec<(JointSort, Vec<&'b str>)> = Vec::new();
+        for (k, joint) in body.joints.iter().enumerate() {
+            let ends = self.legs.iter().enumerate();
+            let here = ends.filter(|(_, leg)| [leg.base, leg.platform][body.body.index()] == k);
+            let mut sorts: Vec<JointSort> = Vec::new();
+            for sort in here.map(|(i, _)| self.joint_of(body.body, i)) {
+                if !sorts.contains(&sort) {
+                    sorts.push(sort);
+                }
+            }
+            let swing_deg = sorts.first().and_then(|s| s.swing_deg).filter(|_| sorts.len() == 1);
+            let models = sorts.into_iter().map(|s| s.models).collect::<Vec<_>>().join(" and ");
+            let sort = JointSort { models, swing_deg };
+            match kinds.iter_mut().find(|(known, _)| *known == sort) {
+                Some((_, names)) => names.push(joint.name.as_str()),
+                None => kinds.push((sort, vec![joint.name.as_str()])),
+            }
+        }
+        kinds
+    }
+
     fn legs_by_kind(&self, out: &mut Vec<PartLine>) {
         let mm = self.unit.millimetres;
+        let joints = |leg: usize| Body::BOTH.map(|body| self.joint_of(body, leg));
+        let mixed = (1..6).any(|leg| joints(leg) != joints(0));
         let mut kinds: Vec<(f64, Vec<usize>)> = Vec::new();
         for (i, leg) in self.legs.iter().enumerate() {
             let length = leg.length();
-            match kinds.iter_mut().find(|(l, _)| (l - length).abs() <= SAME_LENGTH * self.size) {
+            let is_alike = |l: f64, first: usize| {
+                (l - length).abs() <= SAME_LENGTH * self.size && joints(first) == joints(i)
+            };
+            match kinds.iter_mut().find(|(l, legs)| is_alike(*l, legs[0])) {
                 Some((_, legs)) => legs.push(i),
                 None => kinds.push((length, vec![i])),
             }
@@ -140,6 +194,10 @@ impl Export {
             let all = || poses.iter().flat_map(|l| legs.iter().map(|i| l[*i]));
             let numbers: Vec<String> = legs.iter().map(|i| (i + 1).to_string()).collect();
             let mut remark = format!("legs {}", numbers.join(" "));
+            if mixed {
+                let [base, platform] = joints(legs[0]);
+                let _ = write!(remark, "; {} at the base, {} at the platform", base.models, platform.models);
+            }
             if let Some((least, greatest)) = self.leg_range {
                 let _ =
                     write!(remark, "; drive from {} to {} mm", rounded(least * mm), rounded(greatest * mm));

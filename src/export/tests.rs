@@ -258,7 +258,7 @@ fn a_simulation_has_six_actuators_and_five_loops() {
     // six slides, the twelve hinges of base joints that swing by so much from the leg at home, and six tendons for the swing at the platform
     assert_eq!((text.matches(" range=").count(), text.contains(&range)), (24, true));
     assert_eq!(text.matches("<spatial name=\"swing").count(), 6);
-    let swing = real(limited.hardware.base_swing.unwrap().limit_deg.to_radians());
+    let swing = real(limited.hardware.base_swing.unwrap().limits_deg[0].to_radians());
     assert_eq!(text.matches(&format!(" range=\"-{swing} {swing}\"")).count(), 12);
 }
 

@@ -33,6 +33,12 @@ impl Zone {
         }
     }
 
+    /// The zone of a [`symbol`](Self::symbol).
+    #[must_use]
+    pub fn of_symbol(symbol: char) -> Option<Self> {
+        Self::ALL.into_iter().find(|zone| zone.symbol() == symbol)
+    }
+
     /// For messages.
     #[must_use]
     pub fn words(self) -> &'static str {

@@ -150,18 +150,18 @@ impl Reach<'_> {
                 let bend = base.acceleration + base.speed.powi(2) / (KEPT * leg.length);
                 root(margin, -leg.u.dot(&base.velocity), bend).min(base.cap)
             }
-            TermKind::BaseSwing => hardware
-                .base_swing
-                .map_or(f64::INFINITY, |s| leg.swing(base, &self.terms.axes()[0][term.first], s.limit_deg)),
+            TermKind::BaseSwing => hardware.base_swing.map_or(f64::INFINITY, |s| {
+                leg.swing(base, &self.terms.axes()[0][term.first], s.limits_deg[term.first])
+            }),
             TermKind::PlatformSwing => hardware.platform_swing.map_or(f64::INFINITY, |s| {
                 let axis = pose.rotation * self.terms.axes()[1][term.first];
-                leg.swing(&leg.in_platform, &axis, s.limit_deg)
+                leg.swing(&leg.in_platform, &axis, s.limits_deg[term.first])
             }),
             kind if kind.hinge().is_some() => {
                 let Some((body, angle)) = kind.hinge() else { return f64::INFINITY };
                 let (end, motion) = body.of(((0, &leg.in_base), (1, &leg.in_platform)));
                 let (Some(hinge), Some(limit)) =
-                    (self.terms.hinge(end, term.first), hardware.angle_limit_deg(kind))
+                    (self.terms.hinge(end, term.first), hardware.angle_limit_deg(kind, term.first))
                 else {
                     return f64::INFINITY;
                 };

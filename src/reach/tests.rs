@@ -17,8 +17,8 @@ fn required(m: &Manipulator, home: &Pose) -> Requirements {
     let length = home.lengths(m).unwrap().get()[0];
     let hardware = Hardware {
         leg_length: Some(LengthLimits::Range(0.75 * length, 1.25 * length)),
-        base_swing: Some(Swing { limit_deg: 25.0, axes: JointAxes::Home }),
-        platform_swing: Some(Swing { limit_deg: 40.0, axes: JointAxes::Home }),
+        base_swing: Some(Swing::of_all(25.0, JointAxes::Home)),
+        platform_swing: Some(Swing::of_all(40.0, JointAxes::Home)),
         leg_body: Some(LegBody { diameter: 0.12, rod: Some((0.6 * length, 0.06)) }),
         leg_clearance: Some(0.02),
         max_leg_force: Some(60.0),
@@ -295,10 +295,14 @@ fn universal_joints_end_ways_where_a_fine_search_finds_it() {
     let home = default_home(&m);
     let first_axes = std::array::from_fn(|i| {
         let (s, c) = (i as f64).sin_cos();
-        nalgebra::Unit::new_normalize(Vector3::new(c, s, 0.1))
+        Some(nalgebra::Unit::new_normalize(Vector3::new(c, s, 0.1)))
     });
-    let joint =
-        |limits| UniversalJoint { first_axes, limits_deg: Some(limits), axes: JointAxes::Home, offset: 0.0 };
+    let joint = |limits| UniversalJoint {
+        first_axes,
+        limits_deg: [Some(limits); 6],
+        axes: JointAxes::Home,
+        offset: 0.0,
+    };
     let hardware = Hardware {
         base_universal: Some(joint([25.0, 50.0])),
         platform_universal: Some(joint([45.0, 75.0])),

@@ -4,17 +4,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AssessAnswer, DimensionalStatus, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError,
-    NoRoundingRecord, Number, SearchWord, SolvedRecord, SymmetryRecord, VariableRecord, VariantWord,
-    VerdictWord,
+    AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
+    OptimalityWord, OptimizeAnswer, OptimizeWord, SearchWord, SolvedRecord, SymmetryRecord, VariableRecord,
+    VariantWord, VerdictWord,
 };
-use crate::dimensional::{DimensionalReport, DimensionalSolution};
-use crate::entrance::optimizing::{Checked, dimensional_status};
 use crate::entrance::rounding::{DesignOnHoles, RoundingWay};
 use crate::equivalence::Verification;
 use crate::fk::FkSolutions;
 use crate::manufacture::{NoRounding, RoundedJoint};
-use crate::offsets::OffsetSolution;
 
 /// The poses of the original, with the lengths they belong to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -183,14 +180,11 @@ pub struct ExploreOctahedralAnswer {
     pub verify: Option<ComparedRecord>,
     /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The assessment is then that of this platform.
     pub holes: Option<OnHolesRecord>,
-    /// What became of the three-fold symmetry of the design; absent where it has none, names one, or the search could not break it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// What became of the three-fold symmetry of the design; null where it has none, names one, or the search could not break it or did not look at it.
     pub symmetry: Option<SymmetryRecord>,
-    /// The drives of a table, with what the search came to with each; absent where no table was given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// The drives of a table, with what the search came to with each; null where no table was given.
     pub drive_search: Option<DriveSearchRecord>,
-    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what came of a search that had it; absent where none was looked at.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what came of a search that had it; null where none was looked at.
     pub freedoms: Option<Vec<FreedomRecord>>,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
@@ -291,72 +285,39 @@ pub struct FamilySizeRecord {
     pub topologies: usize,
 }
 
-/// The platform in short.
+/// The platform in short: the fields of the answer of `optimize` that say most.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum OptimizedRecord {
-    /// Offsets alone, for a design that requires nothing else.
-    Offsets(OffsetsFoundRecord),
-    /// A platform under requirements.
-    Platform(PlatformFoundRecord),
-}
-
-/// A platform under requirements in short.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PlatformFoundRecord {
+pub struct OptimizedRecord {
     /// What came of the search.
-    pub status: DimensionalStatus,
+    pub status: OptimizeWord,
+    /// What is known of better ones; null: nothing.
+    pub optimality: Option<OptimalityWord>,
     /// Value of the first objective.
-    pub objective: Number,
+    pub objective: Option<Number>,
     /// What was chosen, axes left out.
     pub variables: Vec<VariableRecord>,
+    /// The numbers `t_i` in cyclic order; null: no offsets were chosen.
+    pub offsets: Option<[Number; 6]>,
+    /// `t_i d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    pub shifts: Option<[Number; 6]>,
+    /// det A of the leg map; null: the variables do not keep the class of the design.
+    pub det: Option<Number>,
 }
 
-impl PlatformFoundRecord {
-    /// The status of a search.
+impl OptimizedRecord {
+    /// Of an answer of `optimize`; `None` where it has no platform.
     #[must_use]
-    pub fn status_of(report: &DimensionalReport, checked: Option<&Checked>) -> DimensionalStatus {
-        dimensional_status(report, checked).into()
-    }
-
-    /// The solution of a search, checked.
-    #[must_use]
-    pub fn new(c: &Checked, s: &DimensionalSolution, report: &DimensionalReport) -> Self {
-        let variable = |(name, x): &(String, f64)| VariableRecord { name: name.clone(), value: Number(*x) };
-        Self {
-            status: Self::status_of(report, Some(c)),
-            objective: c.objectives.first().map_or(Number(f64::NAN), |o| Number(o.1)),
-            variables: s.variables.iter().map(variable).collect(),
-        }
-    }
-}
-
-/// Offsets in short.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct OffsetsFoundRecord {
-    /// No offsets exceed the objective by more than the tolerance, and the platform meets its requirements: proved.
-    pub converged: bool,
-    /// Worst inverse condition number.
-    pub objective: Number,
-    /// The numbers `t_i`, cyclic order.
-    pub offsets: [Number; 6],
-    /// `t_i d_i`, design units.
-    pub shifts: [Number; 6],
-    /// det A.
-    pub det: Number,
-}
-
-impl OffsetsFoundRecord {
-    /// The solution of a search.
-    #[must_use]
-    pub fn new(s: &OffsetSolution, converged: bool) -> Self {
-        Self {
-            converged,
-            objective: Number(s.recheck.objective),
-            offsets: s.offsets.map(Number),
-            shifts: s.shifts.map(Number),
-            det: Number(s.recheck.det),
-        }
+    pub fn new(a: &OptimizeAnswer) -> Option<Self> {
+        let p = &a.platform;
+        Some(Self {
+            status: a.status,
+            optimality: a.optimality,
+            objective: p.objective,
+            variables: p.variables.clone()?,
+            offsets: p.offsets,
+            shifts: p.shifts,
+            det: p.det,
+        })
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) fn heading(fields: &Map<String, Value>) -> &'static str {
     match () {
         () if has("samples") && has("map") => "Equivalence",
         () if has("finite_count") => "Forward kinematics",
-        () if has("front") => "Optimisation: a front",
+        () if fields.get("front").is_some_and(Value::is_array) => "Optimisation: a front",
         () if has("status") && has("objective") => "Optimisation",
         () if has("patterns") && has("topologies") => "Equivalence class",
         () if has("requirements") && has("met") => "Requirements",

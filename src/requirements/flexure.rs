@@ -38,7 +38,7 @@ impl Terms<'_> {
     pub fn flexure_wrench(&self, pose: &Pose) -> Option<Wrench> {
         let hardware = &self.required.hardware;
         let stiffness = [hardware.base_bending, hardware.platform_bending];
-        if stiffness.iter().all(Option::is_none) {
+        if stiffness.iter().flatten().all(Option::is_none) {
             return None;
         }
         let mut out = Wrench::default();
@@ -48,7 +48,7 @@ impl Terms<'_> {
             let length = line.norm();
             let u = line / length;
             for body in Body::BOTH {
-                let Some(k) = stiffness[body.index()] else { continue };
+                let Some(k) = stiffness[body.index()][i] else { continue };
                 let own = self.axes()[body.index()][i];
                 let axis = if body == Body::Base { own } else { pose.rotation * own };
                 let pull = bent(&u, &axis) * -k;
@@ -73,8 +73,11 @@ mod tests {
     fn the_wrench_is_minus_the_slope_of_the_energy() {
         let m = crate::manipulator::fixtures::symmetric_hexapod(2.0, 1.0);
         let home = crate::manipulator::default_home(&m);
-        let hardware =
-            Hardware { base_bending: Some(3.0), platform_bending: Some(2.0), ..Hardware::default() };
+        let hardware = Hardware {
+            base_bending: [Some(3.0); 6],
+            platform_bending: [Some(2.0); 6],
+            ..Hardware::default()
+        };
         let required = Requirements { hardware, ..Requirements::default() };
         let terms = Terms::new(&m, &required, &home);
         assert!(terms.flexure_wrench(&home).unwrap().force.norm() < 1e-12, "at rest at home");

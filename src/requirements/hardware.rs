@@ -93,10 +93,31 @@ pub enum JointAxes {
 /// How far the legs may lean from the axes of the joints of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swing {
-    /// Greatest angle between leg and axis, degrees, above 0 and at most 180.
-    pub limit_deg: f64,
+    /// Greatest angle between each leg and its axis, in leg order, degrees, above 0 and at most 180, which limits nothing.
+    pub limits_deg: [f64; 6],
     /// The axes.
     pub axes: JointAxes,
+}
+
+impl Swing {
+    /// The same limit for all legs, degrees, from axes.
+    #[must_use]
+    pub fn of_all(limit_deg: f64, axes: JointAxes) -> Self {
+        Self { limits_deg: [limit_deg; 6], axes }
+    }
+
+    /// The least of the limits, degrees.
+    #[must_use]
+    pub fn least_deg(&self) -> f64 {
+        self.limits_deg.iter().copied().fold(180.0, f64::min)
+    }
+
+    /// The limit of all legs, degrees; `None` where they differ.
+    #[must_use]
+    pub fn common_deg(&self) -> Option<f64> {
+        let first = self.limits_deg[0];
+        self.limits_deg.iter().all(|x| x.to_bits() == first.to_bits()).then_some(first)
+    }
 }
 
 /// A part of a leg as a body: thin, so that it has no inertia about the line of the leg.
@@ -153,6 +174,29 @@ impl LegMasses {
     }
 }
 
+/// What a joint is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointKind {
+    /// It turns freely about all axes, within its swing.
+    Ball,
+    /// Two hinges in a row.
+    Universal,
+    /// It bends against a stiffness.
+    Flexure,
+}
+
+impl JointKind {
+    /// The word of design files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ball => "ball",
+            Self::Universal => "universal",
+            Self::Flexure => "flexure",
+        }
+    }
+}
+
 /// Sizes and limits of joints, legs and drives. What is absent limits nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hardware {
@@ -172,14 +216,14 @@ pub struct Hardware {
     pub base_swing: Option<Swing>,
     /// Swing of the platform joints.
     pub platform_swing: Option<Swing>,
-    /// Universal joints of the base; none where the joints turn freely in a cone.
+    /// Universal joints of the base; none where no joint is one.
     pub base_universal: Option<UniversalJoint>,
     /// Universal joints of the platform.
     pub platform_universal: Option<UniversalJoint>,
-    /// Bending stiffness of the flexures of the base, force units times design units per radian; none where the joints turn freely.
-    pub base_bending: Option<f64>,
+    /// Bending stiffness of the flexures of the base, in leg order, force units times design units per radian; none where a joint turns freely.
+    pub base_bending: [Option<f64>; 6],
     /// Bending stiffness of the flexures of the platform.
-    pub platform_bending: Option<f64>,
+    pub platform_bending: [Option<f64>; 6],
     /// What a leg becomes longer by when its platform end makes a turn about it, by the right hand about the direction from base to platform, against the base end, design units.
     pub screw_lead: Option<f64>,
     /// Greatest force along a leg, push or pull, force units.
@@ -200,6 +244,18 @@ impl Hardware {
         own.or(self.joint_diameter.map(Housing::Sphere))
     }
 
+    /// The model of the joint of a leg at a body.
+    #[must_use]
+    pub fn joint_kind(&self, body: Body, leg: usize) -> JointKind {
+        if self.universal(body).is_some_and(|joint| joint.first_axes[leg].is_some()) {
+            JointKind::Universal
+        } else if body.of((self.base_bending, self.platform_bending))[leg].is_some() {
+            JointKind::Flexure
+        } else {
+            JointKind::Ball
+        }
+    }
+
     /// The universal joints of a body, where it has some.
     #[must_use]
     pub fn universal(&self, body: Body) -> Option<UniversalJoint> {
@@ -213,14 +269,20 @@ impl Hardware {
         swing.or(self.universal(body).map(|joint| joint.axes))
     }
 
-    /// The limit of an angle of universal joints, degrees; `None` where there is none, and for other kinds.
-    pub(crate) fn angle_limit_deg(&self, kind: TermKind) -> Option<f64> {
+    /// The limit of an angle of the universal joint of a leg, degrees; `None` where there is none, and for other kinds.
+    pub(crate) fn angle_limit_deg(&self, kind: TermKind, leg: usize) -> Option<f64> {
         let (body, angle) = kind.hinge()?;
-        let limits = self.universal(body)?.limits_deg?;
+        let joints = self.universal(body)?;
+        let limits = joints.limits_deg[leg].filter(|_| joints.first_axes[leg].is_some())?;
         Some(match angle {
             HingeAngle::First => limits[0],
             HingeAngle::Second => limits[1],
         })
+    }
+
+    /// The least limit of an angle of universal joints over the legs, degrees.
+    pub(crate) fn least_angle_limit_deg(&self, kind: TermKind) -> Option<f64> {
+        (0..6).filter_map(|leg| self.angle_limit_deg(kind, leg)).reduce(f64::min)
     }
 
     /// `true` where the length of a drive is not the distance of its joints: universal joints whose axes do not meet, or screws that couple the turn of a leg about itself to its

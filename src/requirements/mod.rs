@@ -42,7 +42,9 @@ pub use envelope::{Envelope, Envelopes};
 pub(crate) use envelope::{ball, room};
 pub use flexure::Wrench;
 pub use goal::{KeptSymmetry, Objective, StartSymmetry, VariableKind};
-pub use hardware::{Hardware, Housing, JointAxes, LegBody, LegMasses, LegPart, LengthLimits, Swing};
+pub use hardware::{
+    Hardware, Housing, JointAxes, JointKind, LegBody, LegMasses, LegPart, LengthLimits, Swing,
+};
 pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
 pub use joint_angles::JointAngles;
 pub use keep_out::{KeepOut, KeepOutShape};

@@ -37,7 +37,7 @@ impl Reserves {
 impl Requirements {
     /// The reserve on a kind of requirement, in the unit of its margin: 0 where none is asked for.
     ///
-    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle, force or speed, of the least stiffness or frequency, of the leg diameter for clearances, of the housing (or the
+    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle (the least of these where legs have different ones), force or speed, of the least stiffness or frequency, of the leg diameter for clearances, of the housing (or the
     /// least distance of centres, whichever is greater) for the room between joints, of the distance asked for or of the diameter of the greatest hole, whichever is greater, for the holes of plates, and of the radius or half the shortest edge for envelopes. For cranks it is one of the shortest rod, of half the narrowest range of angles, of the least transmission angle, and of the greatest swing, torque or speed.
     #[must_use]
     pub fn reserve(&self, kind: TermKind) -> f64 {
@@ -70,15 +70,15 @@ impl Requirements {
                 let (least, greatest) = l.range();
                 greatest - least
             }),
-            TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| s.limit_deg),
+            TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| s.least_deg()),
             TermKind::PlatformSwing => {
                 let of_rods = self.cranks.as_ref().and_then(|cranks| cranks.platform_swing_deg);
-                h.platform_swing.map(|s| s.limit_deg).or(of_rods).unwrap_or(0.0)
+                h.platform_swing.map(|s| s.least_deg()).or(of_rods).unwrap_or(0.0)
             }
             TermKind::BaseFirstAngle
             | TermKind::BaseSecondAngle
             | TermKind::PlatformFirstAngle
-            | TermKind::PlatformSecondAngle => h.angle_limit_deg(kind).unwrap_or(0.0),
+            | TermKind::PlatformSecondAngle => h.least_angle_limit_deg(kind).unwrap_or(0.0),
             TermKind::LegClearance
             | TermKind::KeepOut
             | TermKind::PlateClearance

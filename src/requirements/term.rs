@@ -272,7 +272,7 @@ pub struct Terms<'a> {
     /// Axes at the base, base frame, and at the platform, platform frame, in leg order.
     axes: [[Vector3<f64>; 6]; 2],
     /// Universal joints at the base and at the platform, in leg order.
-    hinges: [Option<[Hinge; 6]>; 2],
+    hinges: [[Option<Hinge>; 6]; 2],
     /// The plates of the base and of the platform.
     plates: [Option<PlateSolid>; 2],
     /// Legs whose joints are not ideal, or why they are none.
@@ -360,8 +360,8 @@ impl<'a> Terms<'a> {
         let base = axes(Body::Base, &|u| *u);
         let platform = axes(Body::Platform, &|u| home.rotation.inverse() * u);
         let hinges = |body: Body, axes: &[Vector3<f64>; 6]| {
-            let joint = required.hardware.universal(body)?;
-            Some(std::array::from_fn(|i| Hinge::new(joint.first_axes[i].into_inner(), &axes[i])))
+            let firsts = required.hardware.universal(body).map_or([None; 6], |joint| joint.first_axes);
+            std::array::from_fn(|i| firsts[i].map(|first| Hinge::new(first.into_inner(), &axes[i])))
         };
         let hinges = [hinges(Body::Base, &base), hinges(Body::Platform, &platform)];
         let plates = Body::BOTH.map(|body| {
@@ -373,7 +373,7 @@ impl<'a> Terms<'a> {
 
     /// The universal joint at an end (0 base, 1 platform) of a leg.
     pub(crate) fn hinge(&self, end: usize, leg: usize) -> Option<&Hinge> {
-        self.hinges[end].as_ref().map(|all| &all[leg])
+        self.hinges[end][leg].as_ref()
     }
 
     /// The plate of a body, where the design says something of it.
@@ -571,15 +571,18 @@ impl<'a> Terms<'a> {
                 out.push((own(TermKind::LegTooLong), greatest - legs.lengths[i]));
             }
             if let Some(swing) = hardware.base_swing {
-                out.push((own(TermKind::BaseSwing), swing.limit_deg - angle_deg(&line, &self.axes[0][i])));
+                out.push((
+                    own(TermKind::BaseSwing),
+                    swing.limits_deg[i] - angle_deg(&line, &self.axes[0][i]),
+                ));
             }
             if let Some(swing) = hardware.platform_swing {
                 let angle = angle_deg(&(back * line), &self.axes[1][i]);
-                out.push((own(TermKind::PlatformSwing), swing.limit_deg - angle));
+                out.push((own(TermKind::PlatformSwing), swing.limits_deg[i] - angle));
             }
             for kind in TermKind::HINGES {
                 let Some((body, angle)) = kind.hinge() else { continue };
-                let Some(limit) = hardware.angle_limit_deg(kind) else { continue };
+                let Some(limit) = hardware.angle_limit_deg(kind, i) else { continue };
                 let end = body.index();
                 let line = if body == Body::Base { line } else { back * line };
                 if let Some(hinge) = self.hinge(end, i) {

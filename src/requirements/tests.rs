@@ -56,9 +56,9 @@ fn lengths_swing_and_clearances_of_upright_legs() {
     r.hardware.leg_length = Some(LengthLimits::Range(9.0, 10.5));
     r.hardware.leg_body = Some(LegBody { diameter: 1.0, rod: Some((6.0, 0.5)) });
     r.hardware.leg_clearance = Some(0.25);
-    r.hardware.base_swing = Some(Swing { limit_deg: 30.0, axes: JointAxes::Home });
+    r.hardware.base_swing = Some(Swing::of_all(30.0, JointAxes::Home));
     let tilted = Unit::new_normalize(Vector3::new(1.0, 0.0, 1.0));
-    r.hardware.platform_swing = Some(Swing { limit_deg: 50.0, axes: JointAxes::Given([tilted; 6]) });
+    r.hardware.platform_swing = Some(Swing::of_all(50.0, JointAxes::Given([tilted; 6])));
     r.hardware.joint_diameter = Some(1.5);
     r.min_joint_distance = Some(3.0);
     let post = KeepOutShape::Capsule {
@@ -239,7 +239,7 @@ fn limits_set_to_the_values_at_home_are_reached_and_not_violated() {
             ..Requirements::default()
         };
         r.hardware.leg_length = Some(LengthLimits::Range(0.1, length));
-        r.hardware.base_swing = Some(Swing { limit_deg: swing, axes: base_axes });
+        r.hardware.base_swing = Some(Swing::of_all(swing, base_axes));
         r.hardware.max_leg_force = Some(force);
         r.hardware.max_leg_speed = Some(speed);
         r

@@ -17,14 +17,22 @@ use super::hardware::JointAxes;
 /// The universal joints of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UniversalJoint {
-    /// Direction of the first axis of each joint, in leg order, in the frame of the body.
-    pub first_axes: [Unit<Vector3<f64>>; 6],
-    /// Greatest angles about the first and about the second axis, either way, degrees: at most 180, and below 90.
-    pub limits_deg: Option<[f64; 2]>,
+    /// Direction of the first axis of each joint, in leg order, in the frame of the body; none where the joint of a leg is of another kind.
+    pub first_axes: [Option<Unit<Vector3<f64>>>; 6],
+    /// Greatest angles about the first and about the second axis of each joint, either way, degrees: at most 180, and below 90.
+    pub limits_deg: [Option<[f64; 2]>; 6],
     /// Where the legs are at rest: the first angles count from there.
     pub axes: JointAxes,
     /// Distance of the two axes, design units: 0 where they meet.
     pub offset: f64,
+}
+
+impl UniversalJoint {
+    /// Whether the joints of all legs are universal ones.
+    #[must_use]
+    pub fn is_of_all(&self) -> bool {
+        self.first_axes.iter().all(Option::is_some)
+    }
 }
 
 /// The angle about an axis of a universal joint that has a limit of its own.

@@ -7,6 +7,8 @@ use std::time::{Duration, Instant};
 use equipod::methods::design::{Format, parse};
 use serde_json::Value;
 
+use crate::octahedral::limited;
+
 const FILES: [&str; 10] = [
     "original.toml",
     "family.json",
@@ -298,29 +300,6 @@ fn the_report_of_a_run_is_about_what_the_run_wrote() {
     assert!(!page.contains("foreign.toml") && !page.contains("huge.json") && page.contains("fk.json"));
 }
 
-/// The octahedral design with limits of its own that offsets and height have to meet.
-const LIMITED: &str = r#"name = "limited"
-units = "mm"
-legs = [["P1","P4"], ["P2","P4"], ["P2","P5"], ["P3","P5"], ["P3","P6"], ["P1","P6"]]
-[base]
-P1 = [0.0, 0.0, 0.0]
-P2 = [6, "6*sqrt(3)", 0]
-P3 = [12.0, 0.0, 0.0]
-[platform]
-P4 = [0.0, 0.0, 0.0]
-P5 = [6.0, 0.0, 0.0]
-P6 = [3, "-3*sqrt(3)", 0]
-[home]
-position = [3.0, 1.7320508075688772, 12.0]
-rpy_deg = [0.0, 0.0, 0.0]
-[workspace]
-translation = [0.5, 0.5, 0.5]
-[hardware]
-leg_length = [9.0, 18.0]
-[optimize]
-variables = ["symmetric_offsets", "home_height"]
-"#;
-
 #[test]
 #[ignore = "slow evidence"]
 fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
@@ -333,7 +312,7 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
         let d: Value = serde_json::from_slice(&out.stdout).unwrap();
         (out.status.code(), d, folder)
     };
-    let (code, d, folder) = run(LIMITED, "met");
+    let (code, d, folder) = run(&limited(), "met");
     assert_eq!((code, d["verdict"].as_str()), (Some(0), Some("equivalent")), "{d}");
     assert_eq!((&d["assessment"]["met"], &d["optimize"]["status"]), (&true.into(), &"optimal".into()));
     let new = folder.join("optimised.toml");
@@ -348,7 +327,7 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
     assert!(read(&folder, "report.md").contains("## Requirements\n\nlimited, separate joints meets all"));
     assert!(read(&folder, "report.html").contains("leg too long"));
     // limits that nothing can meet: no platform, and no green word
-    let (code, d, folder) = run(&LIMITED.replace("[9.0, 18.0]", "[9.0, 9.1]"), "unmet");
+    let (code, d, folder) = run(&limited().replace("[9.0, 18.0]", "[9.0, 9.1]"), "unmet");
     assert_eq!((code, d["verdict"].as_str()), (Some(1), Some("infeasible")), "{d}");
     assert!(d["assessment"].is_null() && !folder.join("optimised.toml").exists());
     // which freedom resolves it was tried, and the platform found with it is in the folder
@@ -362,9 +341,9 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
     assert_eq!(optimum["freedoms"].as_array().unwrap().len(), freedoms.len());
     assert!(read(&folder, "report.md").contains("Which freedom more would resolve it was tried"));
     // an earlier run leaves none of them behind
-    let (_, d, folder) = run(LIMITED, "unmet");
+    let (_, d, folder) = run(&limited(), "unmet");
     assert!(d.get("freedoms").is_none() && !folder.join("with-stroke.toml").exists());
-    let front = LIMITED.replace(
+    let front = limited().replace(
         "[optimize]",
         "[optimize]\nobjectives = [\"stroke\", \"worst_conditioning\"]\nmode = \"pareto\"",
     );
@@ -377,7 +356,7 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
 fn the_platform_is_searched_with_the_drives_of_a_table() {
     let temp = tempfile::tempdir().unwrap();
     let (design, table) = (temp.path().join("limited.toml"), temp.path().join("struts.csv"));
-    std::fs::write(&design, LIMITED.replace("[hardware]\nleg_length = [9.0, 18.0]\n", "")).unwrap();
+    std::fs::write(&design, limited().replace("[hardware]\nleg_length = [9.0, 18.0]\n", "")).unwrap();
     std::fs::write(&table, "name,stroke,retracted_length,price\ntiny,0.1,14,1\ngood,9,9,2\n").unwrap();
     let folder = temp.path().join("out");
     let drives = ["--json", "--drives", table.to_str().unwrap()];

@@ -47,6 +47,123 @@ fn assess_proves_both_angles_of_universal_joints() {
     }
 }
 
+/// Three universal joints at the base, two balls and a flexure; universal joints are not held by the swing.
+fn per_leg(second: f64, ball: f64, flexure: f64) -> String {
+    let first = ["[0, 1, 0]", "[-0.866, -0.5, 0]", "[0.866, -0.5, 0]"];
+    let universal = |k: usize| {
+        format!(
+            "{{ model = \"universal\", first_axis = {}, angle_deg = [60, {second}], swing_deg = 180 }}",
+            first[k]
+        )
+    };
+    let ball = format!("{{ model = \"ball\", swing_deg = {ball} }}");
+    let flexure = format!("{{ model = \"flexure\", bending_stiffness = 4e4, swing_deg = {flexure} }}");
+    let list = [universal(0), ball.clone(), universal(1), ball, universal(2), flexure];
+    format!("base_joint = [{}]\n", list.join(", "))
+}
+
+/// Each leg has the limits of its own joint: the least margin of a row is at a leg that has such a joint, and a limit of other legs changes nothing.
+#[test]
+fn joints_per_leg_are_judged_leg_by_leg() {
+    let folder = tempfile::tempdir().unwrap();
+    let row = |name: &str, lines: &str| {
+        let path = with(&folder, "mixed.toml", lines);
+        let answer = document(&equipod(&["assess", &path, "--json"]));
+        let rows = answer["requirements"].as_array().unwrap_or_else(|| panic!("{answer}"));
+        rows.iter().find(|r| r["name"] == name).cloned().unwrap_or_else(|| panic!("{name}: {answer}"))
+    };
+    let legs = |row: &Value| numbers(&row["legs"]);
+    let margin = |row: &Value| row["margin"].as_f64().unwrap();
+    // the same joint for all legs: where each leg stands at the worst
+    let all = row("base_swing", "base_swing_deg = 90\n");
+    let worst = 90.0 - margin(&all);
+    assert!(worst > 10.0, "{all}");
+    let wide = row("base_swing", &per_leg(60.0, 60.0, 60.0));
+    assert!(legs(&wide).iter().all(|leg| [2.0, 4.0, 6.0].contains(leg)), "{wide}");
+    assert!((margin(&wide) - (60.0 - worst)).abs() < 5.0 && wide["status"] == "met", "{wide}");
+    // the flexure alone is too stiff for the workspace, and leg 6 has it
+    let stiff = row("base_swing", &per_leg(60.0, 60.0, 4.0));
+    assert_eq!((legs(&stiff), &stiff["status"]), (vec![6.0], &"violated".into()), "{stiff}");
+    // the second angles are those of legs 1, 3 and 5
+    let free = row("base_second_angle", &per_leg(60.0, 60.0, 60.0));
+    let tight = row("base_second_angle", &per_leg(12.0, 60.0, 60.0));
+    for found in [&free, &tight] {
+        assert!(legs(found).iter().all(|leg| [1.0, 3.0, 5.0].contains(leg)), "{found}");
+    }
+    assert!((margin(&free) - margin(&tight) - 48.0).abs() < 1e-6);
+    assert_eq!((&free["status"], &tight["status"]), (&"met".into(), &"violated".into()));
+    // all legs alike in a list are all legs alike in one table
+    let six = |model: &str| format!("base_joint = [{}]\n", format!("{model}, ").repeat(6));
+    let list = row("base_swing", &six("{ model = \"ball\", swing_deg = 40 }"));
+    assert_eq!(list, row("base_swing", "base_swing_deg = 40\n"));
+}
+
+/// Poses, limits, the search and exported files take joints per leg, or say why they do not.
+#[test]
+fn commands_take_joints_per_leg_or_refuse_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = with(&folder, "mixed.toml", &per_leg(60.0, 60.0, 40.0));
+    let run = |args: &[&str]| {
+        let out = equipod(args);
+        (out.status.code(), document(&out))
+    };
+    // a flexure alone pushes: at home nothing, away from it at leg 6
+    let home = {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let (design, _) =
+            equipod::methods::design::parse(&text, equipod::methods::design::Format::Toml).unwrap();
+        let p = design.home.unwrap().position;
+        [p.x, p.y, p.z]
+    };
+    let at = |dx: f64| format!("{},{},{},0,0,0", home[0] + dx, home[1], home[2]);
+    let force = |dx: f64| {
+        let (code, answer) = run(&["ik", &path, "--pose", &at(dx), "--details", "--json"]);
+        assert_eq!(code, Some(0), "{answer}");
+        let found = numbers(&answer["flexures"]["force"]);
+        assert!(!found.is_empty());
+        found.iter().map(|x| x * x).sum::<f64>().sqrt()
+    };
+    assert!(force(0.0) < 1e-6 && force(20.0) > 1.0, "{} {}", force(0.0), force(20.0));
+    let (code, limits) = run(&["limits", &path, "--json"]);
+    assert_eq!(code, Some(0), "{limits}");
+    let (code, written) = run(&["design", "convert", &path, "--json"]);
+    assert_eq!(code, Some(0), "{written}");
+    let to = |format: &str| {
+        let out = folder.path().join(format);
+        let (code, answer) = run(&["export", &path, "--to", format, "-o", out.to_str().unwrap(), "--json"]);
+        (code, answer, out)
+    };
+    let (code, answer, out) = to("mjcf");
+    assert_eq!(code, Some(0), "{answer}");
+    let model = std::fs::read_to_string(out.join("platform.xml")).unwrap();
+    let ranged = |leg: usize| {
+        model.lines().any(|l| l.contains(&format!("name=\"swing{leg}x\"")) && l.contains("range="))
+    };
+    assert_eq!([1, 2, 3, 4, 5, 6].map(ranged), [false, true, false, true, false, true], "{model}");
+    let (code, answer, _) = to("c");
+    assert_eq!(code, Some(1), "{answer}");
+    let why = answer["formats"][0]["refused"].as_str().unwrap();
+    assert!(why.contains("different greatest angles"), "{why}");
+    let (code, answer, out) = to("csv");
+    assert_eq!(code, Some(0), "{answer}");
+    let table = std::fs::read_to_string(out.join("parts.csv")).unwrap();
+    for part in ["\"base joint, universal\",3", "\"base joint, ball\",2", "\"base joint, flexure\",1"] {
+        assert!(table.contains(part), "{part}: {table}");
+    }
+    assert!(table.contains("flexure at the base, ball at the platform"), "{table}");
+    // a list of five, with the place in the file
+    let five = with(
+        &folder,
+        "five.toml",
+        &per_leg(60.0, 60.0, 40.0).replacen("{ model = \"ball\", swing_deg = 60 }, ", "", 1),
+    );
+    let (code, answer) = run(&["assess", &five, "--json"]);
+    assert_eq!(code, Some(2));
+    let fault = &answer["error"]["violations"][0];
+    assert!(fault["message"].as_str().unwrap().contains("`base_joint` is a list of 5"), "{answer}");
+    assert!(fault["line"].as_u64().is_some(), "{answer}");
+}
+
 #[test]
 #[ignore = "slow evidence"]
 fn assess_judges_drives_whose_joints_are_not_ideal() {

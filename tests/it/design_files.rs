@@ -133,7 +133,7 @@ prop_compose! {
         design.hardware = Hardware {
             joint_diameter: numbers[3],
             leg_body: numbers[4].map(|diameter| LegBody { diameter, rod: numbers[0].zip(numbers[1]) }),
-            base_swing: numbers[2].map(|x| Swing { limit_deg: x.min(180.0), axes: JointAxes::Home }),
+            base_swing: numbers[2].map(|x| Swing::of_all(x.min(180.0), JointAxes::Home)),
             max_leg_force: numbers[1],
             ..Hardware::default()
         };

@@ -60,6 +60,7 @@ mod leg_maps;
 mod licences;
 mod mutated_inputs;
 mod nearly_special;
+mod octahedral;
 mod octahedral_class;
 mod optimize_options;
 mod optimizer_evidence;

@@ -6,23 +6,8 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-/// Offsets alone, inside the edges.
-const PLAIN: &str = r#"
-name = "octahedral 12-6"
-units = "mm"
-legs = [["P1","P4"], ["P2","P4"], ["P2","P5"], ["P3","P5"], ["P3","P6"], ["P1","P6"]]
-[base]
-P1 = [0.0, 0.0, 0.0]
-P2 = [6.0, 10.392304845413264, 0.0]
-P3 = [12.0, 0.0, 0.0]
-[platform]
-P4 = [0.0, 0.0, 0.0]
-P5 = [6.0, 0.0, 0.0]
-P6 = [3.0, -5.196152422706632, 0.0]
-[home]
-position = [3.0, 1.7320508075688772, 12.0]
-rpy_deg = [0.0, 0.0, 0.0]
-"#;
+use crate::octahedral::at_home;
+
 /// What makes it a search under requirements.
 const REQUIRED: &str = "[hardware]
 leg_length = [9.0, 18.0]
@@ -96,7 +81,7 @@ fn every_option_of_optimize_changes_the_answer_or_is_refused() {
     assert_eq!(options("optimize"), named, "an option without a row, or a row without an option");
     let last = OPTIMIZE.len() - 1;
     for kind in 0..2 {
-        let design = if kind == 0 { PLAIN.to_owned() } else { format!("{PLAIN}{REQUIRED}") };
+        let design = if kind == 0 { at_home() } else { at_home() + REQUIRED };
         let heights = design.replace("\"symmetric_offsets\", ", "");
         let base = {
             let folder = tempfile::tempdir().unwrap();
@@ -145,9 +130,8 @@ fn every_option_of_explore_changes_the_answer_or_is_refused() {
         answer(&run(folder.path(), &args))
     };
     // refusals come before the search
-    let required = |variables: &str| {
-        format!("{PLAIN}{REQUIRED}").replace("\"symmetric_offsets\", \"home_height\"", variables)
-    };
+    let required =
+        |variables: &str| (at_home() + REQUIRED).replace("\"symmetric_offsets\", \"home_height\"", variables);
     let heights = required("\"home_height\"");
     assert!(refused(&explored(&heights, &["--extension", "0.1"])));
     let bounded = format!("{}offset_bounds = [0, 1]\n", required("\"symmetric_offsets\""));
@@ -159,14 +143,14 @@ fn every_option_of_explore_changes_the_answer_or_is_refused() {
     assert_eq!(explored(&with_table, &[])["error"]["code"], "drives::not_chosen");
     // what is asked changes the answer
     let few = ["--extension", "0", "--samples", "1"];
-    let base = explored(PLAIN, &few);
+    let base = explored(&at_home(), &few);
     assert_eq!(base["verify"]["sample_count"], 1);
     for more in [
         &["--extension", "0", "--samples", "2"][..],
         &["--extension", "0", "--samples", "1", "--seed", "5"],
         &["--extension", "0", "--samples", "1", "--drives", "drives.csv"],
     ] {
-        let found = explored(PLAIN, more);
+        let found = explored(&at_home(), more);
         assert!(found["error"].is_null() && found != base, "{more:?}: {}", found["error"]);
     }
 }

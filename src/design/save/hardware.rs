@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::manipulator::Body;
-use crate::requirements::{Hardware, Housing, JointAxes, LegPart, LengthLimits, UniversalJoint};
+use crate::requirements::{Hardware, Housing, JointAxes, JointKind, LegPart, LengthLimits};
 
 /// A diameter, or three edge lengths.
 #[derive(Serialize)]
@@ -77,9 +77,9 @@ pub(super) struct HardwareTable<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     drives: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    base_joint: Option<JointTable>,
+    base_joint: Option<JointTables>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    platform_joint: Option<JointTable>,
+    platform_joint: Option<JointTables>,
 }
 
 pub(super) fn housing(h: Housing) -> HousingValue {
@@ -101,7 +101,17 @@ pub(super) struct JointTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     offset: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    swing_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     bending_stiffness: Option<f64>,
+}
+
+/// One table for all joints of a body, or six in leg order.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(super) enum JointTables {
+    One(JointTable),
+    Six([JointTable; 6]),
 }
 
 /// One direction for all joints, or six.
@@ -112,27 +122,50 @@ pub(super) enum FirstAxisValue {
     Six([[f64; 3]; 6]),
 }
 
-/// Balls are left out.
-pub(super) fn joint(universal: Option<&UniversalJoint>, bending: Option<f64>) -> Option<JointTable> {
-    if let Some(joint) = universal {
-        let all: [[f64; 3]; 6] = joint.first_axes.map(|a| a.into_inner().into());
-        let bits = |a: &[f64; 3]| a.map(f64::to_bits);
-        let same = all.iter().all(|a| bits(a) == bits(&all[0]));
-        return Some(JointTable {
-            model: "universal",
-            first_axis: Some(if same { FirstAxisValue::One(all[0]) } else { FirstAxisValue::Six(all) }),
-            angle_deg: joint.limits_deg,
-            offset: (joint.offset != 0.0).then_some(joint.offset),
-            bending_stiffness: None,
-        });
+/// The joints of a body; nothing where all are balls with one limit.
+pub(super) fn joints(h: &Hardware, body: Body) -> Option<JointTables> {
+    let (universal, bending) = (h.universal(body), body.of((h.base_bending, h.platform_bending)));
+    let swing = body.of((h.base_swing, h.platform_swing));
+    let kinds: [JointKind; 6] = std::array::from_fn(|leg| h.joint_kind(body, leg));
+    let limits =
+        universal.map_or([None; 6], |joint| joint.limits_deg.map(|l| l.map(|l| l.map(f64::to_bits))));
+    let is_alike = kinds.iter().all(|k| *k == kinds[0])
+        && bending.iter().all(|k| k.map(f64::to_bits) == bending[0].map(f64::to_bits))
+        && limits.iter().all(|l| *l == limits[0])
+        && swing.is_none_or(|s| s.common_deg().is_some());
+    // the limit of all legs stands beside the table
+    let own_swing = |leg: usize| swing.filter(|s| s.common_deg().is_none()).map(|s| s.limits_deg[leg]);
+    let table = |leg: usize, first_axis: Option<FirstAxisValue>| {
+        let joint = universal.filter(|_| kinds[leg] == JointKind::Universal);
+        JointTable {
+            model: kinds[leg].name(),
+            first_axis,
+            angle_deg: joint.and_then(|j| j.limits_deg[leg]),
+            offset: joint.map(|j| j.offset).filter(|x| *x != 0.0),
+            swing_deg: own_swing(leg).filter(|deg| *deg < 180.0),
+            bending_stiffness: bending[leg],
+        }
+    };
+    let first = |leg: usize| universal?.first_axes[leg].map(|a| <[f64; 3]>::from(a.into_inner()));
+    if !is_alike {
+        let six = |leg: usize| table(leg, first(leg).map(FirstAxisValue::One));
+        return Some(JointTables::Six(std::array::from_fn(six)));
     }
-    bending.map(|stiffness| JointTable {
-        model: "flexure",
-        first_axis: None,
-        angle_deg: None,
-        offset: None,
-        bending_stiffness: Some(stiffness),
-    })
+    if kinds[0] == JointKind::Ball {
+        return None;
+    }
+    let all: [Option<[f64; 3]>; 6] = std::array::from_fn(first);
+    let bits = |a: &Option<[f64; 3]>| a.map(|a| a.map(f64::to_bits));
+    let value = if all.iter().all(|a| bits(a) == bits(&all[0])) {
+        all[0].map(FirstAxisValue::One)
+    } else {
+        all.iter()
+            .copied()
+            .collect::<Option<Vec<_>>>()
+            .and_then(|six| six.try_into().ok())
+            .map(FirstAxisValue::Six)
+    };
+    Some(JointTables::One(table(0, value)))
 }
 
 pub(super) fn axes(axes: JointAxes) -> Option<AxesValue> {
@@ -170,8 +203,8 @@ impl<'a> HardwareTable<'a> {
             leg_length,
             dead_length: drive.map(|d| d.0),
             stroke: drive.map(|d| d.1),
-            base_swing_deg: h.base_swing.map(|s| s.limit_deg),
-            platform_swing_deg: h.platform_swing.map(|s| s.limit_deg),
+            base_swing_deg: h.base_swing.and_then(|s| s.common_deg()),
+            platform_swing_deg: h.platform_swing.and_then(|s| s.common_deg()),
             base_axes: h.axes(Body::Base).and_then(axes),
             platform_axes: h.axes(Body::Platform).and_then(axes),
             screw_lead: h.screw_lead,
@@ -186,8 +219,8 @@ impl<'a> HardwareTable<'a> {
             rod_inertia: rod_body.map(|p| p.inertia),
             reflected_mass: h.leg_masses.map(|m| m.reflected).filter(|x| *x > 0.0),
             drives,
-            base_joint: joint(h.base_universal.as_ref(), h.base_bending),
-            platform_joint: joint(h.platform_universal.as_ref(), h.platform_bending),
+            base_joint: joints(h, Body::Base),
+            platform_joint: joints(h, Body::Platform),
         })
     }
 }

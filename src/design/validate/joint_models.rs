@@ -3,7 +3,7 @@
 use nalgebra::{Unit, Vector3};
 
 use super::axes::named;
-use super::tables::{axis, joint_axes, not_negative, positive};
+use super::tables::{angle_to_half_turn, axis, joint_axes, not_negative, positive};
 use super::{check_keys, element_span, number, numbers, shown, table, text};
 use crate::design::Code;
 use crate::design::tree::{Entry, Node, Value, find};
@@ -11,20 +11,34 @@ use crate::design::violation::Findings;
 use crate::manipulator::Body;
 use crate::requirements::{Hardware, JointAxes, UniversalJoint};
 
-/// What a table of joints says.
+/// What the joints of a body are, leg by leg.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct JointModel {
     pub(super) universal: Option<UniversalJoint>,
-    pub(super) bending: Option<f64>,
+    pub(super) bending: [Option<f64>; 6],
+    /// Greatest angles of the joints whose tables have one.
+    pub(super) swing_deg: [Option<f64>; 6],
 }
 
-pub(super) const KEYS: [&str; 5] = ["model", "first_axis", "angle_deg", "offset", "bending_stiffness"];
+/// What a table says of the joint of one leg, or of those of all.
+#[derive(Debug, Clone, Copy, Default)]
+struct JointTable {
+    /// Of universal joints.
+    first_axes: Option<[Unit<Vector3<f64>>; 6]>,
+    limits_deg: Option<[f64; 2]>,
+    offset: f64,
+    bending: Option<f64>,
+    swing_deg: Option<f64>,
+}
+
+pub(super) const KEYS: [&str; 6] =
+    ["model", "first_axis", "angle_deg", "offset", "swing_deg", "bending_stiffness"];
 
 /// The keys of a model besides its name.
 fn keys_of(model: &str) -> Option<&'static [&'static str]> {
     match model {
-        "ball" => Some(&[]),
-        "universal" => Some(&KEYS[1..4]),
+        "ball" => Some(&KEYS[4..5]),
+        "universal" => Some(&KEYS[1..5]),
         "flexure" => Some(&KEYS[4..]),
         _ => None,
     }
@@ -37,17 +51,21 @@ pub(super) fn joint_model(report: &mut Findings<'_>, entries: &[Entry], body: Bo
         ["platform_joint", "platform_axes", "platform_swing_deg"],
     ));
     let joint = find(entries, table_key);
-    let found = joint.and_then(|e| model(report, e, table_key)).unwrap_or_default();
+    let found = joint.and_then(|e| models(report, e, table_key)).unwrap_or_default();
     let axes = find(entries, axes_key);
     let swing = find(entries, swing_key);
-    if let (Some(e), None, None) = (axes, swing, found.universal) {
+    let own_swing = found.swing_deg.iter().any(Option::is_some);
+    if let (Some(e), None, None, false) = (axes, swing, found.universal, own_swing) {
         let message = format!("`{axes_key}` without `{swing_key}`");
         let help = format!("add `{swing_key}` or universal joints, or remove `{axes_key}`");
         report.refuse(Code::MissingKey, &e.key_span, message, help);
     }
-    if let (Some(e), None, Some(_)) = (joint, swing, found.bending) {
+    if let (Some(e), None) = (joint, swing)
+        && found.bending.iter().zip(&found.swing_deg).any(|(k, deg)| k.is_some() && deg.is_none())
+    {
         let message = format!("flexures have a greatest angle, and `{swing_key}` is missing");
-        report.refuse(Code::MissingKey, &e.key_span, message, format!("add `{swing_key}` to [hardware]"));
+        let help = format!("add `{swing_key}` to [hardware], or `swing_deg` to the joint");
+        report.refuse(Code::MissingKey, &e.key_span, message, help);
     }
     let Some(universal) = found.universal else { return found };
     // faults of the axes are reported where swing reads them
@@ -62,6 +80,66 @@ pub(super) fn joint_model(report: &mut Findings<'_>, entries: &[Entry], body: Bo
     }
     let axes = axes.map_or(JointAxes::Home, |(_, axes)| axes);
     JointModel { universal: Some(UniversalJoint { axes, ..universal }), ..found }
+}
+
+/// One table for all joints, or six in leg order.
+fn models(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointModel> {
+    let Value::Array(list) = &entry.node.value else {
+        let place = format!("`{key}` of [hardware]");
+        let one = model(report, &entry.node, &entry.key_span, &place, true)?;
+        return Some(JointModel {
+            universal: one.first_axes.map(|axes| UniversalJoint {
+                first_axes: axes.map(Some),
+                limits_deg: [one.limits_deg; 6],
+                axes: JointAxes::Home,
+                offset: one.offset,
+            }),
+            bending: [one.bending; 6],
+            swing_deg: [one.swing_deg; 6],
+        });
+    };
+    if list.len() != 6 {
+        let message = format!("`{key}` is a list of {}", list.len());
+        let help = "write one table for all joints of the body, or a list of six in leg order";
+        report.refuse(Code::WrongType, &entry.node.span, message, help);
+        return None;
+    }
+    let mut all = [JointTable::default(); 6];
+    let mut are_read = true;
+    for (i, node) in list.iter().enumerate() {
+        let place = format!("`{key}` of leg {} in [hardware]", i + 1);
+        match model(report, node, &node.span, &place, false) {
+            Some(found) => all[i] = found,
+            None => are_read = false,
+        }
+    }
+    if !are_read {
+        return None;
+    }
+    one_offset(report, list, &all);
+    let first_axes: [Option<Unit<Vector3<f64>>>; 6] =
+        std::array::from_fn(|i| all[i].first_axes.map(|axes| axes[i]));
+    let has_universal = first_axes.iter().any(Option::is_some);
+    Some(JointModel {
+        universal: has_universal.then(|| UniversalJoint {
+            first_axes,
+            limits_deg: all.map(|joint| joint.limits_deg),
+            axes: JointAxes::Home,
+            offset: all.iter().map(|joint| joint.offset).fold(0.0, f64::max),
+        }),
+        bending: all.map(|joint| joint.bending),
+        swing_deg: all.map(|joint| joint.swing_deg),
+    })
+}
+
+/// Axes that do not meet are those of all six joints of a body: the lengths of its drives are computed for all legs in one way.
+fn one_offset(report: &mut Findings<'_>, list: &[Node], all: &[JointTable; 6]) {
+    let Some(offset) = all.iter().map(|joint| joint.offset).find(|x| *x != 0.0) else { return };
+    if let Some(i) = all.iter().position(|joint| joint.offset.to_bits() != offset.to_bits()) {
+        let message = format!("leg {} has a joint without the `offset` of {offset} of the others", i + 1);
+        let help = "give all six joints of the body the model \"universal\" with the same `offset`, or none an offset";
+        report.refuse(Code::ConflictingKeys, &list[i].span, message, help);
+    }
 }
 
 /// Axes that have been read before.
@@ -81,7 +159,7 @@ pub(super) fn check_axes(report: &mut Findings<'_>, entry: &Entry, axes: JointAx
         }
         JointAxes::Given(axes) => {
             for (i, (axis, first)) in axes.iter().zip(&joint.first_axes).enumerate() {
-                if axis.cross(first).norm() == 0.0 {
+                if first.is_some_and(|first| axis.cross(&first).norm() == 0.0) {
                     let message =
                         format!("the axis of leg {} is the first axis of its universal joint", i + 1);
                     let help =
@@ -93,13 +171,19 @@ pub(super) fn check_axes(report: &mut Findings<'_>, entry: &Entry, axes: JointAx
     }
 }
 
-fn model(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointModel> {
-    let place = format!("`{key}` of [hardware]");
-    let entries = table(report, &entry.node, &place)?;
-    check_keys(report, entries, &KEYS, &place);
+/// A table of joints; `of_all`: it is about all legs.
+fn model(
+    report: &mut Findings<'_>,
+    node: &Node,
+    span: &std::ops::Range<usize>,
+    place: &str,
+    of_all: bool,
+) -> Option<JointTable> {
+    let entries = table(report, node, place)?;
+    check_keys(report, entries, &KEYS, place);
     let Some(word) = find(entries, "model") else {
         let help = "add model = \"universal\", \"flexure\" or \"ball\"";
-        report.refuse(Code::MissingKey, &entry.key_span, format!("`model` of {place} is missing"), help);
+        report.refuse(Code::MissingKey, span, format!("`model` of {place} is missing"), help);
         return None;
     };
     let name = text(report, word)?;
@@ -119,31 +203,36 @@ fn model(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointMod
         let message = format!("`{}` is no key of joints whose model is \"{name}\"", other.key);
         report.refuse(Code::ConflictingKeys, &other.key_span, message, "remove it, or change the model");
     }
-    match name.as_str() {
+    let swing_deg = angle_to_half_turn(report, entries, "swing_deg");
+    let found = JointTable { swing_deg, ..JointTable::default() };
+    Some(match name.as_str() {
         "universal" => {
             let Some(first) = find(entries, "first_axis") else {
                 let help =
                     "add first_axis = [x, y, z], in the frame of the body, or six vectors in leg order";
                 let message = format!("`first_axis` of {place} is missing");
-                report.refuse(Code::MissingKey, &entry.key_span, message, help);
+                report.refuse(Code::MissingKey, span, message, help);
                 return None;
             };
-            let first_axes = first_axes(report, first)?;
-            let limits_deg = find(entries, "angle_deg").and_then(|e| limits(report, e));
-            let offset = not_negative(report, entries, "offset").unwrap_or_default();
-            let universal = UniversalJoint { first_axes, limits_deg, axes: JointAxes::Home, offset };
-            Some(JointModel { universal: Some(universal), bending: None })
+            let first_axes =
+                if of_all { first_axes(report, first)? } else { [axis(report, &first.node, &first.key)?; 6] };
+            JointTable {
+                first_axes: Some(first_axes),
+                limits_deg: find(entries, "angle_deg").and_then(|e| limits(report, e)),
+                offset: not_negative(report, entries, "offset").unwrap_or_default(),
+                ..found
+            }
         }
         "flexure" => {
             if find(entries, "bending_stiffness").is_none() {
                 let message = format!("`bending_stiffness` of {place} is missing");
                 let help = "add it, in force units times design units per radian";
-                report.refuse(Code::MissingKey, &entry.key_span, message, help);
+                report.refuse(Code::MissingKey, span, message, help);
             }
-            Some(JointModel { universal: None, bending: positive(report, entries, "bending_stiffness") })
+            JointTable { bending: positive(report, entries, "bending_stiffness"), ..found }
         }
-        _ => None,
-    }
+        _ => found,
+    })
 }
 
 /// One direction for all joints, or six in leg order.
@@ -189,7 +278,7 @@ pub(super) fn screw_lead(
 ) -> Option<f64> {
     let entry = find(entries, "screw_lead")?;
     let lead = number(report, &entry.node, "`screw_lead`")?;
-    if joints.iter().any(|joint| joint.universal.is_none()) {
+    if joints.iter().any(|joint| !joint.universal.is_some_and(|j| j.is_of_all())) {
         let message = "`screw_lead` is about legs with universal joints at both ends";
         let help = "ball joints leave the turn of a leg about itself free, so that it has no lead: give `base_joint` and `platform_joint` the model \"universal\", or remove `screw_lead`";
         report.refuse(Code::MissingKey, &entry.key_span, message, help);

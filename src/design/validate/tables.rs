@@ -406,8 +406,13 @@ pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> Hardware {
         leg_body: body.map(|diameter| LegBody { diameter, rod: cylinder.zip(rod) }),
         leg_clearance: not_negative(report, entries, "leg_clearance"),
         leg_length: length_limits(report, entries),
-        base_swing: swing(report, entries, "base_swing_deg", "base_axes"),
-        platform_swing: swing(report, entries, "platform_swing_deg", "platform_axes"),
+        base_swing: swing(report, entries, ["base_swing_deg", "base_axes"], &base_joint.swing_deg),
+        platform_swing: swing(
+            report,
+            entries,
+            ["platform_swing_deg", "platform_axes"],
+            &platform_joint.swing_deg,
+        ),
         base_universal: base_joint.universal,
         platform_universal: platform_joint.universal,
         base_bending: base_joint.bending,
@@ -477,19 +482,27 @@ fn length_limits(report: &mut Findings<'_>, entries: &[Entry]) -> Option<LengthL
     Some(LengthLimits::Range(least, greatest))
 }
 
-fn swing(report: &mut Findings<'_>, entries: &[Entry], limit: &str, axes: &str) -> Option<Swing> {
-    let axes = find(entries, axes).and_then(|e| joint_axes(report, e));
-    let limit_deg = positive(report, entries, limit)?;
-    if limit_deg > 180.0 {
-        let span = find(entries, limit).map_or(0..0, |e| e.node.span.clone());
-        report.refuse(
-            Code::OutOfRange,
-            &span,
-            format!("`{limit}` is {limit_deg}"),
-            "stay within 180 degrees",
-        );
+/// The limit of the body for all legs whose joints have none of their own.
+fn swing(
+    report: &mut Findings<'_>,
+    entries: &[Entry],
+    [limit, axes]: [&str; 2],
+    own: &[Option<f64>; 6],
+) -> Option<Swing> {
+    let axes = find(entries, axes).and_then(|e| joint_axes(report, e)).unwrap_or_default();
+    let of_body = angle_to_half_turn(report, entries, limit);
+    let is_limited = of_body.is_some() || own.iter().any(Option::is_some);
+    is_limited.then(|| Swing { limits_deg: own.map(|deg| deg.or(of_body).unwrap_or(180.0)), axes })
+}
+
+/// An angle above 0 and at most 180 degrees.
+pub(super) fn angle_to_half_turn(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<f64> {
+    let angle = positive(report, entries, key)?;
+    if angle > 180.0 {
+        let span = find(entries, key).map_or(0..0, |e| e.node.span.clone());
+        report.refuse(Code::OutOfRange, &span, format!("`{key}` is {angle}"), "stay within 180 degrees");
     }
-    Some(Swing { limit_deg, axes: axes.unwrap_or_default() })
+    Some(angle)
 }
 
 /// The word for the normal of the plane of the joints.

@@ -20,7 +20,7 @@ fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
     p.space.rotation_deg = Vector3::zeros();
     // a stroke of 10 for a travel of 40; swing takes no part
     p.requirements.hardware.leg_length = Some(LengthLimits::Range(250.0, 260.0));
-    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 80.0, axes: JointAxes::Home });
+    p.requirements.hardware.base_swing = Some(Swing::of_all(80.0, JointAxes::Home));
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
     let kinds: Vec<Demand> = conflict.demands.iter().map(|g| g.demand).collect();
@@ -52,7 +52,7 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
     p.requirements.hardware.leg_length = None;
     // no leg of any offset points along the base axis within a degree at all poses
     let axis = Unit::new_normalize(Vector3::new(1.0, 0.0, 0.3));
-    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 1.0, axes: JointAxes::Given([axis; 6]) });
+    p.requirements.hardware.base_swing = Some(Swing::of_all(1.0, JointAxes::Given([axis; 6])));
     let proved = |p: &DimensionalProblem, group: ConstraintGroup| {
         let model = Model::new(p).unwrap();
         let x = [0.4; 6];
@@ -66,7 +66,7 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
     assert!(conflict.proved && conflict.demands.len() == 1, "{conflict:?}");
     // negative control: the legs can be within 70 degrees of the vertical
     let axes = JointAxes::Given([Vector3::z_axis(); 6]);
-    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 70.0, axes });
+    p.requirements.hardware.base_swing = Some(Swing::of_all(70.0, axes));
     assert!(!proved(&p, ConstraintGroup::Term(TermKind::BaseSwing)));
 }
 
@@ -142,7 +142,7 @@ fn what_cannot_be_asked_is_refused() {
     let p = problem(&[], Objective::WorstConditioning);
     assert_eq!(refused(&p), InvalidProblem::NoVariables);
     let mut p = problem(&[VariableKind::JointAxes], Objective::WorstConditioning);
-    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 120.0, axes: JointAxes::Optimize });
+    p.requirements.hardware.base_swing = Some(Swing::of_all(120.0, JointAxes::Optimize));
     assert_eq!(refused(&p), InvalidProblem::SwingTooWide(120.0));
 }
 

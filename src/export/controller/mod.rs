@@ -16,7 +16,7 @@ use super::text::{ascii, commented};
 use super::{Export, ExportedFile, Unsupported, Writer};
 use crate::fk::{NearNumbers, NearSolver};
 use crate::geom::{Pose, any_across};
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Body, Manipulator};
 use crate::requirements::{Hardware, JointAxes, Swing};
 
 /// The format `c`.
@@ -51,6 +51,7 @@ impl Writer for C {
         if let Some(cranks) = &export.cranks {
             return Ok(cranks::files(export, cranks));
         }
+        one_swing_a_body(export)?;
         Ok(vec![
             ExportedFile::new("equipod.h", include_str!("equipod.h").to_string()),
             ExportedFile::new("equipod.c", include_str!("equipod.c").to_string()),
@@ -64,6 +65,17 @@ impl Writer for C {
             ExportedFile::new("equipodkins_ops.c", include_str!("equipodkins_ops.c").to_string()),
         ])
     }
+}
+
+/// Refuses joints of one body with different greatest angles.
+fn one_swing_a_body(export: &Export) -> Result<(), Unsupported> {
+    let h = &export.hardware;
+    let differs =
+        |body: Body| body.of((h.base_swing, h.platform_swing)).is_some_and(|s| s.common_deg().is_none());
+    Body::BOTH
+        .into_iter()
+        .find(|body| differs(*body))
+        .map_or(Ok(()), |body| Err(Unsupported::SwingOfLegs(body)))
 }
 
 /// The octahedral platform a design is equivalent to, for controllers that compute its poses.
@@ -281,7 +293,7 @@ fn across_at_home(export: &Export) -> [Vector3<f64>; 6] {
 
 fn limits(out: &mut String, hardware: &Hardware, axes: &SwingAxes) {
     let (least, greatest) = hardware.leg_length.map_or((0.0, f64::INFINITY), |l| l.range());
-    let swing = |s: Option<Swing>| s.map_or(180.0, |s| s.limit_deg);
+    let swing = |s: Option<Swing>| s.map_or(180.0, |s| s.least_deg());
     let flags =
         [hardware.leg_length.is_some(), hardware.base_swing.is_some(), hardware.platform_swing.is_some()];
     let _ = writeln!(

@@ -122,7 +122,7 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
     if cranks.tip_swing.is_some() {
         text.push_str("  Range of hinge swingNy: how far rod N may lean out of the plane in which crank N turns, less how far it does at home.\n");
     }
-    if swing::limit(export).is_some() {
+    if swing::is_limited(export) {
         text.push_str(swing::COMMENT);
     }
     let mut out = opening(export, &scale, &text);

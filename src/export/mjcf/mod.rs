@@ -175,7 +175,7 @@ fn swing_of(export: &Export, leg: &ExportLeg) -> Result<Option<f64>, Unsupported
         JointAxes::Given(axes) => home.angle(&axes[leg.number - 1]),
         JointAxes::Home | JointAxes::Optimize => 0.0,
     };
-    let most = swing.limit_deg.to_radians() + off;
+    let most = swing.limits_deg[leg.number - 1].to_radians() + off;
     Ok((most < FRAC_PI_2).then_some(most))
 }
 
@@ -382,7 +382,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
     if export.hardware.base_swing.is_some() {
         text.push_str("  Ranges of the hinges at the base: boxes around the cones in which the design lets legs swing.\n");
     }
-    if swing::limit(export).is_some() {
+    if swing::is_limited(export) {
         text.push_str(swing::COMMENT);
     }
     if export.payload_shape.is_some() {

@@ -20,13 +20,18 @@ const AWAY: f64 = 0.1;
 /// What the comment of a model says of the tendons.
 pub(super) const COMMENT: &str = "  Tendon swingN limits the swing at the platform: it joins a site of rod N to one behind its joint on the axis of the joint, as far from it, so that its length is twice\n  that distance times the sine of half the angle between rod and axis, and that of no turn about the rod.\n";
 
-/// The greatest angle at the platform, radians, where the design limits it.
-pub(super) fn limit(export: &Export) -> Option<f64> {
+/// The greatest angle of a leg or a rod (from 0) at the platform, radians, where the design limits it.
+fn limit(export: &Export, leg: usize) -> Option<f64> {
     let most = match &export.cranks {
         Some(cranks) => cranks.platform_swing,
-        None => export.hardware.platform_swing.map(|swing| swing.limit_deg.to_radians()),
+        None => export.hardware.platform_swing.map(|swing| swing.limits_deg[leg].to_radians()),
     };
     most.filter(|most| *most < std::f64::consts::PI)
+}
+
+/// Whether the swing of any leg at the platform is limited.
+pub(super) fn is_limited(export: &Export) -> bool {
+    (0..6).any(|leg| limit(export, leg).is_some())
 }
 
 /// The tendon of a leg or of a rod.
@@ -45,7 +50,7 @@ pub(super) struct SwingTendon {
 impl SwingTendon {
     /// `None` where nothing limits the swing.
     pub(super) fn of(export: &Export, leg: &ExportLeg) -> Result<Option<Self>, Unsupported> {
-        let Some(most) = limit(export) else { return Ok(None) };
+        let Some(most) = limit(export, leg.number - 1) else { return Ok(None) };
         let to_platform = export.home.rotation.inverse();
         let (axis, length, joint) = match &export.cranks {
             // the body of a rod begins at the tip of its crank, that of a leg at the platform
@@ -95,7 +100,7 @@ impl SwingTendon {
 
 /// The tendons of all legs.
 pub(super) fn tendons(out: &mut String, scale: &Scale, export: &Export) -> Result<(), Unsupported> {
-    if limit(export).is_none() {
+    if !is_limited(export) {
         return Ok(());
     }
     out.push_str("  <tendon>\n");

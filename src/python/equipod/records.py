@@ -33,7 +33,6 @@ DesignObjective = Literal[
     "stroke",
     "worst_conditioning",
 ]
-DimensionalStatus = Literal["feasible", "infeasible", "interrupted", "optimal", "undecided", "violated"]
 DriveRanking = Literal["objective", "price"]
 DriveSearchWord = Literal[
     "dearer",
@@ -61,7 +60,6 @@ Freedom = Literal[
     "triangles",
 ]
 FreedomWord = Literal["not_tried", "resolved", "undecided", "unresolved"]
-FrontStatus = Literal["front", "infeasible", "interrupted", "undecided"]
 HolePattern = Literal["bolt_circle", "polar", "square", "triangular"]
 Invariant = Literal[
     "base_principal_value",
@@ -100,16 +98,8 @@ Objective = Literal[
     "stroke",
     "worst_conditioning",
 ]
-OffsetsStatus = Literal[
-    "feasible",
-    "infeasible",
-    "interrupted",
-    "local_optimum",
-    "optimal",
-    "undecided",
-    "violated",
-]
 OptimalityWord = Literal["best_of_starts", "proved_within_gap"]
+OptimizeWord = Literal["feasible", "front", "infeasible", "interrupted", "optimal", "undecided", "violated"]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
 PoseAxis = Literal["pitch", "roll", "x", "y", "yaw", "z"]
 ProofWord = Literal["leg_vectors", "pose_lattice", "regular_pose"]
@@ -118,6 +108,7 @@ RegionWord = Literal["box", "ellipsoid"]
 RegularityWord = Literal["changes_sign", "proved", "undecided"]
 RejectionReason = Literal["duplicate", "not_certified", "not_finite", "residual_too_large"]
 Relation = Literal["equivalent", "singular", "undecided", "unrelated"]
+SearchMethodWord = Literal["dimensional", "offsets"]
 SearchWord = Literal["found", "impossible", "undecided", "violated"]
 SideWord = Literal["above", "below"]
 SignOutcome = Literal["crosses", "keeps_sign", "undecided"]
@@ -710,13 +701,26 @@ class ConditioningRecord(Record):
     worst: Union[float, None]
 
 
+class ConflictReasonRecord(Record):
+    """A kind of proof that branches of the offsets are empty."""
+
+    #: A short stable code.
+    code: Literal["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"]
+    #: Branches with this as their first proof.
+    branches: int
+    #: One sentence with the numbers of one of them.
+    message: str
+
+
 class ConflictRecord(Record):
     """Requirements that cannot be met together; without any one of them the others were met."""
 
     #: The set is proved to be in conflict.
     proved: bool
-    #: What would have to give.
+    #: What would have to give; empty where every branch is empty for reasons of its own.
     requirements: tuple[GiveRecord, ...]
+    #: Why the branches of the offsets are empty, by kind; empty where the search has no branches.
+    reasons: tuple[ConflictReasonRecord, ...]
 
 
 class CornerLengthsRecord(Record):
@@ -1022,8 +1026,11 @@ class DesignJointModel(Record):
     #: right angle to it and to the leg; `flexure`: bends about its centre, within the cone of the swing
     model: Literal["ball", "universal", "flexure"]
     #: universal: direction of the first axis in the frame of the body, one for all joints or six in leg
-    #: order; required
+    #: order, in a list of tables one; required
     first_axis: Union[DesignVector, tuple[DesignVector, ...], None]
+    #: greatest angle between the leg and the axis of the joint, in place of that of the body
+    #: (`base_swing_deg`, `platform_swing_deg`)
+    swing_deg: Union[float, None]
     #: universal: greatest angles about the first and about the second axis, either way, degrees; none when
     #: absent
     angle_deg: Union[tuple[float, float], None]
@@ -1122,110 +1129,6 @@ class DifferenceRecord(Record):
     gap: Union[float, None]
     #: What a difference has to exceed.
     bound: Union[float, None]
-
-
-class DimensionalAnswer(Record):
-    """The answer of `optimize` about a design that asks for more than offsets."""
-
-    #: What came of the search.
-    status: DimensionalStatus
-    #: What is known of better ones; null: nothing, or there is no platform.
-    optimality: Union[OptimalityWord, None]
-    #: How the search went.
-    search: SearchRecord
-    #: The platform; null: there is none.
-    design: Union[Design, None]
-    #: The file written, with the platform or the one that comes nearest.
-    output: Union[str, None]
-    #: Where none that meets the requirements was found: the one with the least violation, which misses
-    #: some of them.
-    nearest: Union[NearestPlatformRecord, None]
-    #: When infeasible.
-    conflict: Union[ConflictRecord, None]
-    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
-    #: each with what came of a search that had it; absent where none was looked at.
-    freedoms: Union[tuple[FreedomRecord, ...], None]
-    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
-    #: search could not break it.
-    symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table, with what the search came to with each; absent where no table was given. The
-    #: rest of the answer is about the drive chosen; where none is, about that with which most was reached.
-    drive_search: Union[DriveSearchRecord, None]
-    #: Other local optima that meet the requirements at the poses that were held, best first; absent where
-    #: they were not asked for.
-    candidates: Union[tuple[OptimumRecord, ...], None]
-    #: Value of the first objective.
-    objective: Union[float, None]
-    #: All of them.
-    objectives: Union[tuple[ObjectiveRecord, ...], None]
-    #: What was chosen, axes left out.
-    variables: Union[tuple[VariableRecord, ...], None]
-    #: In cyclic order; null: not chosen.
-    offsets: Union[tuple[Union[float, None], ...], None]
-    #: Home, lifted when its height was chosen.
-    home: Union[PoseQuaternionRecord, None]
-    #: The axes chosen.
-    joint_axes: Union[JointAxesRecord, None]
-    #: The requirements, over many poses and by other code.
-    constraint_margins: Union[tuple[MarginRecord, ...], None]
-    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
-    requirements_met: Union[bool, None]
-    #: What `assess` says of the platform; null: the design requires nothing.
-    assessment: Union[AssessAnswer, None]
-    #: Whether it is equivalent to the design; null: the variables do not keep the class.
-    verify: Union[VerifiedRecord, None]
-    #: Steps of the run that found it; absent in a front.
-    history: Union[tuple[DimensionalStepRecord, ...], None]
-    #: Evidence of local optimality.
-    local_optimality: Union[StationarityRecord, None]
-    #: Numbers of poses.
-    poses: Union[HeldPosesRecord, None]
-
-
-class DimensionalSolutionRecord(Record):
-    """A platform found by a search."""
-
-    #: Value of the first objective.
-    objective: Union[float, None]
-    #: All of them.
-    objectives: tuple[ObjectiveRecord, ...]
-    #: What was chosen, axes left out.
-    variables: tuple[VariableRecord, ...]
-    #: In cyclic order; null: not chosen.
-    offsets: Union[tuple[Union[float, None], ...], None]
-    #: Home, lifted when its height was chosen.
-    home: PoseQuaternionRecord
-    #: The axes chosen.
-    joint_axes: JointAxesRecord
-    #: The requirements, over many poses and by other code.
-    constraint_margins: tuple[MarginRecord, ...]
-    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
-    requirements_met: Union[bool, None]
-    #: What `assess` says of the platform; null: the design requires nothing.
-    assessment: Union[AssessAnswer, None]
-    #: Whether it is equivalent to the design; null: the variables do not keep the class.
-    verify: Union[VerifiedRecord, None]
-    #: Evidence of local optimality.
-    local_optimality: StationarityRecord
-    #: Numbers of poses.
-    poses: HeldPosesRecord
-    #: Steps of the run that found it; absent in a front.
-    history: Union[tuple[DimensionalStepRecord, ...], None]
-
-
-class DimensionalStepRecord(Record):
-    """A step of the run that found a platform."""
-
-    #: Weighted gain.
-    objective: Union[float, None]
-    #: In the scale of its constraint.
-    violation: Union[float, None]
-    #: Of the trust region.
-    radius: Union[float, None]
-    #: Held.
-    poses: int
-    #: The step was taken.
-    accepted: bool
 
 
 class DiscsRecord(Record):
@@ -1459,13 +1362,13 @@ class ExploreAnswer(Record):
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
     #: The assessment is then that of this platform.
     holes: Union[OnHolesRecord, None]
-    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
-    #: search could not break it.
+    #: What became of the three-fold symmetry of the design; null where it has none, names one, or the
+    #: search could not break it or did not look at it.
     symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table, with what the search came to with each; absent where no table was given.
+    #: The drives of a table, with what the search came to with each; null where no table was given.
     drive_search: Union[DriveSearchRecord, None]
     #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
-    #: each with what came of a search that had it; absent where none was looked at.
+    #: each with what came of a search that had it; null where none was looked at.
     freedoms: Union[tuple[FreedomRecord, ...], None]
     #: The poses of the design.
     fk: Union[PoseTotalsRecord, None]
@@ -1533,16 +1436,16 @@ class ExploreOctahedralAnswer(Record):
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
     #: The assessment is then that of this platform.
     holes: Union[OnHolesRecord, None]
-    #: The poses of the design.
-    fk: PoseTotalsRecord
-    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
-    #: search could not break it.
+    #: What became of the three-fold symmetry of the design; null where it has none, names one, or the
+    #: search could not break it or did not look at it.
     symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table, with what the search came to with each; absent where no table was given.
+    #: The drives of a table, with what the search came to with each; null where no table was given.
     drive_search: Union[DriveSearchRecord, None]
     #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
-    #: each with what came of a search that had it; absent where none was looked at.
+    #: each with what came of a search that had it; null where none was looked at.
     freedoms: Union[tuple[FreedomRecord, ...], None]
+    #: The poses of the design.
+    fk: PoseTotalsRecord
 
 
 class ExtremeRecord(Record):
@@ -1984,62 +1887,59 @@ class FreedomRecord(Record):
     output: Union[str, None]
 
 
-class FrontAnswer(Record):
-    """The answer of `optimize` with mode = "pareto"."""
-
-    #: What came of the search.
-    status: FrontStatus
-    #: The members, by falling gain of the first objective.
-    front: tuple[FrontMemberRecord, ...]
-    #: Runs that met their bounds, and were dominated by others or equal to one.
-    dominated: int
-    #: Bounds that no run met.
-    unmet: int
-    #: When infeasible.
-    conflict: Union[ConflictRecord, None]
-    #: Where there is no front because nothing meets the requirements: the freedoms that the design does
-    #: not have, each with what came of a search that had it; absent where none was looked at.
-    freedoms: Union[tuple[FreedomRecord, ...], None]
-    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
-    #: search could not break it.
-    symmetry: Union[SymmetryRecord, None]
-
-
 class FrontMemberRecord(Record):
     """A member of a front."""
 
     #: Value of the first objective.
     objective: Union[float, None]
     #: All of them.
-    objectives: tuple[ObjectiveRecord, ...]
+    objectives: Union[tuple[ObjectiveRecord, ...], None]
     #: What was chosen, axes left out.
-    variables: tuple[VariableRecord, ...]
-    #: In cyclic order; null: not chosen.
+    variables: Union[tuple[VariableRecord, ...], None]
+    #: The numbers `t_i` in cyclic order; null: no offsets were chosen.
     offsets: Union[tuple[Union[float, None], ...], None]
+    #: `t_i d_i`, design units; null as `edge_lengths`.
+    shifts: Union[tuple[Union[float, None], ...], None]
+    #: `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    edge_lengths: Union[tuple[Union[float, None], ...], None]
+    #: The legs of the cycle, from 1; null: no offsets were chosen.
+    cyclic_order: Union[tuple[int, ...], None]
+    #: Zone of each offset: before, inside, beyond its edge; null: no offsets were chosen.
+    branch: Union[str, None]
+    #: det A of the leg map; null: the variables do not keep the class of the design.
+    det: Union[float, None]
+    #: s' = A s + c, legs in the order of the design; rows. Null as `det`.
+    A: Union[tuple[tuple[Union[float, None], ...], ...], None]
+    #: The constant terms, design units squared; null as `det`.
+    c: Union[tuple[Union[float, None], ...], None]
     #: Home, lifted when its height was chosen.
-    home: PoseQuaternionRecord
+    home: Union[PoseQuaternionRecord, None]
     #: The axes chosen.
-    joint_axes: JointAxesRecord
+    joint_axes: Union[JointAxesRecord, None]
     #: The requirements, over many poses and by other code.
-    constraint_margins: tuple[MarginRecord, ...]
+    constraint_margins: Union[tuple[MarginRecord, ...], None]
+    #: By how much what the search demands besides them is met.
+    search_margins: Union[SearchMarginsRecord, None]
     #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     requirements_met: Union[bool, None]
     #: What `assess` says of the platform; null: the design requires nothing.
     assessment: Union[AssessAnswer, None]
     #: Whether it is equivalent to the design; null: the variables do not keep the class.
     verify: Union[VerifiedRecord, None]
+    #: Where the first objective is reached among the poses held; null: it is not the worst conditioning.
+    worst_pose: Union[WorstPoseRecord, None]
     #: Evidence of local optimality.
-    local_optimality: StationarityRecord
+    local_optimality: Union[LocalOptimalityRecord, None]
+    #: Steps of the run that found it; null in a front.
+    history: Union[tuple[SearchStepRecord, ...], None]
     #: Numbers of poses.
-    poses: HeldPosesRecord
+    poses: Union[HeldPosesRecord, None]
     #: The platform as a design.
-    design: Union[Design, None]
+    design: Design
     #: The file written.
     output: Union[str, None]
     #: The objectives in the evaluation that compared the members.
     non_dominated_at: tuple[Union[float, None], ...]
-    #: Steps of the run that found it; absent in a front.
-    history: Union[tuple[DimensionalStepRecord, ...], None]
 
 
 class GiveRecord(Record):
@@ -2150,7 +2050,7 @@ class GriffisDuffyRecord(Record):
 class HeldPosesRecord(Record):
     """Numbers of poses."""
 
-    #: Where the optimiser kept the requirements.
+    #: Where the search held the requirements.
     held: int
     #: Of the dense evaluation.
     checked: int
@@ -2384,14 +2284,14 @@ class LimitsAnswer(Record):
 class LocalOptimalityRecord(Record):
     """Evidence of local optimality."""
 
-    #: The model promised no further gain.
+    #: The model of the last step promised no further gain.
     converged: bool
-    #: Gain still promised for a unit of offset.
+    #: Gain still promised for a unit of the variables.
     stationarity: Union[float, None]
-    #: Gained by a pattern search from there.
+    #: Gained by a pattern search from there; null: none was made.
     pattern_gain: Union[float, None]
     #: Points it tried.
-    pattern_trials: int
+    pattern_trials: Union[int, None]
 
 
 class LossRecord(Record):
@@ -2831,7 +2731,7 @@ class ObjectiveRecord(Record):
     name: Objective
     #: By the dense evaluation.
     value: Union[float, None]
-    #: Over the poses at which the optimiser kept the requirements.
+    #: Over the poses at which the search held the requirements.
     at_held_poses: Union[float, None]
     #: Empty for a pure number.
     unit: str
@@ -2859,34 +2759,6 @@ class ObservabilityRecord(Record):
     unobservable: tuple[UnobservableRecord, ...]
 
 
-class OffsetLimitsRecord(Record):
-    """What was required of offsets."""
-
-    #: Of joint centres of a body, design units.
-    min_joint_distance: float
-    #: The least |det A|.
-    min_abs_det: float
-    #: By which the lengths in the Jacobian are divided.
-    characteristic_length: float
-    #: Of the offsets, edge lengths.
-    bounds: tuple[tuple[Union[float, None], ...], ...]
-    #: Label of the length unit.
-    units: str
-
-
-class OffsetMarginsRecord(Record):
-    """By how much limits of offsets are met."""
-
-    #: Least distance of two base joints less the required one, design units.
-    base_spacing: Union[float, None]
-    #: The same on the platform.
-    platform_spacing: Union[float, None]
-    #: |det A| less the required value.
-    abs_det: Union[float, None]
-    #: Least distance of an offset from its bounds.
-    bounds: Union[float, None]
-
-
 class OffsetShiftRecord(Record):
     """How an offset changes."""
 
@@ -2894,129 +2766,6 @@ class OffsetShiftRecord(Record):
     leg: int
     #: The change.
     change: Union[float, None]
-
-
-class OffsetSolutionRecord(Record):
-    """Offsets with their evidence."""
-
-    #: Worst inverse condition number.
-    objective: Union[float, None]
-    #: Zone of each offset: before, inside, beyond its edge.
-    branch: str
-    #: The numbers `t_i`, cyclic order.
-    offsets: tuple[Union[float, None], ...]
-    #: `t_i d_i`, design units.
-    shifts: tuple[Union[float, None], ...]
-    #: `d_i`, design units.
-    edge_lengths: tuple[Union[float, None], ...]
-    #: The legs of the cycle, from 1.
-    cyclic_order: tuple[int, ...]
-    #: det A by the product formula.
-    det: Union[float, None]
-    #: det A of the matrix.
-    det_of_matrix: Union[float, None]
-    #: s' = A s + c, legs in the order of the design; rows.
-    A: tuple[tuple[Union[float, None], ...], ...]
-    #: The constant terms, design units squared.
-    c: tuple[Union[float, None], ...]
-    #: By how much the limits are met.
-    constraint_margins: OffsetMarginsRecord
-    #: Where the objective is reached.
-    worst_pose: WorstPoseRecord
-    #: Evidence of local optimality.
-    local_optimality: LocalOptimalityRecord
-    #: Steps of the run that found it.
-    history: tuple[OffsetStepRecord, ...]
-
-
-class OffsetStepRecord(Record):
-    """A step of the run that found the offsets."""
-
-    #: Worst inverse condition number after the step.
-    objective: Union[float, None]
-    #: Lengths relative to the size.
-    violation: Union[float, None]
-    #: Of the trust region.
-    radius: Union[float, None]
-    #: Gain the model promised, relative.
-    predicted: Union[float, None]
-    #: Gain found, relative.
-    actual: Union[float, None]
-    #: The step was taken.
-    accepted: bool
-
-
-class OffsetsAnswer(Record):
-    """The answer of `optimize` about the offsets of an octahedral design."""
-
-    #: What came of the search.
-    status: OffsetsStatus
-    #: What is known of better ones; null: nothing, or there is no platform.
-    optimality: Union[OptimalityWord, None]
-    #: What was required.
-    requirements: OffsetLimitsRecord
-    #: The poses the worst case is taken over.
-    poses: PoseSetRecord
-    #: What `assess` says of the platform; null: there is none, or the design requires nothing.
-    assessment: Union[AssessAnswer, None]
-    #: What became of the branches.
-    branch_counts: BranchCountsRecord
-    #: What no offsets can exceed; null: not proved, or there is no solution.
-    global_bound: Union[GlobalBoundRecord, None]
-    #: Greatest gap at which the answer counts as optimal.
-    tolerance: float
-    #: The best other branches.
-    runners_up: tuple[BranchRecord, ...]
-    #: All branches: a zone for each offset.
-    branches: tuple[BranchRecord, ...]
-    #: The platform; null: there is none.
-    design: Union[Design, None]
-    #: The file written.
-    output: Union[str, None]
-    #: Worst inverse condition number.
-    objective: Union[float, None]
-    #: Zone of each offset: before, inside, beyond its edge.
-    branch: Union[str, None]
-    #: The numbers `t_i`, cyclic order.
-    offsets: tuple[Union[float, None], ...]
-    #: `t_i d_i`, design units.
-    shifts: tuple[Union[float, None], ...]
-    #: `d_i`, design units.
-    edge_lengths: tuple[Union[float, None], ...]
-    #: The legs of the cycle, from 1.
-    cyclic_order: Union[tuple[int, ...], None]
-    #: det A by the product formula.
-    det: Union[float, None]
-    #: det A of the matrix.
-    det_of_matrix: Union[float, None]
-    #: s' = A s + c, legs in the order of the design; rows.
-    A: tuple[tuple[Union[float, None], ...], ...]
-    #: The constant terms, design units squared.
-    c: tuple[Union[float, None], ...]
-    #: By how much the limits are met.
-    constraint_margins: Union[OffsetMarginsRecord, None]
-    #: Where the objective is reached.
-    worst_pose: Union[WorstPoseRecord, None]
-    #: Evidence of local optimality.
-    local_optimality: Union[LocalOptimalityRecord, None]
-    #: Steps of the run that found it.
-    history: Union[tuple[OffsetStepRecord, ...], None]
-
-
-class OffsetsFoundRecord(Record):
-    """Offsets in short."""
-
-    #: No offsets exceed the objective by more than the tolerance, and the platform meets its requirements:
-    #: proved.
-    converged: bool
-    #: Worst inverse condition number.
-    objective: Union[float, None]
-    #: The numbers `t_i`, cyclic order.
-    offsets: tuple[Union[float, None], ...]
-    #: `t_i d_i`, design units.
-    shifts: tuple[Union[float, None], ...]
-    #: det A.
-    det: Union[float, None]
 
 
 class OnHolesRecord(Record):
@@ -3041,119 +2790,120 @@ class OptimizeAnswer(Record):
 
     #: Always 1: the version of these definitions.
     schema_version: int
-    #: What the answer was made from.
-    provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
-    warnings: tuple[WarningRecord, ...]
     #: What came of the search.
-    status: Union[FrontStatus, OffsetsStatus, DimensionalStatus, None]
-    #: The members, by falling gain of the first objective.
-    front: Union[tuple[FrontMemberRecord, ...], None]
-    #: Runs that met their bounds, and were dominated by others or equal to one.
-    dominated: Union[int, None]
-    #: Bounds that no run met.
-    unmet: Union[int, None]
-    #: When infeasible.
-    conflict: Union[ConflictRecord, None]
-    #: Where there is no front because nothing meets the requirements: the freedoms that the design does
-    #: not have, each with what came of a search that had it; absent where none was looked at.
-    freedoms: Union[tuple[FreedomRecord, ...], None]
-    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
-    #: search could not break it.
-    symmetry: Union[SymmetryRecord, None]
+    status: OptimizeWord
     #: What is known of better ones; null: nothing, or there is no platform.
     optimality: Union[OptimalityWord, None]
-    #: What was required.
-    requirements: Union[OffsetLimitsRecord, None]
-    #: The poses the worst case is taken over.
-    poses: Union[PoseSetRecord, HeldPosesRecord, None]
-    #: What `assess` says of the platform; null: there is none, or the design requires nothing.
-    assessment: Union[AssessAnswer, None]
-    #: What became of the branches.
-    branch_counts: Union[BranchCountsRecord, None]
-    #: What no offsets can exceed; null: not proved, or there is no solution.
-    global_bound: Union[GlobalBoundRecord, None]
-    #: Greatest gap at which the answer counts as optimal.
-    tolerance: Union[float, None]
-    #: The best other branches.
-    runners_up: Union[tuple[BranchRecord, ...], None]
-    #: All branches: a zone for each offset.
-    branches: Union[tuple[BranchRecord, ...], None]
-    #: The platform; null: there is none.
-    design: Union[Design, None]
-    #: The file written.
-    output: Union[str, None]
-    #: Worst inverse condition number.
+    #: Value of the first objective.
     objective: Union[float, None]
-    #: Zone of each offset: before, inside, beyond its edge.
-    branch: Union[str, None]
-    #: The numbers `t_i`, cyclic order.
-    offsets: Union[tuple[Union[float, None], ...], None]
-    #: `t_i d_i`, design units.
-    shifts: tuple[Union[float, None], ...]
-    #: `d_i`, design units.
-    edge_lengths: tuple[Union[float, None], ...]
-    #: The legs of the cycle, from 1.
-    cyclic_order: Union[tuple[int, ...], None]
-    #: det A by the product formula.
-    det: Union[float, None]
-    #: det A of the matrix.
-    det_of_matrix: Union[float, None]
-    #: s' = A s + c, legs in the order of the design; rows.
-    A: tuple[tuple[Union[float, None], ...], ...]
-    #: The constant terms, design units squared.
-    c: tuple[Union[float, None], ...]
-    #: By how much the limits are met.
-    constraint_margins: Union[OffsetMarginsRecord, tuple[MarginRecord, ...], None]
-    #: Where the objective is reached.
-    worst_pose: Union[WorstPoseRecord, None]
-    #: Evidence of local optimality.
-    local_optimality: Union[LocalOptimalityRecord, StationarityRecord, None]
-    #: Steps of the run that found it.
-    history: Union[tuple[OffsetStepRecord, ...], tuple[DimensionalStepRecord, ...], None]
-    #: Where none that meets the requirements was found: the one with the least violation, which misses
-    #: some of them.
-    nearest: Union[NearestPlatformRecord, None]
-    #: The drives of a table, with what the search came to with each; absent where no table was given. The
-    #: rest of the answer is about the drive chosen; where none is, about that with which most was reached.
-    drive_search: Union[DriveSearchRecord, None]
-    #: Other local optima that meet the requirements at the poses that were held, best first; absent where
-    #: they were not asked for.
-    candidates: Union[tuple[OptimumRecord, ...], None]
-    #: How the search went.
-    search: Union[SearchRecord, None]
     #: All of them.
     objectives: Union[tuple[ObjectiveRecord, ...], None]
     #: What was chosen, axes left out.
     variables: Union[tuple[VariableRecord, ...], None]
+    #: The numbers `t_i` in cyclic order; null: no offsets were chosen.
+    offsets: Union[tuple[Union[float, None], ...], None]
+    #: `t_i d_i`, design units; null as `edge_lengths`.
+    shifts: Union[tuple[Union[float, None], ...], None]
+    #: `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    edge_lengths: Union[tuple[Union[float, None], ...], None]
+    #: The legs of the cycle, from 1; null: no offsets were chosen.
+    cyclic_order: Union[tuple[int, ...], None]
+    #: Zone of each offset: before, inside, beyond its edge; null: no offsets were chosen.
+    branch: Union[str, None]
+    #: det A of the leg map; null: the variables do not keep the class of the design.
+    det: Union[float, None]
+    #: s' = A s + c, legs in the order of the design; rows. Null as `det`.
+    A: Union[tuple[tuple[Union[float, None], ...], ...], None]
+    #: The constant terms, design units squared; null as `det`.
+    c: Union[tuple[Union[float, None], ...], None]
     #: Home, lifted when its height was chosen.
     home: Union[PoseQuaternionRecord, None]
     #: The axes chosen.
     joint_axes: Union[JointAxesRecord, None]
+    #: The requirements, over many poses and by other code.
+    constraint_margins: Union[tuple[MarginRecord, ...], None]
+    #: By how much what the search demands besides them is met.
+    search_margins: Union[SearchMarginsRecord, None]
     #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     requirements_met: Union[bool, None]
+    #: What `assess` says of the platform; null: the design requires nothing.
+    assessment: Union[AssessAnswer, None]
     #: Whether it is equivalent to the design; null: the variables do not keep the class.
     verify: Union[VerifiedRecord, None]
+    #: Where the first objective is reached among the poses held; null: it is not the worst conditioning.
+    worst_pose: Union[WorstPoseRecord, None]
+    #: Evidence of local optimality.
+    local_optimality: Union[LocalOptimalityRecord, None]
+    #: Steps of the run that found it; null in a front.
+    history: Union[tuple[SearchStepRecord, ...], None]
+    #: Numbers of poses.
+    poses: Union[HeldPosesRecord, None]
+    #: The platform as a design; null: there is none.
+    design: Union[Design, None]
+    #: The file written, with the platform or the one that comes nearest.
+    output: Union[str, None]
+    #: Where none that meets the requirements was found: the one with the least violation, which misses
+    #: some of them.
+    nearest: Union[NearestPlatformRecord, None]
+    #: What cannot be met together, where that is why there is no platform.
+    conflict: Union[ConflictRecord, None]
+    #: Why the search failed to decide, a sentence; null: it decided, or nothing failed.
+    failure: Union[str, None]
+    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
+    #: each with what came of a search that had it; null where none was looked at.
+    freedoms: Union[tuple[FreedomRecord, ...], None]
+    #: What became of the three-fold symmetry of the design; null where it has none, names one, or the
+    #: search could not break it or did not look at it.
+    symmetry: Union[SymmetryRecord, None]
+    #: The drives of a table, with what the search came to with each; null where no table was given. The
+    #: rest of the answer is about the drive chosen; where none is, about that with which most was reached.
+    drive_search: Union[DriveSearchRecord, None]
+    #: Other local optima that meet the requirements at the poses that were held, best first; null where
+    #: they were not asked for.
+    candidates: Union[tuple[OptimumRecord, ...], None]
+    #: With mode = "pareto": platforms of which none is better in every objective, by falling gain of the
+    #: first objective; else null.
+    front: Union[tuple[FrontMemberRecord, ...], None]
+    #: What the search itself was held to.
+    limits: SearchLimitsRecord
+    #: The poses that were asked for.
+    region: PoseRegionRecord
+    #: How the search went.
+    search: SearchRecord
+    #: What no platform that could be chosen can exceed at the poses held; null: not proved, or there is no
+    #: solution.
+    global_bound: Union[GlobalBoundRecord, None]
+    #: Greatest gap to that bound at which the answer counts as optimal; null: the search proves no bound.
+    tolerance: Union[float, None]
+    #: What became of the branches; null: the search has none.
+    branch_counts: Union[BranchCountsRecord, None]
+    #: The best other branches.
+    runners_up: Union[tuple[BranchRecord, ...], None]
+    #: All branches: a zone for each offset.
+    branches: Union[tuple[BranchRecord, ...], None]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
 
 
 class OptimizedRecord(Record):
-    """The platform in short."""
+    """The platform in short: the fields of the answer of `optimize` that say most."""
 
-    #: No offsets exceed the objective by more than the tolerance, and the platform meets its requirements:
-    #: proved.
-    converged: Union[bool, None]
-    #: Worst inverse condition number.
-    objective: Union[float, None]
-    #: The numbers `t_i`, cyclic order.
-    offsets: tuple[Union[float, None], ...]
-    #: `t_i d_i`, design units.
-    shifts: tuple[Union[float, None], ...]
-    #: det A.
-    det: Union[float, None]
     #: What came of the search.
-    status: Union[DimensionalStatus, None]
+    status: OptimizeWord
+    #: What is known of better ones; null: nothing.
+    optimality: Union[OptimalityWord, None]
+    #: Value of the first objective.
+    objective: Union[float, None]
     #: What was chosen, axes left out.
-    variables: Union[tuple[VariableRecord, ...], None]
+    variables: tuple[VariableRecord, ...]
+    #: The numbers `t_i` in cyclic order; null: no offsets were chosen.
+    offsets: Union[tuple[Union[float, None], ...], None]
+    #: `t_i d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    shifts: Union[tuple[Union[float, None], ...], None]
+    #: det A of the leg map; null: the variables do not keep the class of the design.
+    det: Union[float, None]
 
 
 class OptimumRecord(Record):
@@ -3265,17 +3015,6 @@ class PatternRecord(Record):
     det_zero: tuple[str, ...]
 
 
-class PlatformFoundRecord(Record):
-    """A platform under requirements in short."""
-
-    #: What came of the search.
-    status: DimensionalStatus
-    #: Value of the first objective.
-    objective: Union[float, None]
-    #: What was chosen, axes left out.
-    variables: tuple[VariableRecord, ...]
-
-
 class PoseBoundRecord(Record):
     """A proved bound on the number of isolated finite poses, counted with multiplicity."""
 
@@ -3346,14 +3085,12 @@ class PoseRecord(Record):
     p: tuple[Union[float, None], ...]
 
 
-class PoseSetRecord(Record):
-    """The poses the worst case is taken over."""
+class PoseRegionRecord(Record):
+    """The poses that a design asks for."""
 
-    #: How many.
-    count: int
     #: Where home comes from.
     home: SourceWord
-    #: Its position.
+    #: Its position in the design that the search began with.
     home_position: tuple[Union[float, None], ...]
     #: Where the workspace comes from.
     workspace: SourceWord
@@ -3643,15 +3380,63 @@ class ScaledPoseRecord(Record):
     scale: Union[float, None]
 
 
+class SearchLimitsRecord(Record):
+    """What a search is held to besides the requirements of the design."""
+
+    #: Of joint centres of a body, design units; null: none.
+    min_joint_distance: Union[float, None]
+    #: The least |det A| of platforms equivalent to the design.
+    min_abs_det: float
+    #: By which the lengths in the Jacobian are divided.
+    characteristic_length: float
+    #: Label of the length unit.
+    units: str
+
+
+class SearchMarginsRecord(Record):
+    """By how much what a search demands besides the requirements is met."""
+
+    #: |det A| less the required value; null: the variables do not keep the class of the design.
+    abs_det: Union[float, None]
+    #: Least distance of a variable from its bounds.
+    bounds: Union[float, None]
+
+
 class SearchRecord(Record):
     """How a search went."""
 
-    #: Starts that were climbed from.
-    starts: int
+    #: Which search it was.
+    method: SearchMethodWord
+    #: Starts that were climbed from; null: it begins in the branches.
+    starts: Union[int, None]
     #: Starts that led to a feasible point.
-    feasible: int
-    #: Gains; null: not feasible.
-    polished: tuple[Union[float, None], ...]
+    feasible: Union[int, None]
+    #: Gains of the polished runs; null in the list: not feasible.
+    polished: Union[tuple[Union[float, None], ...], None]
+    #: Of a front: runs that met their bounds, and were dominated by others or equal to one.
+    dominated: Union[int, None]
+    #: Of a front: bounds that no run met.
+    unmet: Union[int, None]
+
+
+class SearchStepRecord(Record):
+    """A step of the run that found a platform."""
+
+    #: Value after the step: the weighted gain of the objectives, for offsets the worst inverse condition
+    #: number.
+    objective: Union[float, None]
+    #: In the scale of its constraint; lengths relative to the size.
+    violation: Union[float, None]
+    #: Of the trust region.
+    radius: Union[float, None]
+    #: Poses held.
+    poses: int
+    #: The step was taken.
+    accepted: bool
+    #: Gain the model promised, relative; null: the search does not keep it.
+    predicted: Union[float, None]
+    #: Gain found, relative; null: the search does not keep it.
+    actual: Union[float, None]
 
 
 class SearchedDriveRecord(Record):
@@ -3886,13 +3671,6 @@ class StartRecord(Record):
     closed_form: Union[float, None]
 
 
-class StationarityRecord(Record):
-    """Evidence of local optimality."""
-
-    #: Gain still promised for a unit of the variables.
-    stationarity: Union[float, None]
-
-
 class StiffnessRecord(Record):
     """Stiffness and natural motions at a pose."""
 
@@ -4039,8 +3817,12 @@ class VariableRecord(Record):
 
     #: Which.
     name: str
-    #: Its value.
+    #: Its value in the design that the search began with.
+    start: Union[float, None]
+    #: Its value in the platform.
     value: Union[float, None]
+    #: Least and greatest value that it may have.
+    bounds: tuple[Union[float, None], ...]
 
 
 class VerifiedRecord(Record):
@@ -4191,7 +3973,7 @@ class WorstErrorsRecord(Record):
 class WorstPoseRecord(Record):
     """The pose with the worst conditioning."""
 
-    #: Its place among the poses, from 0.
+    #: Its place among the poses held, from 0.
     index: int
     #: Rows of the rotation matrix.
     R: tuple[tuple[Union[float, None], ...], ...]
@@ -4200,6 +3982,8 @@ class WorstPoseRecord(Record):
 
 
 DemandWord = Union[TermKind, Objective, SpecialDemand]
+
+DesignJointModels = Union[DesignJointModel, tuple[DesignJointModel, ...]]
 
 DesignNotNegative = float
 

@@ -1,10 +1,12 @@
-//! Requirements that cannot be met together.
+//! What cannot be met together.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{BranchRecord, BranchWord};
 use crate::design::Design;
 use crate::dimensional::{ConstraintConflict, Demand, Give};
+use crate::offsets::Conflict;
 use crate::records::Number;
 use crate::requirements::{Objective, TermKind};
 
@@ -13,8 +15,22 @@ use crate::requirements::{Objective, TermKind};
 pub struct ConflictRecord {
     /// The set is proved to be in conflict.
     pub proved: bool,
-    /// What would have to give.
+    /// What would have to give; empty where every branch is empty for reasons of its own.
     pub requirements: Vec<GiveRecord>,
+    /// Why the branches of the offsets are empty, by kind; empty where the search has no branches.
+    pub reasons: Vec<ConflictReasonRecord>,
+}
+
+/// A kind of proof that branches of the offsets are empty.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct ConflictReasonRecord {
+    /// A short stable code.
+    #[schemars(extend("enum" = Conflict::CODES))]
+    pub code: String,
+    /// Branches with this as their first proof.
+    pub branches: usize,
+    /// One sentence with the numbers of one of them.
+    pub message: String,
 }
 
 impl ConflictRecord {
@@ -24,7 +40,32 @@ impl ConflictRecord {
         Self {
             proved: c.proved,
             requirements: c.demands.iter().map(|g| GiveRecord::new(design, g)).collect(),
+            reasons: Vec::new(),
         }
+    }
+
+    /// Why all branches are empty.
+    pub(super) fn of_branches(branches: &[BranchRecord]) -> Self {
+        Self { proved: true, requirements: Vec::new(), reasons: ConflictReasonRecord::all(branches) }
+    }
+}
+
+impl ConflictReasonRecord {
+    /// The reasons of the branches that are proved empty, by their codes.
+    #[must_use]
+    pub fn all(branches: &[BranchRecord]) -> Vec<Self> {
+        let mut kinds: Vec<Self> = Vec::new();
+        let empty = branches.iter().filter(|b| b.verdict == BranchWord::Infeasible);
+        for c in empty.filter_map(|b| b.conflicts.first()) {
+            match kinds.iter_mut().find(|kind| kind.code == c.code) {
+                Some(kind) => kind.branches += 1,
+                None => {
+                    kinds.push(Self { code: c.code.clone(), branches: 1, message: c.message.clone() });
+                }
+            }
+        }
+        kinds.sort_by(|a, b| a.code.cmp(&b.code));
+        kinds
     }
 }
 

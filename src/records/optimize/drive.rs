@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ConflictRecord, DimensionalStatus, SymmetryRecord};
+use super::{ConflictRecord, OptimizeWord, SymmetryRecord};
 use crate::dimensional::DimensionalOutcome;
 use crate::entrance::drive_search::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive};
 use crate::records::{MarginRecord, Number};
@@ -97,10 +97,10 @@ impl DriveSearchWord {
         if driven.found.is_met() {
             return Self::Met;
         }
-        match DimensionalStatus::from(driven.found.status()) {
-            DimensionalStatus::Violated => Self::Violated,
-            DimensionalStatus::Infeasible => Self::Infeasible,
-            DimensionalStatus::Interrupted => Self::Interrupted,
+        match OptimizeWord::from(driven.found.status()) {
+            OptimizeWord::Violated => Self::Violated,
+            OptimizeWord::Infeasible => Self::Infeasible,
+            OptimizeWord::Interrupted => Self::Interrupted,
             _ => Self::Undecided,
         }
     }

@@ -93,6 +93,11 @@ impl CellJudge<'_> {
                 .collect()
             }
             kind if kind.is_of_platform() => vec![Function::Platform(kind)],
+            // joints of other kinds have no such angle
+            kind if kind.hinge().is_some() => {
+                let has_limit = |i: &usize| self.required.hardware.angle_limit_deg(kind, *i).is_some();
+                (0..6).filter(has_limit).map(|i| Function::Leg(kind, i)).collect()
+            }
             _ => (0..6).map(|i| Function::Leg(kind, i)).collect(),
         }
     }

@@ -55,6 +55,7 @@ impl JointOffsets {
         for end in (0..2).filter(|end| needed[*end]) {
             let Some(joint) = joints[end] else { continue };
             for (axis, given) in axes[end].iter_mut().zip(&joint.first_axes) {
+                let given = (*given)?;
                 *axis = unit(&std::array::from_fn(|k| Interval::from(given[k])))?;
             }
         }

@@ -18,8 +18,8 @@ impl CellJudge<'_> {
     /// The angle of a universal joint, for the kinds that are one.
     pub(super) fn hinge(&self, kind: TermKind, leg: usize) -> Option<HingeLimit<'_>> {
         let (body, angle) = kind.hinge()?;
-        let limit_deg = self.required.hardware.angle_limit_deg(kind)?;
-        let first = self.required.hardware.universal(body)?.first_axes[leg];
+        let limit_deg = self.required.hardware.angle_limit_deg(kind, leg)?;
+        let first = self.required.hardware.universal(body)?.first_axes[leg]?;
         let (axis, _) = &self.axes[body.index()][leg];
         let first: IntervalVector = std::array::from_fn(|k| Interval::from(first[k]));
         let frame = HingeFrame::new(&first, axis)?;
@@ -48,7 +48,7 @@ impl CellJudge<'_> {
             _ => return None,
         };
         let (axis, length) = &self.axes[body][leg];
-        SwingCone::new(self.m, leg, body == 1, axis, *length, swing.limit_deg)
+        SwingCone::new(self.m, leg, body == 1, axis, *length, swing.limits_deg[leg])
     }
 
     /// A function of a joint that grows with the room left to a side of the envelope: the negative square of the distance from the axis of a cylinder, the distance from a side
@@ -156,7 +156,7 @@ impl CellJudge<'_> {
                 (once, once + Interval::from(stroke))
             }
         });
-        let swing = |s: Option<Swing>| Interval::from(s.map_or(f64::INFINITY, |s| s.limit_deg));
+        let swing = |s: Option<Swing>| Interval::from(s.map_or(f64::INFINITY, |s| s.limits_deg[leg]));
         if self.joints.is_some_and(JointOffsets::have_lead) {
             let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));
             match kind {

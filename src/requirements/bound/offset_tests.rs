@@ -29,9 +29,9 @@ fn with_offsets(
             let line = home.transform(&leg.platform) - leg.base;
             let aside = Vector3::from_fn(|_, _| rng.normal());
             let across = line.cross(&aside).normalize() + 0.2 * aside / aside.norm();
-            Unit::new_normalize(if end == 0 { across } else { home.rotation.inverse() * across })
+            Some(Unit::new_normalize(if end == 0 { across } else { home.rotation.inverse() * across }))
         });
-        let limits_deg = Some([80.0, 85.0]);
+        let limits_deg = [Some([80.0, 85.0]); 6];
         UniversalJoint { first_axes: axes, limits_deg, axes: JointAxes::Home, offset: offsets[end] }
     };
     let [base, platform] = [joint(0), joint(1)];
@@ -172,10 +172,10 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
             hardware: Hardware {
                 leg_length: Some(LengthLimits::Range(0.1, longest)),
                 max_leg_speed: Some(speed),
-                base_universal: offsets.base_universal.map(|j| UniversalJoint { limits_deg: None, ..j }),
+                base_universal: offsets.base_universal.map(|j| UniversalJoint { limits_deg: [None; 6], ..j }),
                 platform_universal: offsets
                     .platform_universal
-                    .map(|j| UniversalJoint { limits_deg: None, ..j }),
+                    .map(|j| UniversalJoint { limits_deg: [None; 6], ..j }),
                 screw_lead: offsets.screw_lead,
                 ..Hardware::default()
             },
@@ -214,15 +214,15 @@ fn upright_legs_with_offsets_are_those_by_hand() {
     let m = Manipulator::try_new(ring.clone(), ring, std::array::from_fn(|i| (i, i))).unwrap();
     let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 10.0) };
     let joint = |offset| UniversalJoint {
-        first_axes: [Vector3::x_axis(); 6],
-        limits_deg: Some([30.0, 30.0]),
+        first_axes: [Some(Vector3::x_axis()); 6],
+        limits_deg: [Some([30.0, 30.0]); 6],
         axes: JointAxes::Home,
         offset,
     };
     let mut required = Requirements {
         hardware: Hardware {
             base_universal: Some(joint(1.0)),
-            platform_swing: Some(Swing { limit_deg: 30.0, axes: JointAxes::Home }),
+            platform_swing: Some(Swing::of_all(30.0, JointAxes::Home)),
             leg_length: Some(LengthLimits::Range(8.0, 12.0)),
             ..Hardware::default()
         },

@@ -71,8 +71,8 @@ pub(super) fn poses_of(space: &PoseSpace, count: usize, rng: &mut Rng) -> Vec<Po
 pub(super) fn everything() -> Requirements {
     let hardware = Hardware {
         leg_length: Some(LengthLimits::Range(0.5, 60.0)),
-        base_swing: Some(Swing { limit_deg: 100.0, axes: JointAxes::Home }),
-        platform_swing: Some(Swing { limit_deg: 100.0, axes: JointAxes::Home }),
+        base_swing: Some(Swing::of_all(100.0, JointAxes::Home)),
+        platform_swing: Some(Swing::of_all(100.0, JointAxes::Home)),
         leg_body: Some(LegBody { diameter: 0.3, rod: Some((6.0, 0.2)) }),
         leg_clearance: Some(0.05),
         joint_diameter: Some(0.4),
@@ -174,7 +174,7 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
         let with = |length: f64, swing: f64, speed: f64| {
             let hardware = Hardware {
                 leg_length: Some(LengthLimits::Range(0.1, length)),
-                platform_swing: Some(Swing { limit_deg: swing, axes: JointAxes::Home }),
+                platform_swing: Some(Swing::of_all(swing, JointAxes::Home)),
                 max_leg_speed: Some(speed),
                 ..Hardware::default()
             };
@@ -499,8 +499,8 @@ fn stiffness_and_frequency_are_bounded_and_decided() {
 }
 
 fn universal(first_axes: [Vector3<f64>; 6], limits_deg: [f64; 2]) -> UniversalJoint {
-    let first_axes = first_axes.map(Unit::new_normalize);
-    UniversalJoint { first_axes, limits_deg: Some(limits_deg), axes: JointAxes::Home, offset: 0.0 }
+    let first_axes = first_axes.map(|a| Some(Unit::new_normalize(a)));
+    UniversalJoint { first_axes, limits_deg: [Some(limits_deg); 6], axes: JointAxes::Home, offset: 0.0 }
 }
 
 /// The kinds of the angles, with the least margins found and proved.

@@ -89,11 +89,13 @@ impl CoupledLegs {
     pub fn new(m: &Manipulator, hardware: &Hardware, home: &Pose) -> Result<Self, NoDriveLength> {
         let lead = hardware.screw_lead.unwrap_or(0.0) / std::f64::consts::TAU;
         let joints = Body::BOTH.map(|body| hardware.universal(body));
-        if lead != 0.0 && joints.iter().any(Option::is_none) {
+        if lead != 0.0 && joints.iter().any(|joint| !joint.is_some_and(|j| j.is_of_all())) {
             return Err(NoDriveLength::LeadOfBalls);
         }
-        let axes =
-            joints.map(|j| j.map_or([Vector3::zeros(); 6], |j| j.first_axes.map(nalgebra::Unit::into_inner)));
+        let axes = joints.map(|j| {
+            let first = |axis: Option<nalgebra::Unit<Vector3<f64>>>| axis.map_or(Vector3::zeros(), |a| *a);
+            j.map_or([Vector3::zeros(); 6], |j| j.first_axes.map(first))
+        });
         let offsets = joints.map(|j| j.map_or(0.0, |j| j.offset));
         let mut out = Self { manipulator: m.clone(), axes, offsets, lead, home: *home, at_home: [0.0; 6] };
         if lead != 0.0 {

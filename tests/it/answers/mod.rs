@@ -20,7 +20,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
 use self::asked::{Files, asked, seen};
-use self::validator::Validator;
+pub(crate) use self::validator::Validator;
 use super::cli_frame::equipod;
 
 /// Reads a document as its type and writes it again.

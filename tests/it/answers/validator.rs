@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 /// The first thing that is wrong, at the deepest place where alternatives differ.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Fault {
+pub(crate) struct Fault {
     depth: usize,
     text: String,
 }
@@ -21,17 +21,17 @@ impl std::fmt::Display for Fault {
 type Named = Vec<BTreeSet<String>>;
 
 /// A schema with its definitions.
-pub(super) struct Validator<'a> {
+pub(crate) struct Validator<'a> {
     root: &'a Map<String, Value>,
 }
 
 impl<'a> Validator<'a> {
-    pub(super) fn new(root: &'a Map<String, Value>) -> Self {
+    pub(crate) fn new(root: &'a Map<String, Value>) -> Self {
         Self { root }
     }
 
     /// Whether a document fits, with no key that the schema does not name.
-    pub(super) fn check(&self, document: &Value) -> Result<(), Fault> {
+    pub(crate) fn check(&self, document: &Value) -> Result<(), Fault> {
         let start = self.root["$ref"].as_str().unwrap();
         self.closed(self.resolve(start), document, &mut Vec::new())
     }

@@ -532,7 +532,7 @@ fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
         name: r.design.name.clone(),
         paths: folder.written().collect(),
         family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
-        optimize: r.search.key_figures(),
+        optimize: r.search.key_figures(&r.design),
         verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
         holes: r.holes.as_ref().map(OnHolesRecord::from),
         symmetry: r.search.symmetry(),

@@ -13,7 +13,7 @@ use crate::export::PART_COLUMNS;
 use crate::fk::{Completeness, FkSolutions};
 use crate::manipulator::LegIndex;
 use crate::offsets::OffsetSolution;
-use crate::records::{AssessAnswer, DriveSearchRecord, LengthsOrigin, Number, SourceWord};
+use crate::records::{AssessAnswer, DriveSearchRecord, LengthsOrigin, Number};
 use crate::synthesis::AffineLegMap;
 
 /// The whole report. Writing to a string cannot fail, so the results of `write!` are dropped.
@@ -78,14 +78,14 @@ fn inputs(out: &mut String, r: &Results) {
         return;
     };
     let p = &done.problem;
-    let given = |origin| if origin == SourceWord::Design { "of the design" } else { "default" };
+    let given = |by_design| if by_design { "of the design" } else { "default" };
     let _ = writeln!(
         out,
         "\nHome pose: {}. Worst case over {} poses, workspace: {}. Joints of one body at least {} {} apart, \
          |det A| at least {}, characteristic length {} {}.\n",
-        given(done.set.home_origin),
+        given(d.home.is_some()),
         p.poses.len(),
-        given(done.set.workspace_origin),
+        given(!d.workspace.is_empty()),
         p.min_joint_distance,
         plain(&d.units),
         p.min_abs_det,
@@ -235,8 +235,8 @@ fn platform(out: &mut String, r: &Results, done: &dimensional::Done) {
         let unit = objective.quantity().map_or_else(String::new, |q| r.design.unit_of(q));
         let _ = writeln!(out, "| {} | {value:.6} {} |", plain(objective.code()), plain(&unit));
     }
-    for (name, value) in &s.variables {
-        let _ = writeln!(out, "| {} | {value:.6} |", plain(name));
+    for v in &s.variables {
+        let _ = writeln!(out, "| {} | {:.6} |", plain(&v.name), v.value);
     }
     out.push('\n');
     if r.search.keeps_class() && r.search.offsets().is_some() {

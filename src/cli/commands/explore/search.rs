@@ -10,17 +10,14 @@ use crate::cli::output::document;
 use crate::cli::progress::ProgressLine;
 use crate::design::{Combination, Design};
 use crate::dimensional::{Progress, ShapeSearchOptions, Stage, Triangles};
-use crate::entrance::AssessReport;
-use crate::entrance::optimizing::{
-    Checked, EXTENSION, asks_for_more, dimensional_problem, met_or_nothing_required,
-};
+use crate::entrance::optimizing::{Checked, EXTENSION, asks_for_more, dimensional_problem};
 use crate::entrance::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
 use crate::equivalence::Verdict;
 use crate::manufacture::NoRounding;
 use crate::offsets;
 use crate::records::{
-    AssessAnswer, DriveSearchRecord, FreedomRecord, OffsetsFoundRecord, OptimizedRecord, PlatformFoundRecord,
-    ProvenanceRecord, SymmetryRecord,
+    AssessAnswer, DriveSearchRecord, FreedomRecord, OptimizeAnswer, OptimizedRecord, ProvenanceRecord,
+    SymmetryRecord,
 };
 use crate::requirements::StartSymmetry;
 
@@ -162,8 +159,8 @@ impl Search {
         let lengths = design.lengths.map(|l| l.squared());
         match &mut self {
             Self::Offsets(done) => {
-                if let (Some(new), Some(s)) = (&mut done.optimised, done.report.solution()) {
-                    new.lengths = lengths.and_then(|l| s.map.apply(&l).ok()).map(|s| s.lengths());
+                if let (Some(c), Some(s)) = (&mut done.checked, done.report.solution()) {
+                    c.design.lengths = lengths.and_then(|l| s.map.apply(&l).ok()).map(|s| s.lengths());
                 }
             }
             Self::Dimensions(done) => {
@@ -178,18 +175,23 @@ impl Search {
         self
     }
 
+    /// The platform found, judged.
+    fn checked(&self) -> Option<&Checked> {
+        match self {
+            Self::Offsets(done) => done.checked.as_ref(),
+            Self::Dimensions(done) => done.checked.as_ref(),
+        }
+    }
+
     /// The platform found.
     pub(super) fn optimised(&self) -> Option<&Design> {
-        match self {
-            Self::Offsets(done) => done.optimised.as_ref(),
-            Self::Dimensions(done) => done.checked.as_ref().map(|c| &c.design),
-        }
+        self.checked().map(|c| &c.design)
     }
 
     /// The platform found, or the one that misses the requirements least.
     pub(super) fn closest(&self) -> Option<&Design> {
         match self {
-            Self::Offsets(done) => done.optimised.as_ref(),
+            Self::Offsets(done) => done.optimised(),
             Self::Dimensions(done) => done.checked.as_ref().or(done.nearest.as_ref()).map(|c| &c.design),
         }
     }
@@ -218,24 +220,15 @@ impl Search {
         found.map(Some).map_err(|why| Failure::internal(why.to_string()))
     }
 
-    fn assessed(&self) -> Option<&AssessReport> {
-        match self {
-            Self::Offsets(done) => done.assessed.as_ref(),
-            Self::Dimensions(done) => done.checked.as_ref().and_then(|c| c.assessed.as_ref()),
-        }
-    }
-
     /// What `assess` says of the platform found; `None` without one, or where nothing is required.
     pub(super) fn assessment(&self) -> Option<AssessAnswer> {
-        Some(AssessAnswer::new(self.optimised()?, self.assessed()?))
+        let c = self.checked()?;
+        Some(AssessAnswer::new(&c.design, c.assessed.as_ref()?))
     }
 
     /// Whether the platform found meets what is required; `Some(true)` where nothing is.
     pub(super) fn met(&self) -> Option<bool> {
-        match self {
-            Self::Offsets(done) => met_or_nothing_required(done.assessed.as_ref()),
-            Self::Dimensions(done) => done.checked.as_ref().map_or(Some(true), Checked::met),
-        }
+        self.checked().map_or(Some(true), Checked::met)
     }
 
     /// Whether the platform has the kinematics of the design by its making: with other triangles it has not.
@@ -250,7 +243,7 @@ impl Search {
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::Offsets(done) => done.exit(),
-            Self::Dimensions(done) => dimensional::exit_of(done.status()),
+            Self::Dimensions(done) => optimize::exit_of(done.status()),
         }
     }
 
@@ -266,18 +259,17 @@ impl Search {
         }
     }
 
-    /// The key figures.
-    pub(super) fn key_figures(&self) -> Option<OptimizedRecord> {
+    /// The answer of `optimize`.
+    fn answer(&self, design: &Design) -> OptimizeAnswer {
         match self {
-            Self::Offsets(done) => done
-                .report
-                .solution()
-                .map(|s| OptimizedRecord::Offsets(OffsetsFoundRecord::new(s, done.is_optimal()))),
-            Self::Dimensions(done) => {
-                let (s, c) = (done.report.solution()?, done.checked.as_ref()?);
-                Some(OptimizedRecord::Platform(PlatformFoundRecord::new(c, s, &done.report)))
-            }
+            Self::Offsets(done) => done.record(design, None),
+            Self::Dimensions(done) => done.record(design, None),
         }
+    }
+
+    /// The key figures.
+    pub(super) fn key_figures(&self, design: &Design) -> Option<OptimizedRecord> {
+        OptimizedRecord::new(&self.answer(design))
     }
 
     /// Writes the answer of `optimize`.
@@ -287,10 +279,7 @@ impl Search {
         provenance: ProvenanceRecord,
         folder: &mut Folder,
     ) -> Result<(), Failure> {
-        let text = match self {
-            Self::Offsets(done) => document(done.record(design, None), provenance, &[])?,
-            Self::Dimensions(done) => document(done.record(design, None), provenance, &[])?,
-        };
+        let text = document(self.answer(design), provenance, &[])?;
         folder.write(super::folder::OPTIMIZE, &text)
     }
 }

@@ -7,7 +7,6 @@ use crate::cli::commands::build::drives;
 use crate::cli::commands::verify::failure_of;
 use crate::cli::commands::{GENERAL, NEAREST};
 use crate::cli::context::Context;
-use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::progress::{Interrupt, ProgressLine};
@@ -18,11 +17,10 @@ use crate::dimensional::{
 use crate::entrance::Error;
 use crate::entrance::drive_search::{DriveSearch, search_drives};
 use crate::entrance::freedoms::{ConflictFreedom, FreedomOutcome, FreedomSearch, OpenedFreedom};
-use crate::entrance::optimizing::{Checked, checked};
+use crate::entrance::optimizing::{Checked, checked, dimensional_status};
 use crate::entrance::platform_search::{FoundPlatform, find_platform};
 use crate::records::{
-    DimensionalAnswer, DimensionalStatus, DriveSearchRecord, FreedomRecord, OptimumRecord,
-    PlatformFoundRecord, SymmetryRecord,
+    DriveSearchRecord, FreedomRecord, OptimizeAnswer, OptimizeWord, OptimumRecord, SymmetryRecord,
 };
 use crate::requirements::StartSymmetry;
 
@@ -81,19 +79,15 @@ impl Done {
     }
 
     /// What became of the search, over all drives where there are some.
-    pub(in crate::cli::commands) fn status(&self) -> DimensionalStatus {
+    pub(in crate::cli::commands) fn status(&self) -> OptimizeWord {
         if self.drives.as_ref().is_some_and(|d| d.search.interrupted) {
-            return DimensionalStatus::Interrupted;
+            return OptimizeWord::Interrupted;
         }
-        PlatformFoundRecord::status_of(&self.report, self.checked.as_ref())
+        dimensional_status(&self.report, self.checked.as_ref()).into()
     }
 
     /// The answer about it.
-    pub(in crate::cli::commands) fn record(
-        &self,
-        design: &Design,
-        written: Option<&str>,
-    ) -> DimensionalAnswer {
+    pub(in crate::cli::commands) fn record(&self, design: &Design, written: Option<&str>) -> OptimizeAnswer {
         let design = self.asked(design);
         let found = self.checked.as_ref().or(self.nearest.as_ref());
         let of = |((s, c), path): ((&DimensionalSolution, &Checked), &String)| {
@@ -103,10 +97,10 @@ impl Done {
             self.report.others.iter().zip(list).zip(&self.candidate_paths).map(of).collect()
         };
         let candidates = self.candidates.as_ref().map(all);
-        let found = DimensionalAnswer::new(design, &self.report, found, written);
+        let found = OptimizeAnswer::of_platform(design, &self.problem, &self.report, found, written);
         let status = self.status();
-        let optimality = found.optimality.filter(|_| status == DimensionalStatus::Optimal);
-        DimensionalAnswer {
+        let optimality = found.optimality.filter(|_| status == OptimizeWord::Optimal);
+        OptimizeAnswer {
             status,
             optimality,
             freedoms: self.freedoms(design),
@@ -120,17 +114,6 @@ impl Done {
     /// The platform to write: the one found, or the one that comes nearest.
     pub(super) fn platform(&self) -> Option<&Design> {
         self.checked.as_ref().or(self.nearest.as_ref()).map(|c| &c.design)
-    }
-}
-
-/// What the status means for the exit code.
-pub(in crate::cli::commands) fn exit_of(status: DimensionalStatus) -> Exit {
-    match status {
-        DimensionalStatus::Optimal => Exit::Yes,
-        DimensionalStatus::Infeasible | DimensionalStatus::Violated => Exit::No,
-        DimensionalStatus::Feasible | DimensionalStatus::Undecided | DimensionalStatus::Interrupted => {
-            Exit::Inconclusive
-        }
     }
 }
 
@@ -200,7 +183,7 @@ pub(in crate::cli::commands) fn open_freedoms(
     folder: Option<&Path>,
     progress: &mut dyn FnMut(ConflictFreedom, Progress) -> ControlFlow<()>,
 ) -> Result<(), Failure> {
-    if done.checked.is_some() || done.status() == DimensionalStatus::Interrupted {
+    if done.checked.is_some() || done.status() == OptimizeWord::Interrupted {
         return Ok(());
     }
     let design = done.asked(design);

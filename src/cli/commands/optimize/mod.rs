@@ -1,34 +1,31 @@
 //! `equipod optimize`: the best platform equivalent to a design, or the best under its requirements.
 
 pub(super) mod dimensional;
-mod dimensional_text;
 mod front;
 mod history;
 mod render;
 
-pub(super) use self::dimensional_text::drives_text;
+pub(super) use self::render::drives_text;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use crate::cli::commands::verify::failure_of;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
-use crate::cli::poses;
 use crate::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::design::{Combination, Design};
 use crate::dimensional::InvalidProblem;
-use crate::entrance::AssessReport;
 use crate::entrance::optimizing::{
-    EXTENSION, asks_for_more, dimensional_problem, met_or_nothing_required, offset_problem, optimised_design,
+    Checked, EXTENSION, asks_for_more, checked_offsets, dimensional_problem, offset_problem, offset_status,
 };
-use crate::geom::Pose;
 use crate::manipulator::Octahedral;
-use crate::offsets::{self, OffsetProblem, OffsetReport, OffsetSearchOptions, optimize};
+use crate::offsets::{self, OffsetProblem, OffsetReport, OffsetSearchOptions, OffsetSolution, optimize};
 use crate::plot::SearchStep;
-use crate::records::{OffsetsAnswer, OffsetsFound, OffsetsStatus, OptimizeAnswer, SourceWord};
+use crate::records::{OptimizeAnswer, OptimizeWord};
 
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
@@ -85,26 +82,6 @@ pub(super) fn workers(asked: Option<u16>) -> usize {
     asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
 }
 
-/// The poses the worst case is taken over, and where they come from.
-#[derive(Debug)]
-pub(crate) struct WorstCasePoses {
-    pub(crate) poses: Vec<Pose>,
-    pub(crate) home: Pose,
-    pub(crate) home_origin: SourceWord,
-    pub(crate) workspace_origin: SourceWord,
-}
-
-fn pose_set(design: &Design) -> WorstCasePoses {
-    let (home, (workspace, workspace_given)) = (poses::home(design), poses::workspace(design));
-    let poses = workspace.sample(&home);
-    WorstCasePoses {
-        poses,
-        home,
-        home_origin: SourceWord::given(design.home.is_some()),
-        workspace_origin: SourceWord::given(workspace_given),
-    }
-}
-
 /// Optimises, and writes the design when asked to.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
@@ -136,12 +113,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         }
         let written = write(args.output.as_deref(), done.platform())?;
         let record = done.record(&design, written.as_deref());
-        let text = dimensional_text::text(&design.name, &record, &done.report.outcome);
-        return Ok(Answer::new(
-            dimensional::exit_of(record.status),
-            OptimizeAnswer::Dimensional(Box::new(record)),
-            text,
-        ));
+        return Ok(answered(&design, record, context));
     }
     context.no_effect(
         "candidates",
@@ -165,7 +137,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         interrupt.flow()
     })?;
     progress.end();
-    let written = write(args.output.as_deref(), done.optimised.as_ref())?;
+    let written = write(args.output.as_deref(), done.optimised())?;
     if let (Some(path), Some(s)) = (&args.history, done.report.solution()) {
         let of = |h: &offsets::OffsetHistoryStep| {
             (SearchStep { value: h.value, violation: h.violation, accepted: h.accepted }, h.radius)
@@ -174,12 +146,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         history::write(path, &design, "worst inverse condition number", &rows)?;
     }
     let record = done.record(&design, written.as_deref());
-    let text = if context.json() {
-        String::new()
-    } else {
-        render::text(&design, &record, &done.problem, done.report.solution())
-    };
-    Ok(Answer::new(exit_of(record.status), OptimizeAnswer::Offsets(Box::new(record)), text))
+    Ok(answered(&design, record, context))
+}
+
+/// An answer with its text and its exit code.
+fn answered(design: &Design, record: OptimizeAnswer, context: &Context) -> Answer {
+    let text = if context.json() { String::new() } else { render::text(&design.name, &record) };
+    Answer::new(exit_of(record.status), record, text)
 }
 
 /// Refuses `--extension` in a search under requirements that does not ask it.
@@ -221,53 +194,33 @@ pub(super) fn check_extension(extension: f64) -> Result<(), Failure> {
 #[derive(Debug)]
 pub(super) struct Done {
     pub(super) problem: OffsetProblem,
-    pub(super) set: WorstCasePoses,
     pub(super) report: OffsetReport,
-    /// The optimised platform, when there is one.
-    pub(super) optimised: Option<Design>,
-    /// What `assess` says of it; `None` where nothing is required.
-    pub(super) assessed: Option<AssessReport>,
+    /// The platform found.
+    pub(super) checked: Option<Checked>,
 }
 
 impl Done {
     /// The answer about it.
-    pub(super) fn record(&self, design: &Design, written: Option<&str>) -> OffsetsAnswer {
-        let found = OffsetsFound {
-            design,
-            problem: &self.problem,
-            report: &self.report,
-            home: &self.set.home,
-            home_origin: self.set.home_origin,
-            workspace_origin: self.set.workspace_origin,
-            optimised: self.optimised.as_ref(),
-            assessed: self.assessed.as_ref(),
-        };
-        OffsetsAnswer::new(&found, written)
+    pub(super) fn record(&self, design: &Design, written: Option<&str>) -> OptimizeAnswer {
+        OptimizeAnswer::of_offsets(design, &self.problem, &self.report, self.checked.as_ref(), written)
     }
 
-    fn status(&self) -> OffsetsStatus {
-        OffsetsStatus::of(&self.report, met_or_nothing_required(self.assessed.as_ref()))
-    }
-
-    /// Whether the offsets are proved to be the best, on a platform that meets its requirements.
-    pub(super) fn is_optimal(&self) -> bool {
-        self.status() == OffsetsStatus::Optimal
+    /// The optimised platform, when there is one.
+    pub(super) fn optimised(&self) -> Option<&Design> {
+        self.checked.as_ref().map(|c| &c.design)
     }
 
     pub(super) fn exit(&self) -> Exit {
-        exit_of(self.status())
+        exit_of(offset_status(&self.report, self.checked.as_ref()).into())
     }
 }
 
 /// What the status means for the exit code.
-fn exit_of(status: OffsetsStatus) -> Exit {
+pub(super) fn exit_of(status: OptimizeWord) -> Exit {
     match status {
-        OffsetsStatus::Optimal => Exit::Yes,
-        OffsetsStatus::Infeasible | OffsetsStatus::Violated => Exit::No,
-        OffsetsStatus::LocalOptimum
-        | OffsetsStatus::Feasible
-        | OffsetsStatus::Undecided
-        | OffsetsStatus::Interrupted => Exit::Inconclusive,
+        OptimizeWord::Optimal | OptimizeWord::Front => Exit::Yes,
+        OptimizeWord::Infeasible | OptimizeWord::Violated => Exit::No,
+        OptimizeWord::Feasible | OptimizeWord::Undecided | OptimizeWord::Interrupted => Exit::Inconclusive,
     }
 }
 
@@ -279,8 +232,8 @@ pub(super) fn search(
     seed: u64,
     progress: &mut dyn FnMut(offsets::OffsetProgress) -> ControlFlow<()>,
 ) -> Result<Done, Failure> {
-    let set = pose_set(design);
-    let problem = offset_problem(design, octahedral, set.poses.clone(), choices.extension);
+    let poses = design.workspace_or_default().sample(&design.home_or_default());
+    let problem = offset_problem(design, octahedral, poses, choices.extension);
     let options = OffsetSearchOptions {
         seed,
         threads: workers(choices.threads),
@@ -290,7 +243,7 @@ pub(super) fn search(
     };
     let report = optimize(&problem, &options, progress)
         .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
-    let optimised = report.solution().map(|s| optimised_design(design, &problem, s, report.seed));
-    let assessed = optimised.as_ref().and_then(|d| d.assessed(seed));
-    Ok(Done { problem, set, report, optimised, assessed })
+    let of = |s: &OffsetSolution| checked_offsets(design, &problem, s, seed).map_err(|e| failure_of(&e));
+    let checked = report.solution().map(of).transpose()?;
+    Ok(Done { problem, report, checked })
 }
