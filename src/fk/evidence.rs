@@ -91,7 +91,8 @@ impl Known<'_> {
     /// The smallest cluster near a pose at which so many paths ended, with the root that is beside it where there is just one; else, as far as it can be proved, one of so many roots.
     fn together(&self, pose: &ComplexPose, ends: usize) -> Option<Together> {
         let mut best: Option<ProvedCluster> = None;
-        for found in self.certifier.clusters_near(pose) {
+        // more roots than paths would be those of paths that went elsewhere
+        for found in self.certifier.clusters_near(pose, ends.max(2)) {
             let apart = |k: &ClusterCertificate| k.enclosure().is_disjoint(found.1.enclosure());
             if !self.clusters.iter().all(apart) {
                 break;

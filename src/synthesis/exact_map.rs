@@ -227,6 +227,24 @@ mod tests {
         }
     }
 
+    /// All offsets at once: legs that stay have no share, and the polynomial is zero where the platform is singular.
+    #[test]
+    fn the_singular_offsets_are_the_zeros_of_one_polynomial() {
+        let octahedral = slid(&std::array::from_fn(|_| Surd::zero()));
+        let of = |t: [i64; 6]| {
+            let map = ExactMap::between(&octahedral, &slid(&t.map(|n| surd(n, 5)))).unwrap();
+            (map.determinant_of_shares(), map.determinant)
+        };
+        let all = "(1 - t1) (1 - t2) (1 - t3) (1 - t4) (1 - t5) (1 - t6) - t1 t2 t3 t4 t5 t6";
+        assert_eq!(of([1, 2, 3, 1, 2, 4]).0.as_deref(), Some(all));
+        // each t beside its 1 - t: the same polynomial, and zero
+        let (polynomial, determinant) = of([1, 4, 2, 3, 1, 4]);
+        assert_eq!((polynomial.as_deref(), determinant.is_zero()), (Some(all), true));
+        // with one leg where it was the product of the shares is zero, and only a share of one is singular
+        assert_eq!(of([0, 2, 3, 1, 0, 4]).0.as_deref(), Some("(1 - t2) (1 - t3) (1 - t4) (1 - t6)"));
+        assert_eq!(of([0; 6]), (None, Surd::integer(1)));
+    }
+
     #[test]
     fn singular_and_unrelated_platforms_are_told_exactly() {
         let octahedral = slid(&std::array::from_fn(|_| Surd::zero()));

@@ -1,7 +1,7 @@
 """Random designs with leg lengths, from a seed: the classes on which certificates are checked.
 
-general: six separate joints on each body. octahedral: two triangles. hexapod: symmetric, joints rounded to doubles. near-double: lengths at a singular pose, off by 1e-14 to 1e-6. double: joints and lengths in whole
-numbers at a singular pose. far: platform similar to the base up to 2^-12 to 2^-30 of its size, with poses far out. scaled: general, in other units and far from the origin.
+general: six separate joints on each body. octahedral: two triangles. hexapod: symmetric, joints rounded to doubles. near-double: lengths at a singular pose, off by 1e-14 to 1e-6. double, triple: joints and lengths in whole
+numbers at a singular pose that counts so often. far: platform similar to the base up to 2^-12 to 2^-30 of its size, with poses far out. scaled: general, in other units and far from the origin.
 """
 
 import math
@@ -98,11 +98,14 @@ def far(rng):
     return [(a, like(a)) for a in base]
 
 
-def double(rng):
-    """Joints in whole numbers, and lengths whose squares are exact up to their own rounding, at a pose that is singular: every leg is perpendicular to one velocity of its joint."""
+def multiple(rng, triple):
+    """Joints in whole numbers, and lengths whose squares are exact up to their own rounding, at a pose that is singular: every leg is perpendicular to one velocity of its joint. With a mirror plane that turns the velocity
+    round the pose counts three times."""
     whole = lambda most: [rng.randint(-most, most) for _ in range(3)]
     cross = lambda a, b: [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     velocity, turn, position = whole(4), whole(4), [u + v for u, v in zip(whole(3), (0, 0, 9))]
+    if triple:
+        velocity[1] = velocity[2] = turn[0] = position[0] = 0
     legs = []
     while len(legs) < 6:
         b = whole(6)
@@ -110,21 +113,26 @@ def double(rng):
         # a leg along a Pythagorean multiple of a direction across the speed has a whole length
         leg = cross(speed, whole(3))
         square = sum(x * x for x in leg)
-        if square and math.isqrt(square) ** 2 == square:
-            legs.append(([x + p - d for x, p, d in zip(b, position, leg)], b))
+        if not square or math.isqrt(square) ** 2 != square or (triple and not b[0]):
+            continue
+        ends = [([x + p - d for x, p, d in zip(b, position, leg)], b)]
+        if triple:
+            ends.append(tuple([-x, y, z] for x, y, z in ends[0]))
+        legs += ends
     base = {f"A{i + 1}": [float(x) for x in a] for i, (a, _) in enumerate(legs)}
     platform = {f"B{i + 1}": [float(x) for x in b] for i, (_, b) in enumerate(legs)}
     row = [math.sqrt(sum((x + p - y) ** 2 for x, p, y in zip(b, position, a))) for a, b in legs]
-    design = {"name": "double", "units": "mm", "base": base, "platform": platform, "legs": [[f"A{i}", f"B{i}"] for i in range(1, 7)]}
+    name = "triple" if triple else "double"
+    design = {"name": name, "units": "mm", "base": base, "platform": platform, "legs": [[f"A{i}", f"B{i}"] for i in range(1, 7)]}
     return design, [row]
 
 
 def draw(rng, k):
     """Name, design as a document, rows of lengths."""
-    name = ("general", "octahedral", "hexapod", "near-double", "far", "scaled", "near-double octahedral", "double")[k % 8]
+    name = ("general", "octahedral", "hexapod", "near-double", "far", "scaled", "near-double octahedral", "double", "triple")[k % 9]
     size = 1.0
-    if name == "double":
-        return (name, *double(rng))
+    if name in ("double", "triple"):
+        return (name, *multiple(rng, name == "triple"))
     if name in ("general", "near-double"):
         legs = general(rng)
     elif name.endswith("octahedral"):

@@ -429,7 +429,7 @@ class CaseRecord(Record):
 class CertificateRecord(Record):
     """The proof that a root exists and is alone, with all its numbers."""
 
-    kind: Union[Literal["study", "double", "octahedral"], None]
+    kind: Union[Literal["study", "cluster", "octahedral"], None]
     #: Index of the coordinate that is 1.
     patch: Union[int, None]
     #: A power of two, design units.
@@ -450,9 +450,12 @@ class CertificateRecord(Record):
     reality: Union[ProvedReality, None]
     #: What holds the pose of the root.
     enclosure: Union[EnclosureRecord, None]
+    #: Their number, each counted with its multiplicity; 2 or more.
+    multiplicity: Union[int, None]
     #: Radius of the disc of t.
     reach: Union[float, None]
-    #: What is left beside the square of t over it, on the circle; below 1.
+    #: What is left beside the power of t that has the multiplicity as exponent, over this power, on the
+    #: circle; below 1.
     dominance: Union[float, None]
     #: Legs 14 24 25 35 36 16, from 0.
     order: Union[tuple[int, ...], None]
@@ -2329,6 +2332,10 @@ class MapAnswer(Record):
     #: share t), the t at which det A vanishes while the other legs stay, as an exact number; null for
     #: other legs and where there is none; null as a whole where `det_exact` is.
     singular_shares: Union[tuple[Union[str, None], ...], None]
+    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the
+    #: other legs as they stand: TO is singular where it is zero, and only there; null where there is no
+    #: such leg, and where `det_exact` is.
+    det_of_shares: Union[str, None]
     #: The largest of the residuals.
     residual: Union[float, None]
     #: Relative distance of each leg of TO from the span of the legs of FROM.
@@ -2379,6 +2386,10 @@ class MapRecord(Record):
     #: share t), the t at which det A vanishes while the other legs stay, as an exact number; null for
     #: other legs and where there is none; null as a whole where `det_exact` is.
     singular_shares: Union[tuple[Union[str, None], ...], None]
+    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the
+    #: other legs as they stand: TO is singular where it is zero, and only there; null where there is no
+    #: such leg, and where `det_exact` is.
+    det_of_shares: Union[str, None]
     #: The largest of the residuals.
     residual: Union[float, None]
     #: Relative distance of each leg of TO from the span of the legs of FROM.

@@ -61,7 +61,7 @@ const REACH: f64 = 1e-3;
 /// The radii `rho` that are tried.
 const RADII: [i32; 2] = [-48, -4];
 /// The largest multiplicity that is tried.
-const MOST: usize = 6;
+pub(super) const MOST: usize = 6;
 /// `|e.e| / |e|^2` below which nothing is tried: far out the enclosures of `R` and `p` are wide.
 const FAR: f64 = 1.0 / 64.0;
 
@@ -510,10 +510,11 @@ fn flat_points(system: &LegSystem, inflection: &Middle) -> Vec<Middle> {
 /// The middle of a cluster, rounded, with its proof.
 pub(crate) type ProvedCluster = (ComplexPose, ClusterCertificate);
 
-/// Clusters that are proved to lie near the pose, each with more roots than the one before; or why there is none of so many.
+/// Clusters of at most so many roots that are proved to lie near the pose, in ascending order; or why there is none of so many.
 pub(super) fn clusters_near<'a>(
     system: &'a LegSystem,
     pose: &ComplexPose,
+    most: usize,
 ) -> Result<impl Iterator<Item = Result<ProvedCluster, WhyUncertified>> + use<'a>, WhyUncertified> {
     let start = study_of(pose, system.unit())?;
     let (mut isotropy, mut size) = (Complex64::ZERO, 0.0);
@@ -529,7 +530,7 @@ pub(super) fn clusters_near<'a>(
     let plain = (2..=MOST).map(move |m| (m, m));
     // of three roots that are close two may be closer
     let attempts = std::iter::once((2, 2)).chain(std::iter::once((3, 2))).chain(plain.skip(1));
-    Ok(attempts.map(move |(m, wanted)| {
+    Ok(attempts.take_while(move |(m, _)| *m <= most).map(move |(m, wanted)| {
         let middle = Middle::of(system, &start, m)?;
         if m == wanted {
             return prove(system, &middle, m);

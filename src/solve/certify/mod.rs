@@ -101,7 +101,7 @@ use crate::num::double_double::DoubleDouble;
 use crate::num::octuple::ComplexOctuple;
 use crate::num::vector_unit::on_vector_unit;
 pub(crate) use cluster::ProvedCluster;
-use cluster::clusters_near;
+use cluster::{MOST, clusters_near};
 use coordinates::{
     PrecisePoint, deviation, enclose_pose, enclose_pose_widely, pose_in_double, pose_of, rotation_distance,
     rounded_pose, study_at, study_of,
@@ -356,7 +356,7 @@ impl Certifier {
         pose: &ComplexPose,
     ) -> Result<(ComplexPose, ClusterCertificate), WhyUncertified> {
         let mut why = WhyUncertified::SingularJacobian;
-        for (k, attempt) in clusters_near(&self.0, pose)?.enumerate() {
+        for (k, attempt) in clusters_near(&self.0, pose, MOST)?.enumerate() {
             match attempt {
                 Ok(found) => return Ok(found),
                 Err(reason) if k == 0 => why = reason,
@@ -366,9 +366,13 @@ impl Certifier {
         Err(why)
     }
 
-    /// [`cluster_near`](Self::cluster_near) of more and more roots, where more than one number can be proved.
-    pub(crate) fn clusters_near(&self, pose: &ComplexPose) -> impl Iterator<Item = ProvedCluster> {
-        clusters_near(&self.0, pose).into_iter().flatten().filter_map(Result::ok)
+    /// [`cluster_near`](Self::cluster_near) of more and more roots, up to a number, where more than one can be proved.
+    pub(crate) fn clusters_near(
+        &self,
+        pose: &ComplexPose,
+        most: usize,
+    ) -> impl Iterator<Item = ProvedCluster> {
+        clusters_near(&self.0, pose, most).into_iter().flatten().filter_map(Result::ok)
     }
 
     /// Newton in double-double from the pose, as far as it leads: about `2^-102` times the condition of the root.

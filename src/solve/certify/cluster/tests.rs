@@ -146,7 +146,7 @@ fn three_roots_that_are_apart_by_a_little_are_of_the_cluster_and_others_are_not(
         shifted[k % 6] = shifted[k % 6] + (2f64.powi(-44) * s.get()[k % 6]).into();
         let moved = SquaredLegLengths::try_within(shifted, [0.0; 6]).unwrap();
         let certifier = Certifier::new(&m, &moved).unwrap();
-        let three = certifier.clusters_near(&pose.into()).find(|(_, c)| c.multiplicity() == 3);
+        let three = certifier.clusters_near(&pose.into(), MOST).find(|(_, c)| c.multiplicity() == 3);
         let Some((middle, cluster)) = three else { continue };
         let mut found: Vec<Certificate> = Vec::new();
         let mut look = |start: &ComplexPose| -> Option<ComplexPose> {
