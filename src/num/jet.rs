@@ -48,7 +48,7 @@ impl Jet {
         Self { value: Interval::WHOLE, slope: [Interval::WHOLE; 6], curve: [Interval::WHOLE; PAIRS], ..*self }
     }
 
-    /// Without its second derivatives: what is computed from it is as cheap as from a function that never had any.
+    /// Without its second derivatives: what is computed from it costs no more than its slopes.
     pub(crate) fn first_order(mut self) -> Self {
         self.second = false;
         self.curve = [Interval::ZERO; PAIRS];
