@@ -48,6 +48,18 @@ impl Jet {
         Self { value: Interval::WHOLE, slope: [Interval::WHOLE; 6], curve: [Interval::WHOLE; PAIRS], ..*self }
     }
 
+    /// Without its second derivatives: what is computed from it costs no more than its slopes.
+    pub(crate) fn first_order(mut self) -> Self {
+        self.second = false;
+        self.curve = [Interval::ZERO; PAIRS];
+        self
+    }
+
+    /// Whether second derivatives are kept.
+    pub(crate) fn is_second_order(&self) -> bool {
+        self.second
+    }
+
     /// First derivatives.
     pub(crate) fn slope(&self, k: usize) -> Interval {
         self.slope[k]

@@ -90,6 +90,26 @@ fn results_meet_all_requirements_and_share_no_joint() {
     }
 }
 
+/// Starts that state a reserve on every limit, for their results too.
+const RESERVED: [&str; 3] = ["isolator-octahedral", "chair", "simulator-300kg"];
+
+#[test]
+fn every_limit_has_a_reserve_which_the_results_keep() {
+    for (start, result, ..) in PAIRS.into_iter().filter(|p| RESERVED.contains(&p.0)) {
+        for (name, design) in [(start, worked(start)), (result, worked(result))] {
+            let required = design.requirements();
+            let found = margins(&design, 400);
+            for margin in &found {
+                let (kind, reserve) = (margin.term.kind, required.reserve(margin.term.kind));
+                assert!(reserve > 0.0, "{name}: {}", kind.code());
+                // rounding of the search, in units of the reserve
+                let kept = margin.value >= reserve * (1.0 - 1e-6);
+                assert!(kept || name == start, "{name}: {} {} of {reserve}", kind.code(), margin.value);
+            }
+        }
+    }
+}
+
 #[test]
 fn results_have_the_kinematics_of_their_start_where_only_offsets_were_chosen() {
     for (start, result, same, _) in PAIRS {

@@ -2560,6 +2560,9 @@ class NearRecord(Record):
     distance: Union[float, None]
     #: The angle the platform turned by.
     angle_deg: Union[float, None]
+    #: How uncertain the pose reached is, where the design has standard deviations of a calibration and
+    #: joints are ideal.
+    uncertainty: Union[PoseUncertaintyRecord, None]
 
 
 class NearestAllowedRecord(Record):
@@ -3120,6 +3123,20 @@ class PoseTotalsRecord(Record):
     certified_count: int
     #: False: poses may be missing.
     all_paths_accounted: bool
+
+
+class PoseUncertaintyRecord(Record):
+    """How uncertain a pose is that is computed from lengths with the calibrated machine, by what the calibration does not know, to first order; the noise of these lengths comes on top."""
+
+    #: Whether the design file has correlations.
+    correlations: CorrelationsWord
+    #: Root mean square of the distance by which the platform origin is off, design units.
+    position: Union[float, None]
+    #: Root mean square of the angle by which the orientation is off, degrees.
+    rotation_deg: Union[float, None]
+    #: Covariance of the shift of the platform origin (design units) and the rotation vector (degrees),
+    #: base frame.
+    covariance: tuple[tuple[Union[float, None], ...], ...]
 
 
 class ProvenanceRecord(Record):

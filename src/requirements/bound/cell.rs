@@ -69,7 +69,12 @@ impl CellJudge<'_> {
                 points.push(near);
             }
         }
-        let second = !matches!(function, Function::Load(_) | Function::Platform(_));
+        // of joints that are not ideal the rates have first derivatives only
+        let second = match function {
+            Function::Load(_) => false,
+            Function::Platform(_) => self.joints.is_none(),
+            _ => true,
+        };
         let over = CellFrame::over(chart, cell, second).with_joints(self.joints);
         let mut out = Evaluated {
             bounded: Bounded { below: f64::NEG_INFINITY, ..Bounded::nothing(cell) },

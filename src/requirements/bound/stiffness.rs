@@ -10,6 +10,7 @@
 //! `B = diag(I, 0)` and `B = diag(0, I)` for a least stiffness `s`, since the Schur complement of a block of `K` is the inverse of the compliance, and with `B = M` for `s = omega^2`.
 //! In a basis in which `K` is the identity and `B` diagonal at a point of the cell, the softest motion last, an elimination of `K - s B` in intervals that finds positive pivots proves it for all poses
 //! of the cell. What the softest motion shares with the others counts by its square, so that the bound is off by the square of the width of the cell where the softest motion is a single one.
+//! Its own entry is bounded by second derivatives where joints are ideal, the other entries by first ones.
 
 use nalgebra::{Matrix6, Vector3};
 
@@ -139,11 +140,15 @@ impl<'a> SoftestMotion<'a> {
     /// `K` and `B` in a basis over the poses of a frame; `None` where a leg may have no length.
     fn forms(&self, frame: &CellFrame<'_>, basis: &Basis) -> Option<Forms> {
         let zero = frame.constant(Interval::ZERO);
-        let (mut k, mut b) = (vec![zero; 21], vec![zero; 21]);
+        // second derivatives cost more than all else, and only those of the softest motion count
+        let kept = |p: usize, q: usize, x: Jet| if (p, q) == (5, 5) { x } else { x.first_order() };
+        let mut k = vec![zero.first_order(); 21];
+        k[place(5, 5)] = zero;
+        let mut b = k.clone();
         let columns: [(IntervalVector, IntervalVector); 6] = basis.map(|(v, w)| {
             (std::array::from_fn(|i| Interval::from(v[i])), std::array::from_fn(|i| Interval::from(w[i])))
         });
-        self.fixed_part(frame, &columns, &mut b);
+        self.fixed_part(&columns, &mut b);
         let axes: [JetVector; 3] = std::array::from_fn(|a| {
             frame.turned(&std::array::from_fn(|i| Interval::from(if i == a { 1.0 } else { 0.0 })))
         });
@@ -171,10 +176,11 @@ impl<'a> SoftestMotion<'a> {
             let along: [Jet; 6] = ends.map(|c| e[0].times(c[0]) + e[1].times(c[1]) + e[2].times(c[2]));
             let legs = self.leg_masses(frame, &square);
             for (p, q) in (0..6).flat_map(|p| (p..6).map(move |q| (p, q))) {
-                let product = along[p] * along[q];
+                let product = kept(p, q, along[p]) * kept(p, q, along[q]);
                 k[place(p, q)] = k[place(p, q)] + product.times(Interval::from(self.leg));
                 if let Some((across, more)) = &legs {
-                    let own = across.times(dot(&ends[p], &ends[q])) + *more * product;
+                    let own =
+                        kept(p, q, *across).times(dot(&ends[p], &ends[q])) + kept(p, q, *more) * product;
                     b[place(p, q)] = b[place(p, q)] + own;
                 }
             }
@@ -183,12 +189,7 @@ impl<'a> SoftestMotion<'a> {
     }
 
     /// What of `B` no pose changes.
-    fn fixed_part(
-        &self,
-        frame: &CellFrame<'_>,
-        columns: &[(IntervalVector, IntervalVector); 6],
-        b: &mut [Jet],
-    ) {
+    fn fixed_part(&self, columns: &[(IntervalVector, IntervalVector); 6], b: &mut [Jet]) {
         let entry = |p: usize, q: usize| {
             let ((v, w), (v2, w2)) = (&columns[p], &columns[q]);
             match self.compared {
@@ -209,7 +210,7 @@ impl<'a> SoftestMotion<'a> {
             }
         };
         for (p, q) in (0..6).flat_map(|p| (p..6).map(move |q| (p, q))) {
-            b[place(p, q)] = frame.constant(entry(p, q));
+            b[place(p, q)] = b[place(p, q)].alike(entry(p, q));
         }
     }
 
@@ -305,7 +306,11 @@ impl CellMatrix<'_> {
     /// The least value of a diagonal entry over the workspace in the cell.
     fn least(&self, s: f64, i: usize) -> f64 {
         let (here, over) = self.entry(s, i, i);
-        local::below_first_order(self.chart, self.cell, self.z, &here, &over).below
+        let first = local::below_first_order(self.chart, self.cell, self.z, &here, &over).below;
+        if !over.is_second_order() {
+            return first;
+        }
+        first.max(local::below(self.chart, self.cell, self.z, &here, &over).below)
     }
 
     /// By what share `s` sinks over the cell, about, and how each coordinate loosens the bound.
