@@ -441,7 +441,7 @@ const PER_LEG: &str = "base_joint = [
 
 #[test]
 fn kinds_of_joints_per_leg_are_read_scaled_and_written_back_to_the_bit() {
-    use crate::requirements::JointKind::{Ball, Flexure, Universal};
+    use crate::requirements::JointType::{Ball, Flexure, Universal};
     let design = parse(&GOOD.replacen(JOINTS, PER_LEG, 1), Format::Toml).unwrap().0;
     let h = &design.hardware;
     let kinds: [_; 6] = std::array::from_fn(|leg| h.joint_kind(Body::Base, leg));

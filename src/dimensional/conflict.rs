@@ -3,10 +3,11 @@
 
 use std::collections::BTreeMap;
 
+use super::leg_lines::{HeldPose, LegLines};
 use super::model::{ConstraintGroup, Model, Task};
 use super::outcome::{ConstraintConflict, Demand, Give};
 use super::search::{RefinedRun, ShapeSearchOptions, population, refine};
-use super::terms::{HeldPose, Item, LegLines};
+use super::terms::Item;
 use crate::num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
 use crate::num::farkas::{EnclosedRow, refuted};
 use crate::num::interval::Interval;

@@ -2,12 +2,13 @@
 
 use nalgebra::{Rotation3, Vector3};
 
+use super::leg_lines::{HeldPose, LegLines};
 use super::merit::{Cluster, MeritPiece};
 use super::model::{ConstraintGroup, Model, Task};
 use super::pull::{Gradient, Pull, Rate};
 use super::shape::JointEnds;
 use super::skeleton::Room;
-use super::terms::{ConvexForm, HeldPose, Item, LegLines, TermId};
+use super::terms::{ConvexForm, Item, TermId};
 use crate::manipulator::Body;
 use crate::requirements::Objective;
 use crate::requirements::TermKind;

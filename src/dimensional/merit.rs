@@ -5,11 +5,13 @@
 
 use nalgebra::{Matrix6, Vector3, Vector4, Vector6};
 
+use super::leg_gaps::Gap;
+use super::leg_lines::{HeldPose, LegLines, leg_forces};
 use super::problem::DimensionalProblem;
 use super::pull::{Gradient, Pull};
 use super::shape::JointEnds;
 use super::stiffness::{self, RayleighQuotient};
-use super::terms::{Gap, HeldPose, LegLines, RequirementTerms, joint_pull, leg_forces};
+use super::terms::{RequirementTerms, joint_pull};
 use crate::manipulator::Body;
 use crate::num::linalg::svd;
 use crate::num::small::{bounded_svd, singular_values};

@@ -5,6 +5,8 @@
 //! are met least. Definitions, method and limits: `docs/theory/dimensional-synthesis.md`.
 
 mod conflict;
+mod leg_gaps;
+mod leg_lines;
 mod linear;
 mod merit;
 mod model;

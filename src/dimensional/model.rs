@@ -4,10 +4,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::leg_lines::HeldPose;
 use super::merit::Merit;
 use super::problem::{DimensionalProblem, InvalidProblem, Variables};
 use super::shape::Shape;
-use super::terms::{HeldPose, RequirementTerms};
+use super::terms::RequirementTerms;
 use crate::num::Rng;
 use crate::requirements::{ListedFrom, Objective, TermKind};
 

@@ -2,11 +2,11 @@
 
 use nalgebra::{Unit, Vector3};
 
+use super::leg_lines::LegLines;
 use super::model::{Model, Task};
 use super::problem::DimensionalProblem;
 use super::scp::HistoryStep;
 use super::search::RefinedRun;
-use super::terms::LegLines;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 use crate::num::Purpose;

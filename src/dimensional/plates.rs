@@ -5,9 +5,11 @@
 
 use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 
+use super::leg_gaps::{Part, parts};
+use super::leg_lines::LegLines;
 use super::pull::Gradient;
 use super::shape::{JointEnds, JointId};
-use super::terms::{Item, LegLines, Part, parts};
+use super::terms::Item;
 use crate::geom::convex_hull;
 use crate::manipulator::Body;
 use crate::requirements::{BoltsFrom, Hardware, LegBody, PlateDesign, TermKind, frame_of, plate_normal};

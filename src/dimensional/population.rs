@@ -4,9 +4,9 @@
 //! points that meet them by their gain, all before the others by their violation. A trial is given up at the first pose that shows
 //! that it is no better than its parent.
 
+use super::leg_lines::{HeldPose, LegLines};
 use super::model::{Model, Task};
 use super::scp::PENALTY;
-use super::terms::{HeldPose, LegLines};
 use super::worst_pose::{Judging, PointValues};
 use crate::num::Rng;
 

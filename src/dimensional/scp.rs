@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::leg_lines::HeldPose;
 use super::linear::{AffineCone, LinearBound, LinearCluster, LinearItem, LinearPiece, Linearised};
 use super::model::{ConstraintGroup, Model, Task};
-use super::terms::HeldPose;
 use super::worst_pose::PointValues;
 use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, ConicRow, SolverFailure};
 

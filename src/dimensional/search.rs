@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::conflict::{Clash, conflict, demand, elastic};
+use super::leg_lines::HeldPose;
 use super::model::{Model, Task};
 use super::outcome::{
     ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
@@ -11,7 +12,6 @@ use super::outcome::{
 use super::population::{Judge, Worth, evolve, is_close, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::scp::{PENALTY, ShapeEffort, ShapeRun, climb};
-use super::terms::HeldPose;
 use super::worst_pose::worse_poses;
 use crate::num::Purpose;
 use crate::num::parallel::parallel;

@@ -8,8 +8,8 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use super::leg_lines::LegLines;
 use super::pull::Gradient;
-use super::terms::LegLines;
 use crate::num::small::{bounded_svd, symmetric_eigen3};
 use crate::requirements::{VibratingMasses, mass_of, scaled_mass};
 

@@ -6,10 +6,10 @@ use std::ops::ControlFlow;
 
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
+use super::leg_lines::HeldPose;
 use super::linear::LinearBound;
 use super::model::{ConstraintGroup, Model, Task};
 use super::outcome::smallest_cap;
-use super::terms::HeldPose;
 use super::*;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
@@ -168,7 +168,7 @@ fn holes_and_plates_are_those_of_the_margins() {
                 *known = f64::min(*known, item.value);
             };
             model.terms.fixed(&ends, &mut keep);
-            model.terms.visit(&super::terms::LegLines::new(&ends, &at), &ends, x, &mut keep);
+            model.terms.visit(&super::leg_lines::LegLines::new(&ends, &at), &ends, x, &mut keep);
             least
         };
         let found = least(&x);
@@ -299,7 +299,7 @@ fn stiffness_and_frequency_are_those_of_the_margins() {
     let x: Vec<f64> = model.shape.start.iter().map(|x| x + 0.2).collect();
     let (at, ends) = (tilted(&p, true), model.shape.ends(&x));
     let mut least = std::collections::BTreeMap::new();
-    let l = super::terms::LegLines::new(&ends, &at);
+    let l = super::leg_lines::LegLines::new(&ends, &at);
     model.terms.visit(&l, &ends, &x, &mut |item: super::terms::Item<()>| {
         let known = least.entry(item.id.0).or_insert(f64::INFINITY);
         *known = f64::min(*known, item.value);
@@ -603,7 +603,7 @@ fn angles_of_universal_joints_are_those_of_the_margins() {
         let model = Model::new(&p).unwrap();
         let x = model.shape.start.clone();
         let (at, ends) = (tilted(&p, true), model.shape.ends(&x));
-        let l = super::terms::LegLines::new(&ends, &at);
+        let l = super::leg_lines::LegLines::new(&ends, &at);
         let margins = Terms::new(&p.manipulator, &p.requirements, &p.space.home).at(&at.pose);
         model.terms.visit(&l, &ends, &x, &mut |item: super::terms::Item<()>| {
             let (kind, leg) = (item.id.0, item.id.1);

@@ -6,10 +6,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector6;
 
+use super::leg_lines::{HeldPose, LegLines};
 use super::merit::{Merit, MeritPiece};
 use super::model::{ConstraintGroup, Model, Task};
 use super::shape::JointEnds;
-use super::terms::{HeldPose, Item, LegLines};
+use super::terms::Item;
 use crate::num::{Purpose, Rng};
 use crate::requirements::Objective;
 

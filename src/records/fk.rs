@@ -1,27 +1,27 @@
 //! Answers of forward kinematics: all poses with given leg lengths, each with its proof.
 
+mod certificate;
+mod closure;
+mod pose_count;
+
 use num_complex::Complex64;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use self::certificate::{CertificateRecord, DiscsRecord, EnclosureRecord};
+pub use self::closure::{
+    ClosurePolynomialRecord, ClosureRecord, SingularFactorRecord, TrilaterationStepRecord,
+};
+pub use self::pose_count::{EvidenceWord, PoseCountRecord};
 use super::{ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number};
-use crate::design::Design;
-use crate::distance::SingularFactor;
 use crate::fk::{
-    Closure, Completeness, FkRoot, FkSolutions, Method, NoClosure, PathEnd, PathReport, Reality, Rejected,
-    RejectionReason, SolutionSet,
+    Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
+    SolutionSet,
 };
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, height_above_base};
-use crate::num::ball::Disc;
-use crate::poly::{Dyadic, RealRoot};
 use crate::rotary::RotaryPlatform;
-use crate::solve::certify::octahedral::OctahedralCertificate;
-use crate::solve::certify::{
-    CentrePrecision, Certificate, ClusterCertificate, PoseEnclosure, ProvedReality, RootCertificate,
-};
-use crate::solve::pose_count::{CountUndecided, CountedLengths, PoseCount, PoseSet};
-use crate::topology::{JointIndex, Step};
+use crate::solve::pose_count::{CountedLengths, PoseSet};
 
 /// The answer of `fk`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -301,85 +301,6 @@ impl From<&FkSolutions> for SolutionSetRecord {
     }
 }
 
-/// The finite poses of the design, counted without finding them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PoseCountRecord {
-    /// Their number with multiplicity; null: not finite, or undecided.
-    pub finite: Option<usize>,
-    /// Standard monomials of each degree.
-    pub by_degree: Option<Vec<usize>>,
-    /// Dimension of a set of positive dimension.
-    pub dimension: Option<usize>,
-    /// Degree of a set of positive dimension, in the 16 coordinates of a pose, with multiplicity.
-    pub degree: Option<usize>,
-    /// Why there is no count.
-    pub undecided: Option<CountUndecided>,
-    /// The lengths it is the count of: those given, exactly as they stand, or generic ones, which have as many isolated poses as any or more. Where the lengths are known to
-    /// rounding only, as images under a leg map are, the latter are counted.
-    pub lengths: CountedLengths,
-    /// By a theorem and certificates, or modulo random primes.
-    pub evidence: EvidenceWord,
-    /// A bound; null: proved, or undecided.
-    pub error_probability: Option<f64>,
-    /// In decimal, as text: they have more digits than a double.
-    pub primes: Vec<String>,
-}
-
-/// What a count rests on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EvidenceWord {
-    /// A theorem and certificates.
-    Proved,
-    /// Linear algebra modulo random primes.
-    Modular,
-}
-
-impl PoseCountRecord {
-    fn of(s: &FkSolutions) -> Option<Self> {
-        match &s.pose_count {
-            Some(count) => Some(count.into()),
-            None => matches!(s.completeness, Completeness::Proved { .. })
-                .then(|| Self { finite: Some(s.certified_count()), ..Self::without(EvidenceWord::Proved) }),
-        }
-    }
-
-    fn without(evidence: EvidenceWord) -> Self {
-        Self {
-            finite: None,
-            by_degree: None,
-            dimension: None,
-            degree: None,
-            undecided: None,
-            lengths: CountedLengths::Given,
-            evidence,
-            error_probability: None,
-            primes: Vec::new(),
-        }
-    }
-}
-
-impl From<&PoseCount> for PoseCountRecord {
-    fn from(c: &PoseCount) -> Self {
-        let mut record = Self::without(EvidenceWord::Modular);
-        match &c.set {
-            PoseSet::Finite { count, by_degree } => {
-                record.finite = Some(*count);
-                record.by_degree = Some(by_degree.clone());
-            }
-            PoseSet::PositiveDimensional { dimension, degree } => {
-                record.dimension = Some(*dimension);
-                record.degree = Some(*degree);
-            }
-            PoseSet::Undecided { why } => record.undecided = Some(*why),
-        }
-        record.lengths = c.lengths;
-        record.error_probability = record.undecided.is_none().then_some(c.error_probability);
-        record.primes = c.primes.iter().map(u64::to_string).collect();
-        record
-    }
-}
-
 /// A pose over the complex numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ComplexPoseRecord {
@@ -494,185 +415,6 @@ impl SolutionRecord {
     }
 }
 
-/// The proof that a root exists and is alone, with all its numbers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum CertificateRecord {
-    /// In coordinates `(e, g / unit)` with `e_patch = 1`; distances are largest moduli of coordinate differences.
-    Study {
-        /// Index of the coordinate that is 1.
-        patch: usize,
-        /// A power of two, design units.
-        unit: Number,
-        /// The centre.
-        centre: ComplexRecord<[Number; 8]>,
-        /// To be added to the centre.
-        centre_low: ComplexRecord<[Number; 8]>,
-        /// One root lies within this distance of the centre.
-        radius: Number,
-        /// No other root lies within this distance.
-        uniqueness_radius: Number,
-        /// Contraction of the simplified Newton map on the ball of the radius, below 1.
-        contraction: Number,
-        /// Precision of the centre.
-        precision: CentrePrecision,
-        /// Proved for all squared lengths that the data can mean.
-        reality: ProvedReality,
-        /// What holds the pose of the root.
-        enclosure: Box<EnclosureRecord>,
-    },
-    /// Roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1, that are close or one: all lie on a curve through the centre, parametrised by t with |t| below `reach`.
-    Cluster {
-        /// Their number, each counted with its multiplicity; 2 or more.
-        multiplicity: usize,
-        /// The coordinate that is 1.
-        patch: usize,
-        /// Design units.
-        unit: Number,
-        /// e0..e3, g0..g3 over the unit.
-        centre: ComplexRecord<[Number; 8]>,
-        /// What the doubles of the centre leave of it.
-        centre_low: ComplexRecord<[Number; 8]>,
-        /// All of them lie within this distance of the centre.
-        radius: Number,
-        /// No others lie within this distance; it may be smaller than the radius.
-        uniqueness_radius: Number,
-        /// Radius of the disc of t.
-        reach: Number,
-        /// What is left beside the power of t that has the multiplicity as exponent, over this power, on the circle; below 1.
-        dominance: Number,
-        /// `non_real` when none is real; else it is undecided.
-        reality: ProvedReality,
-        /// What holds all of their poses.
-        enclosure: Box<EnclosureRecord>,
-    },
-    /// In three angles: legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles h^2 + z^2 = rho about P1 P2, P2 P3, P3 P1, with z along n = (P2 - P1) x (P3 - P1) and h towards the left of the way from the first joint to the second; with u = h + i z the distance is the largest of the three |log(u / centre)|.
-    Octahedral {
-        /// Legs 14 24 25 35 36 16, from 0.
-        order: [usize; 6],
-        /// u of P4, P5, P6, design units; rho / u is h - i z.
-        centre: ComplexRecord<[Number; 3]>,
-        /// The root is the mirror image, in the plane of the base, of the pose near the centre.
-        mirrored: bool,
-        /// One pose lies within this angle of the centre.
-        radius: Number,
-        /// No other pose lies within this angle.
-        uniqueness_radius: Number,
-        /// Contraction of the simplified Newton map on the ball of the radius, below 1.
-        contraction: Number,
-        /// Precision of the centre.
-        precision: CentrePrecision,
-        /// Proved for all squared lengths that the data can mean.
-        reality: ProvedReality,
-        /// What holds the pose of the root.
-        enclosure: Box<EnclosureRecord>,
-    },
-}
-
-impl From<&RootCertificate> for CertificateRecord {
-    fn from(c: &RootCertificate) -> Self {
-        match c {
-            RootCertificate::Study(c) => c.into(),
-            RootCertificate::Octahedral(c) => c.into(),
-            RootCertificate::Cluster(c) => c.into(),
-        }
-    }
-}
-
-impl From<&Certificate> for CertificateRecord {
-    fn from(c: &Certificate) -> Self {
-        Self::Study {
-            patch: c.patch(),
-            unit: Number(c.unit()),
-            centre: (*c.centre()).into(),
-            centre_low: (*c.low()).into(),
-            radius: Number(c.radius()),
-            uniqueness_radius: Number(c.uniqueness_radius()),
-            contraction: Number(c.contraction()),
-            precision: c.precision(),
-            reality: c.reality(),
-            enclosure: Box::new(c.enclosure().into()),
-        }
-    }
-}
-
-impl From<&ClusterCertificate> for CertificateRecord {
-    fn from(c: &ClusterCertificate) -> Self {
-        Self::Cluster {
-            multiplicity: c.multiplicity(),
-            patch: c.patch(),
-            unit: Number(c.unit()),
-            centre: (*c.centre()).into(),
-            centre_low: (*c.low()).into(),
-            radius: Number(c.radius()),
-            uniqueness_radius: Number(c.uniqueness_radius()),
-            reach: Number(c.reach()),
-            dominance: Number(c.dominance()),
-            reality: c.reality(),
-            enclosure: Box::new(c.enclosure().into()),
-        }
-    }
-}
-
-impl From<&OctahedralCertificate> for CertificateRecord {
-    fn from(c: &OctahedralCertificate) -> Self {
-        let pair = c.pair();
-        Self::Octahedral {
-            order: c.order(),
-            centre: pair.centre.into(),
-            mirrored: c.is_mirrored(),
-            radius: Number(pair.radius),
-            uniqueness_radius: Number(pair.uniqueness_radius),
-            contraction: Number(pair.contraction),
-            precision: CentrePrecision::Double,
-            reality: pair.reality,
-            enclosure: Box::new(c.enclosure().into()),
-        }
-    }
-}
-
-/// Discs that hold the entries of R and p of a root.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct EnclosureRecord {
-    /// The entries of the rotation matrix, rows.
-    #[serde(rename = "R")]
-    pub rotation: DiscsRecord<[[Number; 3]; 3]>,
-    /// The entries of the position, design units.
-    #[serde(rename = "p")]
-    pub position: DiscsRecord<[Number; 3]>,
-}
-
-/// Discs in the complex plane, in some arrangement.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DiscsRecord<T> {
-    /// Real parts of the centres.
-    pub re: T,
-    /// Imaginary parts of the centres.
-    pub im: T,
-    /// Radii.
-    pub radius: T,
-}
-
-impl From<&PoseEnclosure> for EnclosureRecord {
-    fn from(e: &PoseEnclosure) -> Self {
-        let rows =
-            |of: fn(&Disc) -> f64| e.rotation.each_ref().map(|row| row.each_ref().map(|d| Number(of(d))));
-        let three = |of: fn(&Disc) -> f64| e.position.each_ref().map(|d| Number(of(d)));
-        Self {
-            rotation: DiscsRecord {
-                re: rows(|d| d.centre.re),
-                im: rows(|d| d.centre.im),
-                radius: rows(|d| d.radius),
-            },
-            position: DiscsRecord {
-                re: three(|d| d.centre.re),
-                im: three(|d| d.centre.im),
-                radius: three(|d| d.radius),
-            },
-        }
-    }
-}
-
 /// What a path of the homotopy did.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PathRecord {
@@ -725,123 +467,4 @@ impl From<&Rejected> for RejectedRecord {
     fn from(r: &Rejected) -> Self {
         Self { reason: r.reason, residual: Number(r.residual) }
     }
-}
-
-/// The exact closure polynomial beside the poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum ClosureRecord {
-    /// There is one.
-    Polynomial(Box<ClosurePolynomialRecord>),
-    /// There is none.
-    None {
-        /// Why not.
-        error: String,
-    },
-}
-
-/// The closure polynomial in one squared distance, with what it says about the number of real poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ClosurePolynomialRecord {
-    /// The joints of the virtual leg; null where none is needed.
-    pub virtual_leg: Option<[String; 2]>,
-    /// The joints whose squared distance is the unknown.
-    pub unknown: [String; 2],
-    /// The joints of the first triangle.
-    pub start: [String; 3],
-    /// The trilaterations after it.
-    pub sequence: Vec<TrilaterationStepRecord>,
-    /// The degree before singular factors are removed.
-    pub degree_before: usize,
-    /// The degree; null for the zero polynomial.
-    pub degree: Option<usize>,
-    /// Different complex roots.
-    pub distinct_roots: usize,
-    /// Singular factors.
-    pub factors: Vec<SingularFactorRecord>,
-    /// The coefficients of the primitive integer polynomial as decimal text, the constant one first.
-    #[schemars(inner(regex(pattern = r"^-?[0-9]+$")))]
-    pub coefficients: Vec<String>,
-    /// Real roots as [low, high], rounded outwards.
-    pub real_roots: Vec<[Number; 2]>,
-    /// How often each of them is a root.
-    pub real_root_multiplicities: Vec<usize>,
-    /// Real poses at each of them; null where that does not follow.
-    pub real_poses_at_roots: Option<Vec<usize>>,
-    /// Real poses in all, proved; null where that does not follow.
-    pub poses_real_proved: Option<usize>,
-}
-
-/// One trilateration: a joint placed by its distances from three others.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct TrilaterationStepRecord {
-    /// Three joints in place.
-    pub from: [String; 3],
-    /// The joint placed.
-    pub place: String,
-    /// All four are on one body: one place instead of two.
-    pub rigid: bool,
-}
-
-impl TrilaterationStepRecord {
-    pub(super) fn new(step: &Step, name: impl Fn(JointIndex) -> String) -> Self {
-        Self { from: step.from.map(&name), place: name(step.place), rigid: step.rigid }
-    }
-}
-
-/// A factor of the closure condition that belongs to degenerate trilaterations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct SingularFactorRecord {
-    /// Unoriented steps, from 0.
-    pub step: usize,
-    /// Its degree.
-    pub degree: usize,
-    /// How often it was removed.
-    pub removed: usize,
-}
-
-impl From<&SingularFactor> for SingularFactorRecord {
-    fn from(f: &SingularFactor) -> Self {
-        Self { step: f.step, degree: f.degree, removed: f.removed }
-    }
-}
-
-impl ClosureRecord {
-    /// The record of a closure polynomial, with the names of the design's joints.
-    #[must_use]
-    pub fn new(design: &Design, closure: &Result<Closure, NoClosure>) -> Self {
-        let c = match closure {
-            Ok(c) => c,
-            Err(why) => return Self::None { error: why.to_string() },
-        };
-        let p = &c.polynomial;
-        let name = |j: JointIndex| match j {
-            JointIndex::Base(k) => design.base_names()[k].clone(),
-            JointIndex::Platform(k) => design.platform_names()[k].clone(),
-        };
-        let ends = |(a, b): &(usize, usize)| [name(JointIndex::Base(*a)), name(JointIndex::Platform(*b))];
-        Self::Polynomial(Box::new(ClosurePolynomialRecord {
-            virtual_leg: p.sequence.virtual_legs.first().map(ends),
-            unknown: p.unknown.map(name),
-            start: p.sequence.start.map(name),
-            sequence: p.sequence.steps.iter().map(|s| TrilaterationStepRecord::new(s, name)).collect(),
-            degree_before: c.degrees.before,
-            degree: p.polynomial.degree(),
-            distinct_roots: p.distinct,
-            factors: c.degrees.factors.iter().map(SingularFactorRecord::from).collect(),
-            coefficients: p.polynomial.coefficients().iter().map(ToString::to_string).collect(),
-            real_roots: p.real_roots.iter().map(enclosing).collect(),
-            real_root_multiplicities: p.real_roots.iter().map(RealRoot::multiplicity).collect(),
-            real_poses_at_roots: c.real_poses.clone(),
-            poses_real_proved: c.real_count(),
-        }))
-    }
-}
-
-/// An interval of doubles that holds the root, a point where the root is one.
-fn enclosing(root: &RealRoot) -> [Number; 2] {
-    let mut root = root.clone();
-    root.refine_relative(60);
-    let [low, high] = [root.low(), root.high()].map(Dyadic::to_f64);
-    if root.is_exact() { [low, high].map(Number) } else { [low.next_down(), high.next_up()].map(Number) }
 }

@@ -176,7 +176,7 @@ impl LegMasses {
 
 /// What a joint is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum JointKind {
+pub enum JointType {
     /// It turns freely about all axes, within its swing.
     Ball,
     /// Two hinges in a row.
@@ -185,7 +185,7 @@ pub enum JointKind {
     Flexure,
 }
 
-impl JointKind {
+impl JointType {
     /// The word of design files.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -246,13 +246,13 @@ impl Hardware {
 
     /// The model of the joint of a leg at a body.
     #[must_use]
-    pub fn joint_kind(&self, body: Body, leg: usize) -> JointKind {
+    pub fn joint_kind(&self, body: Body, leg: usize) -> JointType {
         if self.universal(body).is_some_and(|joint| joint.first_axes[leg].is_some()) {
-            JointKind::Universal
+            JointType::Universal
         } else if body.of((self.base_bending, self.platform_bending))[leg].is_some() {
-            JointKind::Flexure
+            JointType::Flexure
         } else {
-            JointKind::Ball
+            JointType::Ball
         }
     }
 

@@ -126,7 +126,8 @@ fn commands_take_joints_per_leg_or_refuse_them() {
     assert!(force(0.0) < 1e-6 && force(20.0) > 1.0, "{} {}", force(0.0), force(20.0));
     let (code, limits) = run(&["limits", &path, "--json"]);
     assert_eq!(code, Some(0), "{limits}");
-    let (code, written) = run(&["design", "convert", &path, "--json"]);
+    let copy = folder.path().join("copy.toml").display().to_string();
+    let (code, written) = run(&["design", "convert", &path, "-o", &copy, "--json"]);
     assert_eq!(code, Some(0), "{written}");
     let to = |format: &str| {
         let out = folder.path().join(format);

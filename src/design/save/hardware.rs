@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::manipulator::Body;
-use crate::requirements::{Hardware, Housing, JointAxes, JointKind, LegPart, LengthLimits};
+use crate::requirements::{Hardware, Housing, JointAxes, JointType, LegPart, LengthLimits};
 
 /// A diameter, or three edge lengths.
 #[derive(Serialize)]
@@ -126,7 +126,7 @@ pub(super) enum FirstAxisValue {
 pub(super) fn joints(h: &Hardware, body: Body) -> Option<JointTables> {
     let (universal, bending) = (h.universal(body), body.of((h.base_bending, h.platform_bending)));
     let swing = body.of((h.base_swing, h.platform_swing));
-    let kinds: [JointKind; 6] = std::array::from_fn(|leg| h.joint_kind(body, leg));
+    let kinds: [JointType; 6] = std::array::from_fn(|leg| h.joint_kind(body, leg));
     let limits =
         universal.map_or([None; 6], |joint| joint.limits_deg.map(|l| l.map(|l| l.map(f64::to_bits))));
     let is_alike = kinds.iter().all(|k| *k == kinds[0])
@@ -136,7 +136,7 @@ pub(super) fn joints(h: &Hardware, body: Body) -> Option<JointTables> {
     // the limit of all legs stands beside the table
     let own_swing = |leg: usize| swing.filter(|s| s.common_deg().is_none()).map(|s| s.limits_deg[leg]);
     let table = |leg: usize, first_axis: Option<FirstAxisValue>| {
-        let joint = universal.filter(|_| kinds[leg] == JointKind::Universal);
+        let joint = universal.filter(|_| kinds[leg] == JointType::Universal);
         JointTable {
             model: kinds[leg].name(),
             first_axis,
@@ -151,7 +151,7 @@ pub(super) fn joints(h: &Hardware, body: Body) -> Option<JointTables> {
         let six = |leg: usize| table(leg, first(leg).map(FirstAxisValue::One));
         return Some(JointTables::Six(std::array::from_fn(six)));
     }
-    if kinds[0] == JointKind::Ball {
+    if kinds[0] == JointType::Ball {
         return None;
     }
     let all: [Option<[f64; 3]>; 6] = std::array::from_fn(first);
