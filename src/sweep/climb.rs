@@ -382,7 +382,7 @@ impl Search {
             else {
                 return false;
             };
-            if step % SPELL == 0 {
+            if step.is_multiple_of(SPELL) {
                 if pair.q < SPELL_SHRINKS * milestone {
                     return false;
                 }
@@ -564,7 +564,7 @@ mod tests {
         }
     }
 
-    /// Dietmaier's result from a platform drawn at random: all 40 poses are real, and proved to be all.
+    /// Dietmaier's result from a platform drawn at random: all 40 poses are real.
     #[test]
     #[ignore = "slow evidence"]
     fn a_general_platform_is_led_to_forty_real_poses() {
