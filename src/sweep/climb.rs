@@ -373,7 +373,7 @@ impl Search {
     fn follow(&mut self, mut pose: ComplexPose) -> bool {
         self.radius = self.radius.max(FIRST);
         let mut milestone = f64::NEG_INFINITY;
-        for step in 0.. {
+        for step in 0_usize.. {
             if self.ended() {
                 break;
             }
