@@ -1,27 +1,50 @@
 //! Designs with many real poses: pairs of conjugate complex poses are led together by moving joints and lengths, until they meet and go on as two real ones.
 //!
-//! The method is Dietmaier's (1998), who found a platform with 40 real poses: at each step the derivatives of all poses with respect to joints and squared lengths are known
-//! from the leg equations, a direction is taken in which the imaginary part of one pair shrinks and near real poses do not come nearer to each other, and all poses
-//! are computed again.
+//! The method is Dietmaier's (1998), who found a platform with 40 real poses: the derivatives of all poses with respect to joints and squared lengths are known from the leg
+//! equations, a step brings one pair of complex poses together as far as it can while no two real ones come nearer to each other than a bound (a conic
+//! program: linear but for the length of the step), and all poses are computed again. A pair has one real number `q`, the sum of squared differences of all entries of its two poses, which is
+//! negative for conjugates and positive for real poses. It goes through zero smoothly where they meet, though the poses themselves have infinite derivatives there, so
+//! that the same step leads a pair together, through the double pose, and apart again.
 
 use nalgebra::{DVector, Matrix3, Matrix6, Vector3, Vector6};
 use num_complex::Complex64;
 
-use crate::fk::{FkOptions, FkSolutions, PoseCounting, Reality, solver};
+use crate::fk::{FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, solver};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Body, Manipulator, SquaredLegLengths};
+use crate::num::conic::{ConicAnswer, ConicProgram, ConicRow};
 use crate::num::{Purpose, Rng};
 
-/// Lengths of steps that are tried one after the other, as shares of the size.
-const STEPS: [f64; 6] = [0.2, 0.08, 0.03, 0.01, 3e-3, 1e-3];
-/// Pairs of complex poses that are tried at each step, those with the least imaginary parts.
-const PAIRS: usize = 3;
-/// Pairs of real poses that must not come nearer to each other, the nearest ones.
-const KEPT: usize = 10;
-/// Random directions in a row without a better platform after which a search ends.
-const PATIENCE: usize = 12;
-/// The imaginary part has to shrink by this factor for a step to count.
-const SHRUNK: f64 = 0.98;
+/// Length of the first step, in units of the size, and of the longest one.
+const FIRST: f64 = 0.05;
+const LONGEST: f64 = 0.3;
+/// Imaginary parts squared have to shrink by this factor for a step to count.
+const SHRUNK: f64 = 0.999;
+/// A pair is given up when steps as short as this do not bring it together.
+const SHORTEST: f64 = 1e-4;
+/// What becomes of the length of a step that was refused, and of one that was not.
+const SHORTER: f64 = 0.5;
+const LONGER: f64 = 1.5;
+/// A pair is given up as well when so many steps do not shrink its imaginary part to this share.
+const SPELL: usize = 20;
+const SPELL_SHRINKS: f64 = 0.8;
+/// Squared distance that real poses are to keep; those that are nearer may not come nearer still.
+const APART: f64 = 0.3;
+/// Pairs of real poses within so many times that distance bound a step.
+const WITHIN: f64 = 10.0;
+/// The largest share of its distance that a pair of real poses loses at a step.
+const LOST: f64 = 0.5;
+/// Shares of the most that two real poses without distance could gain at a step, of which they gain the first that is possible for all.
+const PARTING: [f64; 4] = [0.5, 0.25, 0.1, 0.0];
+/// How far, in units of the length of the step, a step may fall short of what it was asked for.
+const RESIDUAL: f64 = 1e-4;
+/// Weight of pushing near pairs of real poses apart, where 1 is that of the pair that is led together.
+const OPENING: f64 = 0.3;
+/// Pairs of complex poses that are followed one after the other.
+const PAIRS: usize = 4;
+/// Steps in a random direction after every pair has been given up, and their length.
+const WANDERING: usize = 5;
+const WANDERED: f64 = 0.15;
 
 /// Where a search ended.
 #[derive(Debug, Clone)]
@@ -52,8 +75,13 @@ struct Stand {
     squares: SquaredLegLengths,
     found: FkSolutions,
     real: usize,
-    /// The least measure of an imaginary part; infinite where all poses are real.
-    least: f64,
+}
+
+/// A pair of poses: `q` in units of the size, and how it changes with the freedoms.
+#[derive(Debug)]
+struct PosePair {
+    q: f64,
+    slope: DVector<f64>,
 }
 
 impl ClimbFreedoms {
@@ -162,79 +190,287 @@ fn real_difference(a: &ComplexPose, b: &ComplexPose, size: f64) -> (Matrix3<f64>
     ((a.rotation - b.rotation).map(|z| z.re), (a.position - b.position).map(|z| z.re / size))
 }
 
+impl PosePair {
+    /// A pose and its conjugate.
+    fn conjugates(stand: &Stand, freedoms: &ClimbFreedoms, pose: &ComplexPose) -> Option<Self> {
+        let moves = freedoms.derivatives(&stand.manipulator, pose)?;
+        let (r, p) = imaginary(pose, freedoms.size);
+        let slope = freedoms.without_scale(stand, -4.0 * slope(pose, &moves, (&r, &p), |z| z.im));
+        Some(Self { q: -4.0 * measure(pose, freedoms.size), slope })
+    }
+
+    fn usable(self) -> Option<Self> {
+        let norm = self.slope.norm();
+        (norm.is_finite() && norm > 0.0).then_some(self)
+    }
+}
+
+impl ClimbFreedoms {
+    fn number(&self) -> usize {
+        self.coordinates.len() + 6
+    }
+
+    /// Changes that do not enlarge the whole.
+    fn without_scale(&self, stand: &Stand, mut v: DVector<f64>) -> DVector<f64> {
+        let joints = Body::BOTH.map(|body| stand.manipulator.joints(body));
+        let own = self.coordinates.iter().map(|(body, j, axis)| joints[body.index()][*j][*axis] / self.size);
+        let squares = stand.squares.get().map(|s| 2.0 * s / (self.size * self.size));
+        let larger = DVector::from_iterator(self.number(), own.chain(squares)).normalize();
+        v -= &larger * larger.dot(&v);
+        v
+    }
+
+    /// The step of a length at most `radius` that goes farthest along `aim`, while pairs of real poses keep their distance and those that are too near part.
+    fn step(&self, aim: &DVector<f64>, kept: &[PosePair], radius: f64) -> Option<DVector<f64>> {
+        PARTING.iter().find_map(|parting| self.step_parting(aim, kept, radius, *parting))
+    }
+
+    /// The same, where a pair without any distance gains this share of the most that it could.
+    fn step_parting(
+        &self,
+        aim: &DVector<f64>,
+        kept: &[PosePair],
+        radius: f64,
+        parting: f64,
+    ) -> Option<DVector<f64>> {
+        let n = self.number();
+        // unknowns in units of the radius
+        let mut program =
+            ConicProgram { variables: n, linear: (-aim).iter().copied().collect(), ..Default::default() };
+        for pair in kept {
+            let norm = pair.slope.norm() * radius;
+            let gain = if pair.q < APART {
+                (parting * (1.0 - pair.q / APART)).min((APART - pair.q) / norm)
+            } else {
+                (LOST * pair.q).max(APART) / norm - pair.q / norm
+            };
+            let row = pair.slope.iter().enumerate().map(|(k, x)| (k, -x * radius / norm)).collect();
+            program.at_least_zero(row, -gain);
+        }
+        let unit = |k: usize| ConicRow { coefficients: vec![(k, -1.0)], rhs: 0.0 };
+        let mut ball = vec![ConicRow { coefficients: Vec::new(), rhs: 1.0 }];
+        ball.extend((0..n).map(unit));
+        program.second_order(ball);
+        match program.solve() {
+            ConicAnswer::Point(point) if point.residual < RESIDUAL => {
+                Some(DVector::from_vec(point.x) * radius)
+            }
+            _ => None,
+        }
+    }
+}
+
 impl Stand {
     fn new(manipulator: Manipulator, squares: SquaredLegLengths, seed: u64) -> Option<Self> {
         // completeness is asked for at the end
         let options = FkOptions::new().seed(seed).pose_count(PoseCounting::Never);
         let found = solver(None).solve(&manipulator, &squares, &options).ok()?;
-        let size = manipulator.size();
         let real = found.assembly_modes().count();
-        let complex = found.roots.iter().filter(|r| r.reality == Reality::NonReal);
-        let least = complex.map(|r| measure(&r.pose, size)).fold(f64::INFINITY, f64::min);
-        Some(Self { manipulator, squares, found, real, least })
+        Some(Self { manipulator, squares, found, real })
     }
 
-    /// More real poses, or as many and a pair of complex ones nearer to being real; poses that get lost are no gain.
-    fn is_better_than(&self, other: &Self) -> bool {
-        self.found.roots.len() >= other.found.roots.len()
-            && (self.real > other.real || self.real == other.real && self.least < SHRUNK * other.least)
+    fn complex(&self) -> impl Iterator<Item = &FkRoot> {
+        self.found.roots.iter().filter(|r| r.reality == Reality::NonReal)
     }
 
-    /// Directions in which a pair of complex poses comes together, the nearest pairs first.
-    fn directions(&self, freedoms: &ClimbFreedoms) -> Vec<DVector<f64>> {
-        let size = freedoms.size;
-        let mut complex: Vec<(f64, &ComplexPose)> = self
-            .found
-            .roots
-            .iter()
-            .filter(|r| r.reality == Reality::NonReal)
-            .map(|r| (measure(&r.pose, size), &r.pose))
+    /// One pose of each pair of conjugates, the nearest pairs by the length of a step that would make them meet first.
+    fn targets(&self, freedoms: &ClimbFreedoms) -> Vec<ComplexPose> {
+        let mut near: Vec<(f64, f64, &ComplexPose)> = self
+            .complex()
+            .filter_map(|r| {
+                let pair = PosePair::conjugates(self, freedoms, &r.pose)?.usable()?;
+                Some((-pair.q / pair.slope.norm(), -pair.q, &r.pose))
+            })
             .collect();
-        complex.sort_by(|a, b| a.0.total_cmp(&b.0));
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
         // conjugates have the same measure, but for rounding
-        complex.dedup_by(|a, b| (a.0 - b.0).abs() <= 1e-6 * b.0);
-        let kept = self.kept(freedoms);
-        let toward = |pose: &ComplexPose| {
-            let moves = freedoms.derivatives(&self.manipulator, pose)?;
-            let (r, p) = imaginary(pose, size);
-            let mut direction = -slope(pose, &moves, (&r, &p), |z| z.im);
-            for _ in 0..8 {
-                for slope in &kept {
-                    let along = slope.dot(&direction);
-                    if along < 0.0 {
-                        direction -= slope * along;
-                    }
-                }
-            }
-            let norm = direction.norm();
-            (norm.is_finite() && norm > 0.0).then(|| direction / norm)
-        };
-        complex.iter().take(PAIRS).filter_map(|(_, pose)| toward(pose)).collect()
+        near.dedup_by(|a, b| (a.1 - b.1).abs() <= 1e-6 * b.1);
+        near.into_iter().map(|(_, _, pose)| *pose).collect()
     }
 
-    /// Unit vectors along which the nearest pairs of real poses part.
-    fn kept(&self, freedoms: &ClimbFreedoms) -> Vec<DVector<f64>> {
-        let size = freedoms.size;
+    /// The complex pose nearest to one.
+    fn nearest(&self, pose: &ComplexPose, size: f64) -> Option<ComplexPose> {
+        let far = |r: &&FkRoot| r.pose.distance(pose, size);
+        self.complex().min_by(|a, b| far(a).total_cmp(&far(b))).map(|r| r.pose)
+    }
+
+    /// Squared distances of pairs of real poses, the least ones first.
+    fn distances(&self, size: f64) -> Vec<f64> {
         let real: Vec<&ComplexPose> = self.found.assembly_modes().map(|r| &r.pose).collect();
-        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+        let mut out = Vec::new();
         for i in 0..real.len() {
             for j in i + 1..real.len() {
                 let (r, p) = real_difference(real[i], real[j], size);
-                pairs.push((r.norm_squared() + p.norm_squared(), i, j));
+                out.push(r.norm_squared() + p.norm_squared());
             }
         }
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let parting = |i: usize, j: usize| {
-            let (r, p) = real_difference(real[i], real[j], size);
-            let own = |pose: &ComplexPose| {
-                let moves = freedoms.derivatives(&self.manipulator, pose)?;
-                Some(slope(pose, &moves, (&r, &p), |z| z.re))
+        out.sort_by(f64::total_cmp);
+        out
+    }
+
+    /// Pairs of real poses near to each other.
+    fn kept(&self, freedoms: &ClimbFreedoms) -> Vec<PosePair> {
+        let size = freedoms.size;
+        let real: Vec<&ComplexPose> = self.found.assembly_modes().map(|r| &r.pose).collect();
+        let moves: Vec<_> = real.iter().map(|pose| freedoms.derivatives(&self.manipulator, pose)).collect();
+        let mut pairs = Vec::new();
+        for i in 0..real.len() {
+            for j in i + 1..real.len() {
+                let (r, p) = real_difference(real[i], real[j], size);
+                let q = r.norm_squared() + p.norm_squared();
+                if q > WITHIN * APART {
+                    continue;
+                }
+                let (Some(first), Some(second)) = (&moves[i], &moves[j]) else { continue };
+                let along =
+                    |pose: &ComplexPose, moves: &[Vector6<Complex64>]| slope(pose, moves, (&r, &p), |z| z.re);
+                let slope = freedoms.without_scale(self, along(real[i], first) - along(real[j], second));
+                pairs.extend(PosePair { q, slope }.usable());
+            }
+        }
+        pairs
+    }
+}
+
+/// Along the pair that is led together, and a little along those of real poses that are too near.
+fn aim(target: &PosePair, kept: &[PosePair]) -> DVector<f64> {
+    let near = kept.iter().filter(|pair| pair.q < APART);
+    let opening = near.map(|pair| pair.slope.normalize() * (OPENING * (1.0 - pair.q / APART)));
+    opening.fold(target.slope.normalize(), |sum, v| sum + v)
+}
+
+/// A search under way.
+struct Search {
+    freedoms: ClimbFreedoms,
+    seed: u64,
+    here: Stand,
+    radius: f64,
+    steps: usize,
+    most: usize,
+}
+
+impl Search {
+    /// The platform after a step; `None` where poses get lost, real ones become complex, or real ones come too near to each other.
+    fn at(&self, by: &DVector<f64>) -> Option<Stand> {
+        let (m, s) = self.freedoms.moved(&self.here, by)?;
+        let there = Stand::new(m, s, self.seed)?;
+        if there.found.roots.len() < self.here.found.roots.len() || there.real < self.here.real {
+            return None;
+        }
+        let least = |stand: &Stand| stand.distances(self.freedoms.size);
+        let (near, was) = (least(&there), least(&self.here));
+        // pairs that have just met are the nearest ones, and may be
+        let allowed = was.iter().map(|q| LOST * q).fold(LOST * APART, f64::min);
+        let fresh = (there.real - self.here.real) / 2;
+        (near.get(fresh).is_none_or(|q| *q >= allowed)).then_some(there)
+    }
+
+    fn ended(&self) -> bool {
+        self.steps >= self.most || self.here.complex().next().is_none()
+    }
+
+    /// Leads a pair of complex poses together until it is real (`true`) or no step brings it nearer.
+    fn follow(&mut self, mut pose: ComplexPose) -> bool {
+        self.radius = self.radius.max(FIRST);
+        let mut milestone = f64::NEG_INFINITY;
+        for step in 0_usize.. {
+            if self.ended() {
+                break;
+            }
+            let Some(pair) =
+                PosePair::conjugates(&self.here, &self.freedoms, &pose).and_then(PosePair::usable)
+            else {
+                return false;
             };
-            let slope = own(real[i])? - own(real[j])?;
-            let norm = slope.norm();
-            (norm.is_finite() && norm > 0.0).then(|| slope / norm)
-        };
-        pairs.iter().take(KEPT).filter_map(|(_, i, j)| parting(*i, *j)).collect()
+            if step.is_multiple_of(SPELL) {
+                if pair.q < SPELL_SHRINKS * milestone {
+                    return false;
+                }
+                milestone = pair.q;
+            }
+            let kept = self.here.kept(&self.freedoms);
+            let aim = aim(&pair, &kept);
+            let Some(there) = self.forward(&aim, &kept, &pose, pair.q) else { return false };
+            self.here = there.0;
+            match there.1 {
+                Some(next) => pose = next,
+                None => return true,
+            }
+        }
+        false
+    }
+
+    /// Follows the nearest pairs one after the other, each from here, until one has become real.
+    fn follow_nearest(&mut self) -> bool {
+        let before = self.here.clone();
+        for pose in before.targets(&self.freedoms).into_iter().take(PAIRS) {
+            if self.follow(pose) {
+                return true;
+            }
+            if self.ended() {
+                return false;
+            }
+            self.here = before.clone();
+        }
+        false
+    }
+
+    /// The first step, from long to short, after which there are more real poses, or the pair is nearer to being real; with the pose of the pair there.
+    fn forward(
+        &mut self,
+        aim: &DVector<f64>,
+        kept: &[PosePair],
+        pose: &ComplexPose,
+        q: f64,
+    ) -> Option<(Stand, Option<ComplexPose>)> {
+        let size = self.freedoms.size;
+        let mut refused = false;
+        while self.radius > SHORTEST && self.steps < self.most {
+            self.steps += 1;
+            let by = self.freedoms.step(aim, kept, self.radius)?;
+            let there = self.at(&by);
+            let better = there.and_then(|there| {
+                if there.real > self.here.real {
+                    return Some((there, None));
+                }
+                let next = there.nearest(pose, size)?;
+                (-4.0 * measure(&next, size) > q * SHRUNK).then_some((there, Some(next)))
+            });
+            match better {
+                Some(found) => {
+                    if !refused {
+                        self.radius = (LONGER * self.radius).min(LONGEST);
+                    }
+                    return Some(found);
+                }
+                None => {
+                    refused = true;
+                    self.radius *= SHORTER;
+                }
+            }
+        }
+        None
+    }
+
+    /// Steps in a random direction that lose no real pose.
+    fn wander(&mut self, rng: &mut Rng) {
+        let n = self.freedoms.number();
+        let direction = |rng: &mut Rng| DVector::from_iterator(n, (0..n).map(|_| rng.normal())).normalize();
+        let mut aim = direction(rng);
+        for _ in 0..WANDERING {
+            let kept = self.here.kept(&self.freedoms);
+            self.steps += 1;
+            let mut radius = WANDERED;
+            while radius > SHORTEST {
+                let Some(by) = self.freedoms.step(&aim, &kept, radius) else { break };
+                if let Some(there) = self.at(&by) {
+                    self.here = there;
+                    break;
+                }
+                radius *= SHORTER;
+            }
+            aim = (aim + direction(rng)).normalize();
+        }
     }
 }
 
@@ -249,29 +485,16 @@ pub(super) fn climb(
     most: usize,
 ) -> Result<Climb, String> {
     let freedoms = ClimbFreedoms::of(m);
-    let mut here =
-        Stand::new(m.clone(), *squares, seed).ok_or("the poses of the start cannot be computed")?;
+    let here = Stand::new(m.clone(), *squares, seed).ok_or("the poses of the start cannot be computed")?;
     let began = here.real;
     let mut rng: Rng = Purpose::SWEPT_AGAIN.item(seed, 2);
-    let (mut steps, mut idle) = (0, 0);
-    while steps < most && here.least.is_finite() && idle < PATIENCE {
-        let mut directions = here.directions(&freedoms);
-        if idle > 0 {
-            let n = freedoms.coordinates.len() + 6;
-            let random = DVector::from_iterator(n, (0..n).map(|_| rng.normal()));
-            directions = vec![random.normalize()];
+    let mut search = Search { freedoms, seed, here, radius: FIRST, steps: 0, most };
+    while !search.ended() {
+        if !search.follow_nearest() && !search.ended() {
+            search.wander(&mut rng);
         }
-        let tried = directions.iter().flat_map(|d| STEPS.iter().map(move |t| d * *t));
-        let better = tried
-            .filter_map(|by| freedoms.moved(&here, &by))
-            .filter_map(|(m, s)| Stand::new(m, s, seed))
-            .find(|there| there.is_better_than(&here));
-        match better {
-            Some(there) => (here, idle) = (there, 0),
-            None => idle += 1,
-        }
-        steps += 1;
     }
+    let (steps, here) = (search.steps, search.here);
     let options = FkOptions::new().seed(seed);
     let found = solver(None).solve(&here.manipulator, &here.squares, &options).map_err(|e| e.to_string())?;
     Ok(Climb { manipulator: here.manipulator, squares: here.squares, found, began, steps })
@@ -315,6 +538,49 @@ mod tests {
             let numeric = (at(h) - at(-h)) / (2.0 * h);
             assert!((numeric - slope[k]).abs() < 1e-4 * (1.0 + slope.amax()), "{k}: {numeric} {}", slope[k]);
         }
+    }
+
+    /// A step goes as far as it may along what is aimed at, and where a pair of real poses would come too near, along what does not bring it nearer.
+    #[test]
+    fn a_step_keeps_near_real_poses_apart() {
+        let (m, _) = octahedral();
+        let freedoms = ClimbFreedoms::of(&m);
+        let n = freedoms.number();
+        let unit = |k: usize| DVector::from_fn(n, |i, _| if i == k { 1.0 } else { 0.0 });
+        let aim = (unit(0) + unit(1)).normalize();
+        let free = freedoms.step(&aim, &[], 0.1).unwrap();
+        assert!((free - &aim * 0.1).norm() < 1e-5);
+        // at the bound, under it (it has to part), and far above it (it does not bind)
+        for (q, least) in [(APART, 0.0), (0.5 * APART, 1e-3), (9.0 * APART, -0.1)] {
+            let near = PosePair { q, slope: -unit(0) };
+            let by = freedoms.step(&aim, &[near], 0.1).unwrap();
+            assert!(
+                -by[0] >= least - 1e-5 && by[1] > 0.05 && by.norm() < 0.1 + 1e-5,
+                "{q}: {} {}",
+                by[0],
+                by[1]
+            );
+            assert_eq!(by[0] > 0.05, q > 2.0 * APART, "{q}: {}", by[0]);
+        }
+    }
+
+    /// Dietmaier's result from a platform drawn at random: all 40 poses are real.
+    #[test]
+    #[ignore = "slow evidence"]
+    fn a_general_platform_is_led_to_forty_real_poses() {
+        let reached = (0..12).any(|k| {
+            let mut rng = Rng::stream(40, k);
+            let mut body = || -> Vec<nalgebra::Point3<f64>> {
+                (0..6).map(|_| std::array::from_fn::<_, 3, _>(|_| rng.uniform(-1.0, 1.0)).into()).collect()
+            };
+            let (base, platform) = (body(), body());
+            let m = Manipulator::try_new(base, platform, std::array::from_fn(|i| (i, i))).unwrap();
+            let squares = std::array::from_fn(|_| rng.uniform(0.5, 2.5).powi(2));
+            let found = climb(&m, &SquaredLegLengths::try_new(squares).unwrap(), 1, 1500).unwrap().found;
+            found.assembly_modes().filter(|r| r.certified()).count() == 40
+                && found.completeness.name() == "proved"
+        });
+        assert!(reached);
     }
 
     #[test]

@@ -92,7 +92,7 @@ fn every_figure_is_sourced_or_marked_as_chosen() {
 #[test]
 fn every_preset_is_regular_and_meets_what_it_asks_for() {
     for preset in PRESETS {
-        // what is required of cranks is looked at in `cranks.rs`
+        // what is required of cranks is looked at in `cranks/margins.rs`
         let Ok((design, _)) = parse(preset.text, Format::Toml) else { continue };
         let home = design.home.unwrap();
         assert!(!Architecture::of(design.manipulator()).is_singular(), "{}", preset.name);

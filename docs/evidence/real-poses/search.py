@@ -17,7 +17,7 @@ import tomllib
 import pyarrow.parquet as parquet
 
 HERE = pathlib.Path(__file__).resolve().parent
-STEPS = 400
+STEPS = 2000
 #: Platforms that are no topology of their own: one body flat, or both.
 FLAT = {"6P-6": ["base"], "6P-6P": ["base", "platform"]}
 
