@@ -168,6 +168,11 @@ struct BorderedSystem {
     j_error: [f64; N],
 }
 
+/// `x^n`, exact for a power of two.
+fn power(x: f64, n: usize) -> f64 {
+    std::iter::repeat_n(x, n).product()
+}
+
 fn modulus(z: Complex64) -> f64 {
     z.re.abs() + z.im.abs()
 }
@@ -281,7 +286,7 @@ impl Expansion {
         rho: f64,
         of: impl Fn(&[Complex64; 8]) -> f64,
     ) -> f64 {
-        which.map(|n| of(&self.terms[n - 1]) * rho.powi(n as i32)).sum::<f64>() * UP
+        which.map(|n| of(&self.terms[n - 1]) * power(rho, n)).sum::<f64>() * UP
     }
 }
 
@@ -294,10 +299,10 @@ struct Middle {
 
 impl Middle {
     /// A point with the terms that `m` roots need.
-    fn at(system: &LegSystem, x: Study<DoubleDouble>, m: usize) -> Result<Self, WhyUncertified> {
+    fn at(system: &LegSystem, x: &Study<DoubleDouble>, m: usize) -> Result<Self, WhyUncertified> {
         let border = BorderedSystem::at(system, &x.rounded()).ok_or(WhyUncertified::SingularJacobian)?;
         let expansion = Expansion::of(system, &border, x.patch, m - 1);
-        Ok(Self { x, border, expansion })
+        Ok(Self { x: *x, border, expansion })
     }
 
     fn moved(x: &mut Study<DoubleDouble>, step: &[Complex64; N]) {
@@ -313,7 +318,7 @@ impl Middle {
         let mut x = *start;
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
-            let Self { border, expansion, .. } = Self::at(system, x, m)?;
+            let Self { border, expansion, .. } = Self::at(system, &x, m)?;
             let f = values_at(system, &x);
             // mu(t) = .. + mu_(m-1) t^(m-1) + mu_m t^m is without the first about -mu_(m-1) / (m mu_m)
             let t = -expansion.mu(m - 1) / (expansion.mu(m) * m as f64);
@@ -339,7 +344,7 @@ impl Middle {
             }
             last = length;
         }
-        Self::at(system, x, m)
+        Self::at(system, &x, m)
     }
 }
 
@@ -429,7 +434,7 @@ fn disc(b: &MapBounds, e: &Expansion, m: usize, rho: f64) -> Option<ProvedDisc> 
     let others = e.size(1..=m - 1, rho, last) + e.size(m + 1..=all, rho, last);
     let rest =
         b.eta_last + b.kappa_last * (z + r) + noise(&e.last_error) + b.beta_last * (2.0 * h * r + r * r);
-    let main = e.mu(m).norm() * (2.0 - UP) * rho.powi(m as i32);
+    let main = e.mu(m).norm() * (2.0 - UP) * power(rho, m);
     let dominance = (others + rest) * UP * UP / main * UP;
     if !(inside && contracts && main > TINY && dominance < 1.0) {
         return None;
