@@ -484,7 +484,7 @@ fn faults_of_kinds_of_joints_per_leg_are_refused_at_their_place() {
         let text = GOOD.replacen(JOINTS, &PER_LEG.replacen(old, new, 1), 1);
         let begin = text.lines().position(|l| l.starts_with("base_joint")).unwrap() + 1;
         let found = parse(&text, Format::Toml).unwrap_err();
-        found.iter().map(|v| format!("+{} {} {}", v.line - begin, v.code, v.message)).collect()
+        found.iter().map(|v| format!("+{} {} {}", v.line.wrapping_sub(begin), v.code, v.message)).collect()
     };
     let model = |new: &str| line_of(last, new);
     assert_eq!(model("{ model = \"cardan\" }"), ["+2 design::wrong_type `model` is \"cardan\""]);

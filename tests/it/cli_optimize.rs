@@ -569,6 +569,7 @@ fn fields(d: &Value) -> BTreeSet<String> {
 
 /// Both searches, a front, and answers without a platform: the same fields, those that the schema requires, null where they do not apply.
 #[test]
+#[ignore = "slow evidence"]
 fn the_answers_of_both_searches_have_the_fields_of_one_schema() {
     let schema =
         Command::new(env!("CARGO_BIN_EXE_equipod")).args(["design", "schema", "optimize"]).output().unwrap();
