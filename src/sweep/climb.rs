@@ -436,18 +436,14 @@ impl Search {
                 let next = there.nearest(pose, size)?;
                 (-4.0 * measure(&next, size) > q * SHRUNK).then_some((there, Some(next)))
             });
-            match better {
-                Some(found) => {
-                    if !refused {
-                        self.radius = (LONGER * self.radius).min(LONGEST);
-                    }
-                    return Some(found);
+            if let Some(found) = better {
+                if !refused {
+                    self.radius = (LONGER * self.radius).min(LONGEST);
                 }
-                None => {
-                    refused = true;
-                    self.radius *= SHORTER;
-                }
+                return Some(found);
             }
+            refused = true;
+            self.radius *= SHORTER;
         }
         None
     }

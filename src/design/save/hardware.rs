@@ -110,8 +110,8 @@ pub(super) struct JointTable {
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(super) enum JointTables {
-    One(JointTable),
-    Six([JointTable; 6]),
+    One(Box<JointTable>),
+    Six(Box<[JointTable; 6]>),
 }
 
 /// One direction for all joints, or six.
@@ -149,7 +149,7 @@ pub(super) fn joints(h: &Hardware, body: Body) -> Option<JointTables> {
     let first = |leg: usize| universal?.first_axes[leg].map(|a| <[f64; 3]>::from(a.into_inner()));
     if !is_alike {
         let six = |leg: usize| table(leg, first(leg).map(FirstAxisValue::One));
-        return Some(JointTables::Six(std::array::from_fn(six)));
+        return Some(JointTables::Six(Box::new(std::array::from_fn(six))));
     }
     if kinds[0] == JointType::Ball {
         return None;
@@ -165,7 +165,7 @@ pub(super) fn joints(h: &Hardware, body: Body) -> Option<JointTables> {
             .and_then(|six| six.try_into().ok())
             .map(FirstAxisValue::Six)
     };
-    Some(JointTables::One(table(0, value)))
+    Some(JointTables::One(Box::new(table(0, value))))
 }
 
 pub(super) fn axes(axes: JointAxes) -> Option<AxesValue> {

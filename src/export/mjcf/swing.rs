@@ -52,24 +52,20 @@ impl SwingTendon {
     pub(super) fn of(export: &Export, leg: &ExportLeg) -> Result<Option<Self>, Unsupported> {
         let Some(most) = limit(export, leg.number - 1) else { return Ok(None) };
         let to_platform = export.home.rotation.inverse();
-        let (axis, length, joint) = match &export.cranks {
+        let (axis, length, joint) = if let Some(cranks) = &export.cranks {
             // the body of a rod begins at the tip of its crank, that of a leg at the platform
-            Some(cranks) => {
-                let i = leg.number - 1;
-                let tip = cranks.platform.tip(i, cranks.home_angles[i]);
-                let end = export.home.transform(&cranks.platform.legs()[i].platform);
-                let along =
-                    (end - tip).try_normalize(0.0).ok_or(Unsupported::NoDirection { leg: leg.number })?;
-                let rod = cranks.platform.legs()[i].rod;
-                (to_platform * along, rod, rod)
-            }
-            None => {
-                let axis = match export.hardware.platform_swing.map(|swing| swing.axes) {
-                    Some(JointAxes::Given(axes)) => axes[leg.number - 1].into_inner(),
-                    _ => to_platform * leg.direction()?,
-                };
-                (axis, leg.length(), 0.0)
-            }
+            let i = leg.number - 1;
+            let tip = cranks.platform.tip(i, cranks.home_angles[i]);
+            let end = export.home.transform(&cranks.platform.legs()[i].platform);
+            let along = (end - tip).try_normalize(0.0).ok_or(Unsupported::NoDirection { leg: leg.number })?;
+            let rod = cranks.platform.legs()[i].rod;
+            (to_platform * along, rod, rod)
+        } else {
+            let axis = match export.hardware.platform_swing.map(|swing| swing.axes) {
+                Some(JointAxes::Given(axes)) => axes[leg.number - 1].into_inner(),
+                _ => to_platform * leg.direction()?,
+            };
+            (axis, leg.length(), 0.0)
         };
         let away = AWAY * length;
         let seat = export.bodies[1].joints[leg.platform].at.coords - axis * away;

@@ -181,7 +181,7 @@ fn the_second_order_part_of_two_vectors_stays_within_its_bounds() {
         for i in 0..N {
             let mixed = add(&add(&of_both[i], &of_h[i], -1.0), &of_k[i], -1.0);
             assert_within(&value(computed[i]), &mul(&mixed, &half), bounds[i], "second-order part");
-            assert!(bounds[i] < 1e-12 && computed[i].norm() > 1e3 * bounds[i], "{:?} {bounds:?}", computed);
+            assert!(bounds[i] < 1e-12 && computed[i].norm() > 1e3 * bounds[i], "{computed:?} {bounds:?}");
         }
     }
 }
