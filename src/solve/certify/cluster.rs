@@ -225,14 +225,14 @@ fn values_at(system: &LegSystem, x: &Study<DoubleDouble>) -> [Complex64; N] {
 }
 
 /// The numbers `z_n` of the module's text, from `n = 1` to twice the order, with bounds of `e_n` in all rows and in the last.
-struct Expansion {
+struct CurveExpansion {
     order: usize,
     terms: Vec<[Complex64; 8]>,
     error: Vec<f64>,
     last_error: Vec<f64>,
 }
 
-impl Expansion {
+impl CurveExpansion {
     fn of(system: &LegSystem, border: &BorderedSystem, patch: usize, order: usize) -> Self {
         let first: [Complex64; 8] = std::array::from_fn(|k| border.y[(k, 7)]);
         let increment = |z: &[Complex64; 8]| system.increment(&std::array::from_fn(|k| z[k]), patch);
@@ -294,14 +294,14 @@ impl Expansion {
 struct Middle {
     x: Study<DoubleDouble>,
     border: BorderedSystem,
-    expansion: Expansion,
+    expansion: CurveExpansion,
 }
 
 impl Middle {
     /// A point with the terms that `m` roots need.
     fn at(system: &LegSystem, x: &Study<DoubleDouble>, m: usize) -> Result<Self, WhyUncertified> {
         let border = BorderedSystem::at(system, &x.rounded()).ok_or(WhyUncertified::SingularJacobian)?;
-        let expansion = Expansion::of(system, &border, x.patch, m - 1);
+        let expansion = CurveExpansion::of(system, &border, x.patch, m - 1);
         Ok(Self { x: *x, border, expansion })
     }
 
@@ -418,7 +418,7 @@ struct ProvedDisc {
 }
 
 /// The conditions of the module's text for `m` roots and one `rho`.
-fn disc(b: &MapBounds, e: &Expansion, m: usize, rho: f64) -> Option<ProvedDisc> {
+fn disc(b: &MapBounds, e: &CurveExpansion, m: usize, rho: f64) -> Option<ProvedDisc> {
     let (order, all) = (e.order, 2 * e.order);
     let whole = |z: &[Complex64; 8]| z.iter().map(|z| modulus(*z)).fold(0.0, largest);
     let own = |z: &[Complex64; 8]| z[..N].iter().map(|z| modulus(*z)).fold(0.0, largest);
@@ -447,7 +447,7 @@ fn disc(b: &MapBounds, e: &Expansion, m: usize, rho: f64) -> Option<ProvedDisc> 
 }
 
 /// The smallest `rho` that proves `m` roots, with the largest ball that the larger ones prove free of others.
-fn smallest_disc(b: &MapBounds, e: &Expansion, m: usize) -> Option<ProvedDisc> {
+fn smallest_disc(b: &MapBounds, e: &CurveExpansion, m: usize) -> Option<ProvedDisc> {
     let tame = |x: f64| x < 2f64.powi(100);
     let regular = b.kappa < 0.5 && tame(b.beta) && e.terms.iter().flatten().all(|z| tame(modulus(*z)));
     if !regular {
@@ -471,7 +471,7 @@ fn prove(
     let (x, unit) = (&middle.x, system.unit());
     let b = bounds(system, x, &middle.border);
     let more = || {
-        let wider = Expansion::of(system, &middle.border, x.patch, m + 1);
+        let wider = CurveExpansion::of(system, &middle.border, x.patch, m + 1);
         smallest_disc(&b, &wider, m)
     };
     let failure = WhyUncertified::IllConditioned { defect: b.kappa };

@@ -45,7 +45,7 @@ fn rust_files(folder: &Path) -> Vec<String> {
 
 /// Names of the dependencies as they are written in code.
 /// Packages that no source names: they are there for their features (Cargo.toml says why, `.ci/shared-features` checks it).
-const FOR_FEATURES: [&str; 2] = ["approx", "once_cell"];
+const FOR_FEATURES: [&str; 1] = ["once_cell"];
 
 fn dependencies() -> BTreeSet<String> {
     let manifest: toml::Table = read(&root().join("Cargo.toml")).parse().unwrap();
