@@ -43,10 +43,10 @@ fn rust_files(folder: &Path) -> Vec<String> {
     out
 }
 
-/// Names of the dependencies as they are written in code.
 /// Packages that no source names: they are there for their features (Cargo.toml says why, `.ci/shared-features` checks it).
 const FOR_FEATURES: [&str; 1] = ["once_cell"];
 
+/// Names of the dependencies as they are written in code.
 fn dependencies() -> BTreeSet<String> {
     let manifest: toml::Table = read(&root().join("Cargo.toml")).parse().unwrap();
     manifest["dependencies"].as_table().unwrap().keys().map(|k| k.replace('-', "_")).collect()
