@@ -342,7 +342,7 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
     assert!(read(&folder, "report.md").contains("Which freedom more would resolve it was tried"));
     // an earlier run leaves none of them behind
     let (_, d, folder) = run(&limited(), "unmet");
-    assert!(d.get("freedoms").is_none() && !folder.join("with-stroke.toml").exists());
+    assert!(d["freedoms"].is_null() && !folder.join("with-stroke.toml").exists());
     let front = limited().replace(
         "[optimize]",
         "[optimize]\nobjectives = [\"stroke\", \"worst_conditioning\"]\nmode = \"pareto\"",
