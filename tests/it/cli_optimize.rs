@@ -185,7 +185,7 @@ variables = [\"offsets\"]
     }
     assert!(values.windows(2).all(|v| v[0] > v[1]), "{values:?}");
     let (out, _) = optimize(&required(more), &[]);
-    assert!(document(&out).get("candidates").is_none());
+    assert!(document(&out)["candidates"].is_null());
 }
 
 /// A search of many seconds: offsets, triangles and height under many requirements.
@@ -272,7 +272,7 @@ fn three_fold_symmetry_is_kept_or_refused() {
     assert!(names.contains(&"base size") && names.contains(&"platform size"), "{names:?}");
 
     // what the key asks for is no default, and needs no word
-    assert!(d.get("symmetry").is_none());
+    assert!(d["symmetry"].is_null());
     let refused = |text: &str, words: &str| {
         let (out, _folder) = optimize(text, &[]);
         assert_eq!(out.status.code(), Some(2), "{words}");
@@ -327,7 +327,7 @@ fn three_fold_symmetry_is_no_default_where_the_search_cannot_hold_it() {
     let silent = |text: &str, variables: usize| {
         let (out, _folder) = optimize(text, &[]);
         let d = document(&out);
-        assert!(d.get("symmetry").is_none(), "{}", d["symmetry"]);
+        assert!(d["symmetry"].is_null(), "{}", d["symmetry"]);
         assert_eq!(d["variables"].as_array().unwrap().len(), variables);
     };
     silent(&format!("{design}symmetry = \"none\"\n"), 6);
