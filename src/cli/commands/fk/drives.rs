@@ -5,6 +5,7 @@ use super::lengths::Given;
 use super::near::{self, Followed, Machine, Proof};
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
+use crate::cli::numbers::listed;
 use crate::cli::output::Answer;
 use crate::coupled::{CoupledLegs, CoupledOutcome, CoupledStatus, CoupledTracker};
 use crate::design::Design;
@@ -70,8 +71,7 @@ fn one(
 }
 
 fn sentence(found: &CoupledOutcome, solution: &DriveSolutionRecord) -> String {
-    let p = found.near.pose().position;
-    let at = format!("[{:.6}, {:.6}, {:.6}]", p.x, p.y, p.z);
+    let at = listed(found.near.pose().position.iter().copied(), 6);
     match found.status {
         CoupledStatus::Proved(bound) => format!(
             "{at}: proved, the pose with these lengths of drives is within {:.1e} and {:.1e} degrees; {} step(s)",

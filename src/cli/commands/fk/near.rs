@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::lengths::Given;
 use super::{Table, render};
 use crate::cli::exit::Exit;
+use crate::cli::numbers::listed;
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
@@ -119,15 +120,13 @@ pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table:
 
 /// One line of the table for many rows.
 pub(super) fn line(number: usize, machine: &Machine<'_>, outcome: &NearOutcome) -> String {
-    let (e, p) = (outcome.evidence(), outcome.pose().position);
+    let e = outcome.evidence();
     format!(
-        "{number:>4}  {:<16}  {:>8}  {:>17.3e}  [{:.6}, {:.6}, {:.6}]",
+        "{number:>4}  {:<16}  {:>8}  {:>17.3e}  {}",
         outcome.name(),
         e.segments,
         conditioning(machine, outcome),
-        p.x,
-        p.y,
-        p.z
+        listed(outcome.pose().position.iter().copied(), 6)
     )
 }
 

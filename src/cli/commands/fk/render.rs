@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::cli::numbers::listed;
 use crate::fk::Method;
 use crate::geom::{ComplexPose, Pose};
 use crate::records::{
@@ -88,23 +89,27 @@ fn shown(r: &SolutionRecord) -> (Pose, [f64; 3]) {
 }
 
 fn real_pose(out: &mut String, number: usize, r: &SolutionRecord) {
-    let (Pose { position: p, .. }, [roll, pitch, yaw]) = shown(r);
+    let (pose, angles) = shown(r);
     let undecided = if r.real.is_none() { "  reality undecided" } else { "" };
     let certified = if r.certified { "  certified" } else { "" };
     let _ = writeln!(
         out,
-        "{number:>3}  p = [{:.6}, {:.6}, {:.6}]  rpy_deg = [{roll:.4}, {pitch:.4}, {yaw:.4}]  residual {:.1e}{certified}{undecided}",
-        p.x, p.y, p.z, r.residual.0,
+        "{number:>3}  p = {}  rpy_deg = {}  residual {:.1e}{certified}{undecided}",
+        listed(pose.position.iter().copied(), 6),
+        listed(angles, 4),
+        r.residual.0,
     );
 }
 
 /// Where a multiple pose may be, with the number of paths that end there.
 fn unproved_pose(out: &mut String, number: usize, r: &SolutionRecord) {
-    let (Pose { position: p, .. }, [roll, pitch, yaw]) = shown(r);
+    let (pose, angles) = shown(r);
     let _ = writeln!(
         out,
-        "{number:>3}  near p = [{:.4}, {:.4}, {:.4}]  rpy_deg = [{roll:.2}, {pitch:.2}, {yaw:.2}]  paths {}",
-        p.x, p.y, p.z, r.multiplicity,
+        "{number:>3}  near p = {}  rpy_deg = {}  paths {}",
+        listed(pose.position.iter().copied(), 4),
+        listed(angles, 2),
+        r.multiplicity,
     );
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Found;
+use crate::cli::numbers::listed;
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
@@ -72,11 +73,7 @@ fn text(r: &SelfmotionAnswer) -> String {
         );
         for pose in &r.real_poses {
             let (p, q) = (pose.position.map(|x| x.0), pose.quaternion.map(|x| x.0));
-            let _ = writeln!(
-                out,
-                "  p = [{:.6}, {:.6}, {:.6}]  q = [{:.6}, {:.6}, {:.6}, {:.6}]",
-                p[0], p[1], p[2], q[0], q[1], q[2], q[3]
-            );
+            let _ = writeln!(out, "  p = {}  q = {}", listed(p, 6), listed(q, 6));
         }
     }
     for (k, curve) in r.curves.iter().enumerate() {
