@@ -28,28 +28,17 @@ const FAR: f64 = 1.0 / 16.0;
 pub(super) struct EightPoints<'a> {
     pub(super) system: &'a LegSystem,
     pub(super) points: &'a [Study<f64>],
-    /// Receives what is proved of each point.
-    pub(super) out: &'a mut Vec<FoundInDoubles>,
-}
-
-/// What doubles prove of a point.
-#[derive(Debug, Clone, Copy)]
-#[allow(clippy::large_enum_variant)] // most are roots
-pub(super) enum FoundInDoubles {
-    /// The root with its pose.
-    Root(CertifiedPose),
-    /// One root, but not where its `R` and `p` are.
-    BallOnly,
-    /// Nothing.
-    Nothing,
+    /// Receives the root that is proved near each point, with its pose.
+    pub(super) out: &'a mut Vec<Option<CertifiedPose>>,
 }
 
 impl pulp::WithSimd for EightPoints<'_> {
-    type Output = ();
+    /// The lanes of which one root is proved, but not where its `R` and `p` are.
+    type Output = [bool; LANES];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        certify(simd, self.system, self.points, self.out);
+    fn with_simd<S: Simd>(self, simd: S) -> [bool; LANES] {
+        certify(simd, self.system, self.points, self.out)
     }
 }
 
@@ -485,8 +474,14 @@ fn agree(pose: &Entries<ComplexBatch>, discs: &Entries<Discs>) -> [bool; LANES] 
 }
 
 #[inline(always)]
-fn certify<S: Simd>(simd: S, system: &LegSystem, points: &[Study<f64>], out: &mut Vec<FoundInDoubles>) {
-    let Some(last) = points.len().checked_sub(1) else { return };
+fn certify<S: Simd>(
+    simd: S,
+    system: &LegSystem,
+    points: &[Study<f64>],
+    out: &mut Vec<Option<CertifiedPose>>,
+) -> [bool; LANES] {
+    let mut ball_only = [false; LANES];
+    let Some(last) = points.len().checked_sub(1) else { return ball_only };
     let mut x = [ComplexBatch::ZERO; 8];
     let mut patch = [0; LANES];
     for l in 0..LANES {
@@ -536,14 +531,14 @@ fn certify<S: Simd>(simd: S, system: &LegSystem, points: &[Study<f64>], out: &mu
     let agrees = agree(&pose, &discs);
     let unit = system.unit();
     for (l, point) in points.iter().enumerate().take(LANES) {
-        let Some(ball) = balls[l] else {
-            out.push(FoundInDoubles::Nothing);
-            continue;
+        let ball = match balls[l] {
+            Some(ball) if near[l] && agrees[l] => ball,
+            other => {
+                ball_only[l] = other.is_some();
+                out.push(None);
+                continue;
+            }
         };
-        if !(near[l] && agrees[l]) {
-            out.push(FoundInDoubles::BallOnly);
-            continue;
-        }
         let disc = |k: usize| {
             let scale = if k < 9 { 1.0 } else { unit };
             Disc { centre: discs[k].c.lane(l) * scale, radius: discs[k].r.0[l] * scale }
@@ -569,8 +564,9 @@ fn certify<S: Simd>(simd: S, system: &LegSystem, points: &[Study<f64>], out: &mu
             rotation: nalgebra::Matrix3::from_fn(|i, j| entry(3 * i + j)),
             position: nalgebra::Vector3::from_fn(|i, _| entry(9 + i)),
         };
-        out.push(FoundInDoubles::Root(CertifiedPose { pose, certificate }));
+        out.push(Some(CertifiedPose { pose, certificate }));
     }
+    ball_only
 }
 
 #[cfg(test)]
