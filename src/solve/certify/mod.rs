@@ -106,7 +106,7 @@ use coordinates::{
     PrecisePoint, deviation, enclose_pose, enclose_pose_widely, pose_in_double, pose_of, rotation_distance,
     rounded_pose, study_at, study_of,
 };
-use krawczyk::{Centre, Digits, RootBall, one_root_about};
+use krawczyk::{Centre, Digits, RootBall, newton_step, one_root_about};
 use refine::refine_study;
 use side_by_side::EightPoints;
 use system::{LegSystem, RealScalar, Study};
@@ -259,8 +259,7 @@ impl Certifier {
     /// that a point as good as doubles can make it needs.
     fn root_one_step_on(&self, x: &Study<f64>) -> Result<CertifiedPose, WhyUncertified> {
         let mut better = x.lifted();
-        let ball = one_root_about(&self.0, &Centre { hi: x, full: Some(&better) }, Digits::OfTheCentre)?;
-        for (k, step) in ball.step.iter().enumerate() {
+        for (k, step) in newton_step(&self.0, &better)?.iter().enumerate() {
             better.re[k] = better.re[k] - step.re.into();
             better.im[k] = better.im[k] - step.im.into();
         }
