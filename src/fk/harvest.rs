@@ -226,18 +226,14 @@ fn certify_all(
             continue;
         }
         let slow;
-        let root = match quick {
-            Some(root) => root,
-            None => match certifier.root_near(NewtonStart::Point(&end.point)) {
-                Ok(root) => {
-                    slow = root;
-                    &slow
-                }
-                Err(_) => {
-                    open.push(candidate(end));
-                    continue;
-                }
-            },
+        let root = if let Some(root) = quick {
+            root
+        } else if let Ok(root) = certifier.root_near(NewtonStart::Point(&end.point)) {
+            slow = root;
+            &slow
+        } else {
+            open.push(candidate(end));
+            continue;
         };
         let first = proofs.len();
         proofs.push(CertifiedRoot { root: *root, condition: end.condition, sources: vec![end.source] });

@@ -101,8 +101,8 @@ fn off_patch(patch: &[usize; LANES], j: usize) -> Reals {
     out
 }
 
-/// Some lanes of complex numbers in registers of the vector unit. Written as loops over lanes, what walks along the rows of a matrix is vectorised along these rows by the compiler: numbers
-/// are gathered and scattered one by one, which takes several times as long.
+/// Some lanes of complex numbers in registers of the vector unit. Where operations are loops over lanes, the compiler fills vectors along the rows of a matrix instead: numbers are gathered and
+/// scattered one by one, which takes several times as long.
 #[derive(Clone, Copy)]
 struct Register<S: Simd> {
     re: S::f64s,
