@@ -8,7 +8,7 @@ use super::evidence::{KnownCertificates, proved};
 use super::homotopy::pose_of;
 use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
 use crate::geom::ComplexPose;
-use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use crate::num::octuple::ComplexOctuple;
 use crate::solve::certify::{
     CertifiedPose, Certifier, MIRROR, NewtonStart, ProvedReality, RootRelation, overlapping_pairs, relation,
@@ -109,7 +109,8 @@ pub(super) fn harvest(
         (in_order(m, s, proofs), KnownCertificates::AllApart)
     } else {
         let certificates = proofs.iter().map(|p| p.root.certificate).collect();
-        let roots: Vec<Sourced> = proofs.into_iter().map(|p| (record(m, s, &p), p.sources)).collect();
+        let legs = m.legs();
+        let roots: Vec<Sourced> = proofs.into_iter().map(|p| (record(m, &legs, s, &p), p.sources)).collect();
         (collect_with(m, s, t, &open, roots), KnownCertificates::Listed(certificates))
     };
     collected.doubtful |= lost || repeated > 0;
@@ -127,13 +128,13 @@ fn candidate(end: &End) -> PoseCandidate {
     }
 }
 
-fn record(m: &Manipulator, s: &SquaredLegLengths, p: &CertifiedRoot) -> FkRoot {
+fn record(m: &Manipulator, legs: &[Leg; 6], s: &SquaredLegLengths, p: &CertifiedRoot) -> FkRoot {
     FkRoot {
         pose: p.root.pose,
         reality: proved(p.root.certificate.reality()),
         certificate: Some(p.root.certificate.into()),
         multiplicity: 1,
-        residual: p.root.pose.residual(m, s),
+        residual: p.root.pose.residual_of(legs, m.size(), s),
         condition: p.condition,
         dual_quaternion: Some(p.root.certificate.point()),
     }
@@ -144,8 +145,9 @@ fn in_order(m: &Manipulator, s: &SquaredLegLengths, mut proofs: Vec<CertifiedRoo
     let key = |p: &CertifiedRoot| sort_key(proved(p.root.certificate.reality()), &p.root.pose, m.size());
     let mut order: Vec<(SortKey, usize)> = proofs.iter().enumerate().map(|(k, p)| (key(p), k)).collect();
     order.sort_unstable();
+    let legs = m.legs();
     Collected {
-        roots: order.iter().map(|(_, k)| record(m, s, &proofs[*k])).collect(),
+        roots: order.iter().map(|(_, k)| record(m, &legs, s, &proofs[*k])).collect(),
         sources: order.iter().map(|(_, k)| std::mem::take(&mut proofs[*k].sources)).collect(),
         rejected: Vec::new(),
         doubtful: false,
@@ -156,13 +158,15 @@ fn is_zero(x: f64) -> bool {
     x.to_bits() << 1 == 0 // either sign
 }
 
-/// Roots that are certified with this one: the conjugate, and with both bodies flat the mirror images of both.
-fn images(root: &CertifiedPose, flat: bool) -> impl Iterator<Item = CertifiedPose> + use<> {
+/// Roots that are certified with this one: the conjugate, and with both bodies flat the mirror images of both. Each is made when it is asked for.
+fn images(root: &CertifiedPose, flat: bool) -> impl Iterator<Item = CertifiedPose> + use<'_> {
     let pair = root.certificate.reality() == ProvedReality::NonReal;
-    let conjugate = pair.then(|| root.conjugate());
-    let mirrored = flat.then(|| root.mirrored());
-    let both = mirrored.as_ref().filter(|_| pair).map(CertifiedPose::conjugate);
-    conjugate.into_iter().chain(mirrored).chain(both)
+    let wanted = move |(conjugate, mirrored): &(bool, bool)| (!conjugate || pair) && (!mirrored || flat);
+    [(true, false), (false, true), (true, true)].into_iter().filter(wanted).map(|image| match image {
+        (true, false) => root.conjugate(),
+        (false, _) => root.mirrored(),
+        (true, true) => root.mirrored().conjugate(),
+    })
 }
 
 /// One of each set of ends that look like images of each other, the first: the others are certified with it.
@@ -212,23 +216,28 @@ fn certify_all(
     let mut open = Vec::new();
     let chosen = representatives(ends, flat);
     let points: Vec<&[Complex64; 8]> = chosen.iter().map(|i| &ends[*i].point).collect();
-    let mut known = chosen.iter().zip(certifier.roots_near(&points)).peekable();
+    let found = certifier.roots_near(&points);
+    let mut known = chosen.iter().zip(&found).peekable();
     let mut done = vec![false; ends.len()];
     proofs.reserve(ends.len());
     for (i, end) in ends.iter().enumerate() {
-        let quick = known.next_if(|(k, _)| **k == i).and_then(|(_, root)| root);
+        let quick = known.next_if(|(k, _)| **k == i).and_then(|(_, root)| root.as_ref());
         if std::mem::replace(&mut done[i], true) {
             continue;
         }
-        let certified = quick.map_or_else(|| certifier.root_near(NewtonStart::Point(&end.point)), Ok);
-        let Ok(root) = certified else {
+        let slow;
+        let root = if let Some(root) = quick {
+            root
+        } else if let Ok(root) = certifier.root_near(NewtonStart::Point(&end.point)) {
+            slow = root;
+            &slow
+        } else {
             open.push(candidate(end));
             continue;
         };
         let first = proofs.len();
-        let images = images(&root, flat);
-        proofs.push(CertifiedRoot { root, condition: end.condition, sources: vec![end.source] });
-        for image in images {
+        proofs.push(CertifiedRoot { root: *root, condition: end.condition, sources: vec![end.source] });
+        for image in images(root, flat) {
             // an image of an image may be known already; the root may be an image of itself
             let apart = |p: &CertifiedRoot| {
                 relation(&p.root.certificate, &image.certificate) == RootRelation::Distinct
@@ -376,7 +385,6 @@ mod tests {
     use super::*;
     use crate::fk::{FkOptions, ForwardKinematics, Homotopy};
     use crate::geom::Pose;
-    use crate::manipulator::Leg;
     use crate::num::Rng;
     use nalgebra::{Point3, Rotation3, Vector3};
 

@@ -23,7 +23,7 @@ pub(super) fn solve(
 ) -> Option<Result<FkSolutions, FkError>> {
     let hidden = HiddenLengths::of(m)?;
     let most = WAYS.iter().find(|w| w.0 == hidden.virtual_legs()).map_or(1, |w| w.1);
-    let usual = class_bound(m).unwrap_or(Theorem::SixLegs).bound();
+    let theorem = class_bound(m).unwrap_or(Theorem::SixLegs);
     let mut ends: Vec<End> = Vec::new();
     let mut evaluations = 0;
     let mut answer = None;
@@ -33,7 +33,7 @@ pub(super) fn solve(
             ends.extend(ends_at(found.poses.into_iter().flatten()));
         }
         let tried = Tried::HiddenLengths { ways: way + 1, values: evaluations };
-        let found = judged(m, s, o, &ends, usual, tried);
+        let found = judged(m, s, o, &ends, theorem.bound(), tried, theorem);
         let settled = found.as_ref().ok().is_none_or(|f| f.completeness.is_proved());
         answer = Some(found);
         if settled || evaluations > BUDGET {

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use num_complex::Complex64;
 
+use super::bounds::class_bound;
 use super::closure_candidates;
 use super::evidence::attach;
 use super::harvest::{End, Harvest, harvest};
@@ -49,6 +50,8 @@ type Ranked = Result<Vec<(Sequence, GenericDegrees)>, NoPlan>;
 struct Prepared {
     manipulator: Manipulator,
     evaluators: Vec<Evaluator>,
+    /// The bound of the design's class: working it out takes as long as a pose.
+    theorem: Theorem,
 }
 
 impl Trilateration {
@@ -81,7 +84,8 @@ impl Trilateration {
         if evaluators.is_empty() {
             return Err(refuse(NoPlan::Collinear));
         }
-        Ok(Prepared { manipulator: m.clone(), evaluators })
+        let theorem = class_bound(m).unwrap_or(Theorem::SixLegs);
+        Ok(Prepared { manipulator: m.clone(), evaluators, theorem })
     }
 }
 
@@ -143,6 +147,19 @@ impl ForwardKinematics for Trilateration {
     }
 }
 
+impl Prepared {
+    fn judged(
+        &self,
+        s: &SquaredLegLengths,
+        o: &FkOptions,
+        ends: &[End],
+        expected: usize,
+        tried: Tried,
+    ) -> Result<FkSolutions, FkError> {
+        judged(&self.manipulator, s, o, ends, expected, tried, self.theorem)
+    }
+}
+
 impl PreparedDesign for Prepared {
     fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let squares = s.get().map(Complex64::from);
@@ -157,7 +174,7 @@ impl PreparedDesign for Prepared {
             let configurations = evaluator.configurations(&squares, radius);
             ends.extend(ends_at(configurations.found.iter().map(|c| c.pose)));
             let tried = Tried::Evaluations(attempt + 1);
-            let found = judged(&self.manipulator, s, o, &ends, configurations.expected, tried)?;
+            let found = self.judged(s, o, &ends, configurations.expected, tried)?;
             if found.completeness.is_proved() {
                 return Ok(found);
             }
@@ -169,7 +186,7 @@ impl PreparedDesign for Prepared {
             if !exact.is_empty() {
                 ends.extend(ends_at(exact));
                 let tried = Tried::Evaluations(*attempts);
-                *found = judged(&self.manipulator, s, o, &ends, *expected, tried)?;
+                *found = self.judged(s, o, &ends, *expected, tried)?;
             }
         }
         let found = answer.map(|a| a.0);
@@ -192,7 +209,7 @@ pub(super) fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iter
     })
 }
 
-/// Refines, merges and certifies the ends of all that was `tried`. What cannot be certified is not a root: with other distances
+/// Refines, merges and certifies the ends of all that was `tried`; `theorem` bounds their number. What cannot be certified is not a root: with other distances
 /// the same lengths give other poses of rounding far out.
 pub(super) fn judged(
     m: &Manipulator,
@@ -201,12 +218,15 @@ pub(super) fn judged(
     ends: &[End],
     expected: usize,
     tried: Tried,
+    theorem: Theorem,
 ) -> Result<FkSolutions, FkError> {
     let Harvest { collected, certificates } = harvest(m, s, &o.tolerances, ends, &[]);
-    let (roots, others): (Vec<_>, Vec<_>) = collected.roots.into_iter().partition(FkRoot::certified);
     let mut rejected = collected.rejected;
+    let mut roots = collected.roots;
     let reason = RejectionReason::NotCertified;
-    rejected.extend(others.iter().map(|r| Rejected { reason, residual: r.residual }));
+    let others = roots.iter().filter(|r| !r.certified());
+    rejected.extend(others.map(|r| Rejected { reason, residual: r.residual }));
+    roots.retain(FkRoot::certified);
     let found =
         Reason::Trilaterated { certified: roots.len(), configurations: ends.len(), tried, usual: expected };
     let mut solutions = FkSolutions {
@@ -220,6 +240,6 @@ pub(super) fn judged(
         unproved: Vec::new(),
         seed: o.seed,
     };
-    attach(&mut solutions, m, s, Theorem::SixLegs, certificates)?;
+    attach(&mut solutions, m, s, theorem, certificates)?;
     Ok(solutions)
 }

@@ -77,6 +77,7 @@ pub struct ComplexPose {
 impl ComplexPose {
     /// Left side of the leg equation, `(R b + p - a)^T (R b + p - a)` (no conjugation).
     #[must_use]
+    #[inline]
     pub fn squared_length(&self, leg: &Leg) -> Complex64 {
         let (r, p, b, a) = (&self.rotation, &self.position, &leg.platform, &leg.base);
         let mut sum = Complex64::ZERO;
@@ -91,9 +92,14 @@ impl ComplexPose {
     /// size of the design.
     #[must_use]
     pub fn residual(&self, m: &Manipulator, s: &SquaredLegLengths) -> f64 {
-        let scale = m.size() * m.size();
+        self.residual_of(&m.legs(), m.size(), s)
+    }
+
+    /// [`residual`](Self::residual) of legs taken out of a manipulator of this size once, for many poses.
+    pub(crate) fn residual_of(&self, legs: &[Leg; 6], size: f64, s: &SquaredLegLengths) -> f64 {
+        let scale = size * size;
         let mut largest = 0.0_f64;
-        for (leg, s) in m.legs().iter().zip(s.get()) {
+        for (leg, s) in legs.iter().zip(s.get()) {
             largest = larger(largest, ((self.squared_length(leg) - s) / scale).norm_sqr());
         }
         let r = &self.rotation;

@@ -60,7 +60,11 @@ impl ComplexBatch {
     /// The imaginary unit times each.
     #[inline(always)]
     pub(crate) fn times_i(self) -> Self {
-        Self { re: self.im.map(|x| -x), im: self.re }
+        let mut re = self.im;
+        for x in &mut re {
+            *x = -*x;
+        }
+        Self { re, im: self.re }
     }
 
     /// `1 / z`; not a number where `z = 0`.

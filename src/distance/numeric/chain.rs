@@ -187,8 +187,9 @@ impl TrilaterationChain {
         at: &Positions<T>,
         lengths: &[Complex64],
     ) -> Places<T> {
-        let distances = step.distances.map(|d| T::constant(d.value(lengths)));
-        Places::of(step.from.map(|k| &at[k]), distances)
+        let ([x, y, z], [a, b, c]) = (step.from, step.distances);
+        let constant = |d: Measured| T::constant(d.value(lengths));
+        Places::of([&at[x], &at[y], &at[z]], [constant(a), constant(b), constant(c)])
     }
 
     /// Computed less known squared distance of the closure.
@@ -207,10 +208,15 @@ impl TrilaterationChain {
         Some(square - T::constant(distance.value(lengths)))
     }
 
-    /// The pose with the three joints in place, in design units.
+    /// The pose with the joints in place, in design units.
     pub(super) fn pose(&self, at: &Positions<Complex64>) -> ComplexPose {
-        let vector = |k: usize| Vector3::from(at[THREE + k]);
-        let (u, v) = (vector(1) - vector(0), vector(2) - vector(0));
+        self.pose_of([at[THREE], at[THREE + 1], at[THREE + 2]])
+    }
+
+    /// The pose by the three joints of the second body, in design units.
+    pub(super) fn pose_of(&self, three: [Vector<Complex64>; 3]) -> ComplexPose {
+        let [a, b, c] = three.map(Vector3::from);
+        let (u, v) = (b - a, c - a);
         let frame = Matrix3::from_columns(&[u, v, u.cross(&v)]);
         let rotation = Matrix3::from_fn(|i, j| {
             (0..3).map(|k| frame[(i, k)] * self.inverse[(k, j)]).fold(Complex64::ZERO, |x, y| x + y)
@@ -218,7 +224,7 @@ impl TrilaterationChain {
         let o = &self.origin;
         let turned =
             Vector3::from_fn(|i, _| rotation[(i, 0)] * o.x + rotation[(i, 1)] * o.y + rotation[(i, 2)] * o.z);
-        let position = (vector(0) - turned) * Complex64::from(self.size);
+        let position = (a - turned) * Complex64::from(self.size);
         if self.base_is_first {
             return ComplexPose { rotation, position };
         }
@@ -279,9 +285,13 @@ impl Circle {
     #[inline(always)]
     pub(super) fn point<T: LaneNumber>(&self, u: T) -> Vector<T> {
         let inverse = u.reciprocal();
-        std::array::from_fn(|i| {
-            T::constant(self.centre[i]) + T::constant(self.forth[i]) * u + T::constant(self.back[i]) * inverse
-        })
+        let mut out = [u; 3];
+        for i in 0..3 {
+            out[i] = T::constant(self.centre[i])
+                + T::constant(self.forth[i]) * u
+                + T::constant(self.back[i]) * inverse;
+        }
+        out
     }
 }
 
@@ -303,13 +313,53 @@ pub(super) struct ChainBranch<'a> {
     place: usize,
 }
 
-/// One choice of orientations at one point of the circle.
+/// Choices of orientations at eight points of the circle.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Leaf {
-    pub(super) defect: Complex64,
+struct Choice {
+    defect: ComplexBatch,
     /// Signed heights of the steps after the turn.
-    heights: [Complex64; 2],
-    pub(super) at: Positions<Complex64>,
+    heights: [ComplexBatch; 2],
+    at: Positions<ComplexBatch>,
+}
+
+impl Choice {
+    /// Becomes the other where `which`.
+    #[inline(always)]
+    fn take(&mut self, other: &Self, which: [bool; LANES]) {
+        self.defect = other.defect.select(self.defect, which);
+        for t in 0..2 {
+            self.heights[t] = other.heights[t].select(self.heights[t], which);
+        }
+        for k in 0..SLOTS {
+            for i in 0..3 {
+                self.at[k][i] = other.at[k][i].select(self.at[k][i], which);
+            }
+        }
+    }
+}
+
+/// Zeros of the closure, with the joints in place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Polished {
+    pub(super) u: ComplexBatch,
+    at: Positions<ComplexBatch>,
+    /// Last relative step of `u`.
+    pub(super) step: [f64; LANES],
+    /// Whether there was a finite closure to begin with.
+    pub(super) found: [bool; LANES],
+}
+
+impl Polished {
+    /// The joint in a slot.
+    pub(super) fn joint(&self, k: usize, slot: usize) -> Vector<Complex64> {
+        let [x, y, z] = &self.at[slot];
+        [x.lane(k), y.lane(k), z.lane(k)]
+    }
+
+    /// The three joints of the second body.
+    pub(super) fn three(&self, k: usize) -> [Vector<Complex64>; 3] {
+        [self.joint(k, THREE), self.joint(k, THREE + 1), self.joint(k, THREE + 2)]
+    }
 }
 
 impl<'a> ChainBranch<'a> {
@@ -327,7 +377,12 @@ impl<'a> ChainBranch<'a> {
 
     #[inline(always)]
     fn start<T: LaneNumber>(&self, u: T) -> Positions<T> {
-        let mut at = self.fixed.map(|p| p.map(T::constant));
+        let mut at = [[T::constant(Complex64::ZERO); 3]; SLOTS];
+        for k in 0..SLOTS {
+            for i in 0..3 {
+                at[k][i] = T::constant(self.fixed[k][i]);
+            }
+        }
         at[self.place] = self.circle.point(u);
         at
     }
@@ -385,10 +440,7 @@ impl<'a> ChainBranch<'a> {
     pub(super) fn products(&self, points: &[Complex64], e: Exponents) -> Vec<Complex64> {
         let mut out = Vec::with_capacity(points.len());
         for chunk in points.chunks(LANES) {
-            let at = |k: usize| chunk[k.min(chunk.len() - 1)];
-            let u =
-                ComplexBatch { re: std::array::from_fn(|k| at(k).re), im: std::array::from_fn(|k| at(k).im) };
-            let values = on_vector_unit(Product { branch: self, u, e });
+            let values = on_vector_unit(Product { branch: self, u: batch_of(chunk), e });
             out.extend((0..chunk.len()).map(|k| values.lane(k)));
         }
         out
@@ -419,52 +471,113 @@ impl<'a> ChainBranch<'a> {
         }
     }
 
-    /// All choices of orientations at `u`.
-    pub(super) fn leaves(&self, u: Complex64) -> Vec<Leaf> {
-        let count = 1 << self.chain.after.len();
-        (0..count).filter_map(|signs| self.leaf(u, |t, _| (signs >> t) & 1 == 0)).collect()
-    }
-
-    /// The choice at `u` that continues `near`.
-    fn follow(&self, u: Complex64, near: &Leaf) -> Option<Leaf> {
-        self.leaf(u, |t, h| (h - near.heights[t]).norm_sqr() <= (h + near.heights[t]).norm_sqr())
-    }
-
-    /// One choice: `upper` says whether a step's height is taken as it is or with the other sign.
-    fn leaf(&self, u: Complex64, upper: impl Fn(usize, Complex64) -> bool) -> Option<Leaf> {
+    /// Eight choices at `u`: `upper` says for which a step's height is taken as it is, for the others with the other sign.
+    #[inline(always)]
+    fn choice(&self, u: ComplexBatch, upper: impl Fn(usize, ComplexBatch) -> [bool; LANES]) -> Choice {
         let mut at = self.start(u);
-        let mut heights = [Complex64::ZERO; 2];
+        let mut heights = [ComplexBatch::ZERO; 2];
         for (t, step) in self.chain.after.iter().enumerate() {
-            let places: Places<Complex64> = TrilaterationChain::places(step, &at, self.lengths);
-            let up = upper(t, places.height);
-            let [above, below] = places.both();
-            at[step.place] = if up { above } else { below };
-            heights[t] = if up { places.height } else { -places.height };
+            let places: Places<ComplexBatch> = TrilaterationChain::places(step, &at, self.lengths);
+            heights[t] = places.height.select(-places.height, upper(t, places.height));
+            at[step.place] = places.at_height(heights[t]);
         }
-        let defect = self.chain.defect(&at, self.lengths)?;
-        defect.is_finite().then_some(Leaf { defect, heights, at })
+        let one = ComplexBatch::real(1.0);
+        Choice { defect: self.chain.defect(&at, self.lengths).unwrap_or(one), heights, at }
     }
 
-    /// Newton's method on the closure of one choice from near a zero; the point and the choice there, and the last relative step.
-    pub(super) fn polished(&self, mut u: Complex64, mut leaf: Leaf) -> (Complex64, Leaf, f64) {
-        let mut step = f64::INFINITY;
-        for _ in 0..6 {
-            let nudged = u * (1.0 + NUDGE);
-            let Some(other) = self.follow(nudged, &leaf) else { break };
-            let slope = (other.defect - leaf.defect) / (nudged - u);
-            let change = leaf.defect / slope;
-            let size = change.norm() / u.norm();
-            // a step that does not shrink is rounding, or no convergence
-            if !(size < 0.5 * step && size < 0.2) {
-                break;
+    /// The choices at `u` that continue `near`.
+    #[inline(always)]
+    fn following(&self, u: ComplexBatch, near: &Choice) -> Choice {
+        self.choice(u, |t, h| {
+            let (same, other) = ((h - near.heights[t]).norm_sqr(), (h + near.heights[t]).norm_sqr());
+            let mut upper = [false; LANES];
+            for k in 0..LANES {
+                upper[k] = same[k] <= other[k];
             }
-            let Some(next) = self.follow(u - change, &leaf) else { break };
-            (u, leaf, step) = (u - change, next, size);
-            if size < 1e-10 {
+            upper
+        })
+    }
+
+    /// The choices at `u` whose closure is least, and where there is one.
+    #[inline(always)]
+    fn least(&self, u: ComplexBatch) -> (Choice, [bool; LANES]) {
+        let zero = ComplexBatch::ZERO;
+        let mut out = Choice { defect: zero, heights: [zero; 2], at: [[zero; 3]; SLOTS] };
+        let mut least = [f64::INFINITY; LANES];
+        for signs in 0..1 << self.chain.after.len() {
+            let choice = self.choice(u, |t, _| [(signs >> t) & 1 == 0; LANES]);
+            let size = choice.defect.norm_sqr();
+            let mut less = [false; LANES];
+            for k in 0..LANES {
+                less[k] = size[k] < least[k];
+                least[k] = if less[k] { size[k] } else { least[k] };
+            }
+            out.take(&choice, less);
+        }
+        let mut found = [false; LANES];
+        for k in 0..LANES {
+            found[k] = least[k] < f64::INFINITY;
+        }
+        (out, found)
+    }
+
+    /// Newton's method from near zeros on the closure of the choice of orientations that is least there.
+    #[inline(always)]
+    fn polished(&self, mut u: ComplexBatch) -> Polished {
+        let (mut choice, found) = self.least(u);
+        let (mut step, mut moving) = ([f64::INFINITY; LANES], found);
+        for _ in 0..6 {
+            let nudged = u.times(1.0 + NUDGE);
+            let other = self.following(nudged, &choice);
+            let slope = (other.defect - choice.defect) * (nudged - u).reciprocal();
+            let change = choice.defect * slope.reciprocal();
+            let next = self.following(u - change, &choice);
+            let (change_size, size, defect) = (change.norm_sqr(), u.norm_sqr(), next.defect.norm_sqr());
+            let mut goes = [false; LANES];
+            for k in 0..LANES {
+                let relative = (change_size[k] / size[k]).sqrt();
+                // a step that does not shrink is rounding, or no convergence
+                let shrinks = relative < 0.5 * step[k] && relative < 0.2;
+                goes[k] = moving[k] && shrinks && defect[k] < f64::INFINITY;
+                step[k] = if goes[k] { relative } else { step[k] };
+                moving[k] = goes[k] && relative >= 1e-10;
+            }
+            u = (u - change).select(u, goes);
+            choice.take(&next, goes);
+            if !moving.contains(&true) {
                 break;
             }
         }
-        (u, leaf, step)
+        Polished { u, at: choice.at, step, found }
+    }
+
+    /// [`Polished`] of at most [`LANES`] points, on vector units.
+    pub(super) fn polished_near(&self, points: &[Complex64]) -> Polished {
+        on_vector_unit(Polishing { branch: self, u: batch_of(points) })
+    }
+}
+
+/// Points side by side, the last repeated.
+fn batch_of(points: &[Complex64]) -> ComplexBatch {
+    let mut out = ComplexBatch::ZERO;
+    for k in 0..LANES {
+        let z = points[k.min(points.len() - 1)];
+        (out.re[k], out.im[k]) = (z.re, z.im);
+    }
+    out
+}
+
+struct Polishing<'a, 'b> {
+    branch: &'b ChainBranch<'a>,
+    u: ComplexBatch,
+}
+
+impl pulp::WithSimd for Polishing<'_, '_> {
+    type Output = Polished;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Polished {
+        self.branch.polished(self.u)
     }
 }
 

@@ -14,9 +14,10 @@ pub use shape::GenericDegrees;
 
 use num_complex::Complex64;
 
-use self::chain::{ChainBranch, Leaf};
+use self::chain::ChainBranch;
 use crate::geom::ComplexPose;
 use crate::manipulator::Manipulator;
+use crate::num::batch::LANES;
 use crate::topology::{JointIndex, Sequence};
 use chain::{Positions, TrilaterationChain};
 use number::squared_distance;
@@ -26,6 +27,8 @@ use number::squared_distance;
 pub struct Evaluator {
     chain: TrilaterationChain,
     shape: GenericDegrees,
+    /// Where the polynomial is sampled.
+    circle: Vec<Complex64>,
 }
 
 /// A pose that satisfies the distances used.
@@ -73,7 +76,9 @@ impl Evaluator {
         closure: Option<[JointIndex; 2]>,
         shape: GenericDegrees,
     ) -> Option<Self> {
-        Some(Self { chain: TrilaterationChain::new(m, s, given, closure)?, shape })
+        // as many as there are coefficients, in full batches
+        let circle = shape::unit_circle((2 * shape.degree + 1).next_multiple_of(LANES));
+        Some(Self { chain: TrilaterationChain::new(m, s, given, closure)?, shape, circle })
     }
 
     /// What is known of all designs of the topology.
@@ -112,10 +117,9 @@ impl Evaluator {
             out.lost += 2 * self.shape.degree;
             return;
         };
-        let count = (2 * self.shape.degree + 1).next_multiple_of(8);
-        let points: Vec<Complex64> = shape::unit_circle(count).into_iter().map(|v| v * radius).collect();
+        let points: Vec<Complex64> = self.circle.iter().map(|v| v * radius).collect();
         let values = branch.products(&points, self.shape.exponents);
-        let coefficients = shape::coefficients(&values, self.shape.degree);
+        let coefficients = shape::coefficients(&values, self.shape.degree, &self.circle);
         let (zeros, lost) = shape::zeros(&coefficients);
         out.lost += lost;
         let mut zeros: Vec<Complex64> = zeros.into_iter().map(|v| v * radius).collect();
@@ -128,20 +132,24 @@ impl Evaluator {
         out.found.extend(found.into_iter().map(|f| f.1));
     }
 
-    /// The configuration at each zero.
+    /// The configuration at each zero of the product, that of the orientations whose closure is least, and its `u`.
     fn polished(&self, branch: &ChainBranch<'_>, zeros: &[Complex64]) -> Vec<(Complex64, Configuration)> {
-        zeros.iter().filter_map(|u| self.configuration(branch, *u)).collect()
-    }
-
-    /// The configuration near a zero of the product, that of the orientations whose closure is least, and its `u`.
-    fn configuration(&self, branch: &ChainBranch<'_>, u: Complex64) -> Option<(Complex64, Configuration)> {
-        let least = |x: &Leaf, y: &Leaf| x.defect.norm_sqr().total_cmp(&y.defect.norm_sqr());
-        let leaf = branch.leaves(u).into_iter().min_by(least)?;
-        let (u, leaf, step) = branch.polished(u, leaf);
-        let turn = self.chain.turn?;
+        let mut out = Vec::with_capacity(zeros.len());
+        let Some(turn) = self.chain.turn else { return out };
         let unit = self.chain.size * self.chain.size;
-        let square = squared_distance(&leaf.at[turn.place], &leaf.at[turn.virtual_end]) * unit;
-        Some((u, Configuration { pose: self.chain.pose(&leaf.at), virtual_square: Some(square), step }))
+        for chunk in zeros.chunks(LANES) {
+            let polished = branch.polished_near(chunk);
+            for k in (0..chunk.len()).filter(|k| polished.found[*k]) {
+                let [x, y] = [turn.place, turn.virtual_end].map(|slot| polished.joint(k, slot));
+                let virtual_square = Some(squared_distance(&x, &y) * unit);
+                let pose = self.chain.pose_of(polished.three(k));
+                out.push((
+                    polished.u.lane(k),
+                    Configuration { pose, virtual_square, step: polished.step[k] },
+                ));
+            }
+        }
+        out
     }
 }
 

@@ -133,10 +133,13 @@ impl<T: LaneNumber> Places<T> {
     /// The two places: with and against the normal.
     #[inline(always)]
     pub(super) fn both(&self) -> [Vector<T>; 2] {
-        [
-            along(&self.foot, self.height, &self.normal),
-            along(&self.foot, self.height.times(-1.0), &self.normal),
-        ]
+        [self.at_height(self.height), self.at_height(self.height.times(-1.0))]
+    }
+
+    /// The place with this height, one of the two with either sign of [`height`](Self::height).
+    #[inline(always)]
+    pub(super) fn at_height(&self, height: T) -> Vector<T> {
+        along(&self.foot, height, &self.normal)
     }
 }
 

@@ -100,9 +100,10 @@ fn of_instance(
     }
     let branch = ChainBranch::new(chain, lengths, starts.first()?)?;
     let exponents = exponents(&branch, rng)?;
-    let values = branch.products(&unit_circle(SAMPLES), exponents);
+    let circle = unit_circle(SAMPLES);
+    let values = branch.products(&circle, exponents);
     let most = SAMPLES / 2 - 1;
-    let c = coefficients(&values, most);
+    let c = coefficients(&values, most, &circle);
     let largest = c.iter().map(|z| z.norm()).fold(0.0, f64::max);
     let beyond = |limit: f64| {
         (0..=most).rev().find(|k| [most - k, most + k].iter().any(|i| c[*i].norm() > limit * largest))
@@ -180,10 +181,9 @@ const STEP: f64 = 1e-6;
 /// Sweeps after which zeros are taken as they are.
 const SWEEPS: usize = 40;
 
-/// Coefficients `c_{-D}, .., c_D` of `sum c_k v^k` from values at the `n > 2 D` roots of unity `v = exp(2 pi i j / n)`.
-pub(super) fn coefficients(values: &[Complex64], degree: usize) -> Vec<Complex64> {
+/// Coefficients `c_{-D}, .., c_D` of `sum c_k v^k` from values at the `n > 2 D` roots of unity `v = exp(2 pi i j / n)`, which are `turn`.
+pub(super) fn coefficients(values: &[Complex64], degree: usize, turn: &[Complex64]) -> Vec<Complex64> {
     let n = values.len();
-    let turn: Vec<Complex64> = unit_circle(n);
     let sum = |k: usize| {
         // k counts from -D
         let step = (k + n - degree % n) % n;
@@ -224,7 +224,7 @@ mod tests {
             [Complex64::new(0.5, 0.2), Complex64::new(-1.1, 0.7), Complex64::I, Complex64::new(2.0, 0.0)];
         let value = |v: &Complex64| wanted.iter().map(|w| v - w).product::<Complex64>() / (v * v);
         let values: Vec<Complex64> = unit_circle(8).iter().map(value).collect();
-        let c = coefficients(&values, 3);
+        let c = coefficients(&values, 3, &unit_circle(8));
         assert!(c[0].norm() < 1e-15 && c[6].norm() < 1e-15 && (c[5] - 1.0).norm() < 1e-15);
         let (found, lost) = zeros(&c[1..6]);
         assert_eq!((found.len(), lost), (4, 0));

@@ -18,6 +18,9 @@ pub(super) const POLISHES: usize = 2;
 /// Pairs closer than this, relative to their size, are left to the general treatment.
 pub(super) const SEPARATE: f64 = 1e-5;
 
+/// Joints of the base and corners of the platform that the legs in their order join.
+pub(super) const LEGS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+
 /// Three complex coordinates in eight lanes.
 pub(super) type Points = [ComplexBatch; 3];
 const ORIGIN: Points = [ComplexBatch::ZERO; 3];
@@ -203,7 +206,6 @@ impl OcticSolver {
     /// Largest errors of the leg equations and of `R^T R = I`, and the largest of 1 and the parts of the entries.
     #[inline(always)]
     fn residuals(&self, s: &[f64; 6], r: &[Points; 3], p: &Points) -> ([f64; LANES], [f64; LANES]) {
-        const LEGS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
         let mut worst = [0.0_f64; LANES];
         let mut corners = [ORIGIN; 3];
         for (corner, b) in corners.iter_mut().zip(&self.platform_corners) {

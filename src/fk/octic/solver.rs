@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use num_complex::Complex64;
 
 use super::OcticProblem;
+use super::beside::ParallelSides;
 use super::factors::{Factors, Gram};
 use super::lanes::{Corners, POLISHES, Placed, SEPARATE, pairs};
 use crate::fk::collect::pose_scale;
@@ -54,6 +55,7 @@ pub struct OcticSolver {
     base_gram: Gram,
     /// Of the platform triangle as `P5 P6 P4`.
     turned_gram: Gram,
+    parallel: [ParallelSides; 4],
     /// Absent where the joints cannot be scaled exactly.
     certifier: Option<OctahedralCertifier>,
 }
@@ -108,6 +110,23 @@ impl pulp::WithSimd for Solve<'_> {
     }
 }
 
+/// [`Solve`] for lengths at which two poses share their pair of distances.
+struct SolveBeside<'a> {
+    solver: &'a OcticSolver,
+    s: &'a SquaredLegLengths,
+}
+
+impl pulp::WithSimd for SolveBeside<'_> {
+    type Output = Option<OcticPoses>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Option<OcticPoses> {
+        let scaled = self.solver.scaled(self.s);
+        let beside = self.solver.corners_from_beside(&scaled)?;
+        self.solver.placed(self.s, &scaled, &beside)
+    }
+}
+
 impl OcticSolver {
     /// Prepares an octahedral design; only coordinates count, not whether joints are named as shared (unless they are known between bounds only).
     ///
@@ -120,12 +139,14 @@ impl OcticSolver {
         let size = m.size();
         let base_corners = octahedral.base().map(|p| p.coords / size);
         let platform_corners = octahedral.platform().map(|p| p.coords / size);
+        let (base, platform) = (Triangle::of(&base_corners), Triangle::of(&platform_corners));
         Ok(Self {
             manipulator: m.clone(),
             size,
             order: octahedral.order().map(crate::manipulator::LegIndex::get),
-            base: Triangle::of(&base_corners),
-            platform: Triangle::of(&platform_corners),
+            parallel: ParallelSides::all(&base, &platform),
+            base,
+            platform,
             base_gram: Gram::of(base_corners.each_ref()),
             turned_gram: Gram::of([&platform_corners[1], &platform_corners[2], &platform_corners[0]]),
             base_corners,
@@ -159,14 +180,28 @@ impl OcticSolver {
     /// plane, or a residual above `1e-12`.
     #[must_use]
     pub fn solve(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
+        // the roots of the octic do not settle there: what takes as long as all the rest is left out
+        let scaled = self.scaled(s);
+        if self.parallel.iter().any(|sides| sides.is_translated(&scaled)) {
+            let found = on_vector_unit(SolveBeside { solver: self, s });
+            if found.is_some() {
+                return found;
+            }
+        }
         on_vector_unit(Solve { solver: self, s })
+    }
+
+    /// Squared lengths over the squared size, in the order s14 s24 s25 s35 s36 s16.
+    #[inline(always)]
+    fn scaled(&self, s: &SquaredLegLengths) -> [f64; 6] {
+        let scale = (self.size * self.size).recip();
+        let given = s.get();
+        self.order.map(|i| given[i] * scale)
     }
 
     #[inline(always)]
     fn solve_lanes(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
-        let scale = (self.size * self.size).recip();
-        let given = s.get();
-        let scaled = self.order.map(|i| given[i] * scale);
+        let scaled = self.scaled(s);
         if let Some((x, y, true)) = self.pairs(&scaled, POLISHES) {
             let settled = self.settled(&self.corners(&scaled, x, y), &scaled);
             let found = settled.and_then(|corners| self.placed(s, &scaled, &corners));

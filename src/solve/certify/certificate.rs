@@ -12,6 +12,9 @@ use crate::num::rounding::UnfitArithmetic;
 /// Signs of `(e, g)` under the mirror in `z = 0`, up to a common one.
 pub(crate) const MIRROR: [f64; 8] = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
 
+/// Entries of `R` that change sign under the mirror.
+const TURNED_BY_MIRROR: [(usize, usize); 4] = [(0, 2), (1, 2), (2, 0), (2, 1)];
+
 /// What is proved about a root being a real pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
@@ -70,20 +73,17 @@ impl PoseEnclosure {
         }
     }
 
-    fn mirrored(&self) -> Self {
-        let side = |k: usize| if k == 2 { -1.0 } else { 1.0 };
-        let signed = |d: Disc, s: f64| Disc { centre: d.centre * s, radius: d.radius };
-        Self {
-            rotation: std::array::from_fn(|i| {
-                std::array::from_fn(|j| signed(self.rotation[i][j], side(i) * side(j)))
-            }),
-            position: std::array::from_fn(|i| signed(self.position[i], side(i))),
+    fn mirror(&mut self) {
+        for (i, j) in TURNED_BY_MIRROR {
+            self.rotation[i][j].centre = -self.rotation[i][j].centre;
         }
+        self.position[2].centre = -self.position[2].centre;
     }
 
-    fn conjugate(&self) -> Self {
-        let mirrored = |d: Disc| Disc { centre: d.centre.conj(), radius: d.radius };
-        Self { rotation: self.rotation.map(|row| row.map(mirrored)), position: self.position.map(mirrored) }
+    fn conjugate(&mut self) {
+        for disc in self.rotation.iter_mut().flatten().chain(&mut self.position) {
+            disc.centre.im = -disc.centre.im;
+        }
     }
 }
 
@@ -131,16 +131,28 @@ impl Certificate {
     /// centre to balls about its conjugate and zeros to zeros.
     #[must_use]
     pub fn conjugate(&self) -> Self {
-        let (centre, low) = (self.centre.map(|z| z.conj()), self.low.map(|z| z.conj()));
-        Self { centre, low, enclosure: self.enclosure.conjugate(), ..*self }
+        let mut out = *self;
+        out.conjugate_in_place();
+        out
     }
 
-    /// The certificate of the mirror image `R -> S R S`, `p -> S p`, `S = diag(1, 1, -1)`, for platforms with all joints in `z = 0`: the
+    /// Becomes the certificate of the mirror image `R -> S R S`, `p -> S p`, `S = diag(1, 1, -1)`, for platforms with all joints in `z = 0`: the
     /// equations are even under `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`, changes of sign that no rounding sees.
-    pub(crate) fn mirrored(&self) -> Self {
-        let signs = if self.patch == 0 || self.patch == 3 { MIRROR } else { MIRROR.map(|s| -s) };
-        let [centre, low] = [self.centre, self.low].map(|x| std::array::from_fn(|k| x[k] * signs[k]));
-        Self { centre, low, enclosure: self.enclosure.mirrored(), ..*self }
+    fn mirror(&mut self) {
+        let common = if self.patch == 0 || self.patch == 3 { 1.0 } else { -1.0 };
+        for (k, sign) in MIRROR.iter().enumerate() {
+            self.centre[k] *= sign * common;
+            self.low[k] *= sign * common;
+        }
+        self.enclosure.mirror();
+    }
+
+    /// [`conjugate`](Self::conjugate), without a second record.
+    fn conjugate_in_place(&mut self) {
+        for z in self.centre.iter_mut().chain(&mut self.low) {
+            z.im = -z.im;
+        }
+        self.enclosure.conjugate();
     }
 
     /// Whether the point `(e, g)` (any scale, `g` in design units) lies in the ball in which the root is the only one.
@@ -210,23 +222,25 @@ pub(crate) struct CertifiedPose {
 }
 
 impl CertifiedPose {
-    /// The mirror image in `z = 0`, see [`Certificate::mirrored`].
+    /// The mirror image in `z = 0`, see [`Certificate::mirror`].
     pub(crate) fn mirrored(&self) -> Self {
-        let side = |k: usize| if k == 2 { -1.0 } else { 1.0 };
-        let pose = ComplexPose {
-            rotation: nalgebra::Matrix3::from_fn(|i, j| self.pose.rotation[(i, j)] * (side(i) * side(j))),
-            position: nalgebra::Vector3::from_fn(|i, _| self.pose.position[i] * side(i)),
-        };
-        Self { pose, certificate: self.certificate.mirrored() }
+        let mut out = *self;
+        for (i, j) in TURNED_BY_MIRROR {
+            out.pose.rotation[(i, j)] = -out.pose.rotation[(i, j)];
+        }
+        out.pose.position.z = -out.pose.position.z;
+        out.certificate.mirror();
+        out
     }
 
     /// The complex conjugate root.
     pub(crate) fn conjugate(&self) -> Self {
-        let pose = ComplexPose {
-            rotation: self.pose.rotation.map(|z| z.conj()),
-            position: self.pose.position.map(|z| z.conj()),
-        };
-        Self { pose, certificate: self.certificate.conjugate() }
+        let mut out = *self;
+        for z in out.pose.rotation.iter_mut().chain(out.pose.position.iter_mut()) {
+            z.im = -z.im;
+        }
+        out.certificate.conjugate_in_place();
+        out
     }
 }
 

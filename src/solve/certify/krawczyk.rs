@@ -142,6 +142,28 @@ fn bounds(system: &LegSystem, x: &Centre<'_>) -> Result<KrawczykBounds, WhyUncer
     Ok(out.rounded_up())
 }
 
+/// `Y F(c)`, computed with the digits of the centre: what a Newton step takes from it (zero for the patch).
+pub(super) fn newton_step(
+    system: &LegSystem,
+    x: &Study<DoubleDouble>,
+) -> Result<[Complex64; 8], WhyUncertified> {
+    let hi = x.rounded();
+    let j = system.jacobian(&hi, &system.values(&hi));
+    let y = approximate_inverse(&j.re, &j.im).ok_or(WhyUncertified::SingularJacobian)?;
+    let f = system.values(x);
+    let mut step = [Complex64::ZERO; 8];
+    for k in 0..N {
+        let (mut re, mut im) = (0.0, 0.0);
+        for i in 0..N {
+            let (y_re, y_im, f_re, f_im) = (y.re[k][i], y.im[k][i], f.f_re[i].rounded(), f.f_im[i].rounded());
+            re += y_re * f_re - y_im * f_im;
+            im += y_re * f_im + y_im * f_re;
+        }
+        step[if k == hi.patch { 7 } else { k }] = Complex64::new(re, im);
+    }
+    Ok(step)
+}
+
 /// The larger, or NaN when one is NaN.
 pub(super) fn largest(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }

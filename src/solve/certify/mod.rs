@@ -106,9 +106,9 @@ use coordinates::{
     PrecisePoint, deviation, enclose_pose, enclose_pose_widely, pose_in_double, pose_of, rotation_distance,
     rounded_pose, study_at, study_of,
 };
-use krawczyk::{Centre, Digits, RootBall, one_root_about};
+use krawczyk::{Centre, Digits, RootBall, newton_step, one_root_about};
 use refine::refine_study;
-use side_by_side::{EightPoints, FoundInDoubles};
+use side_by_side::EightPoints;
 use system::{LegSystem, RealScalar, Study};
 
 /// How accurate a pose must be to be certified: `2^-26`, half of the digits of a double.
@@ -221,14 +221,13 @@ impl Certifier {
     fn roots_near_studies(&self, points: &[Study<f64>]) -> Vec<Option<CertifiedPose>> {
         let mut found = Vec::with_capacity(points.len());
         for batch in points.chunks(LANES) {
-            on_vector_unit(EightPoints { system: &self.0, points: batch, out: &mut found });
+            let first = found.len();
+            let ball_only = on_vector_unit(EightPoints { system: &self.0, points: batch, out: &mut found });
+            for (l, x) in batch.iter().enumerate().filter(|(l, _)| ball_only[*l]) {
+                found[first + l] = self.root_one_step_on(x).ok();
+            }
         }
-        let with_digits = |(root, x): (FoundInDoubles, &Study<f64>)| match root {
-            FoundInDoubles::Root(root) => Some(root),
-            FoundInDoubles::BallOnly => self.root_one_step_on(x).ok(),
-            FoundInDoubles::Nothing => None,
-        };
-        found.into_iter().zip(points).map(with_digits).collect()
+        found
     }
 
     fn root_near_pose(&self, pose: &ComplexPose) -> Result<CertifiedPose, WhyUncertified> {
@@ -260,8 +259,7 @@ impl Certifier {
     /// that a point as good as doubles can make it needs.
     fn root_one_step_on(&self, x: &Study<f64>) -> Result<CertifiedPose, WhyUncertified> {
         let mut better = x.lifted();
-        let ball = one_root_about(&self.0, &Centre { hi: x, full: Some(&better) }, Digits::OfTheCentre)?;
-        for (k, step) in ball.step.iter().enumerate() {
+        for (k, step) in newton_step(&self.0, &better)?.iter().enumerate() {
             better.re[k] = better.re[k] - step.re.into();
             better.im[k] = better.im[k] - step.im.into();
         }

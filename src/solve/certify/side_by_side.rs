@@ -7,6 +7,8 @@
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
 use num_complex::Complex64;
+use pulp::Simd;
+use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
 use super::NEAR;
 use super::certificate::{CentrePrecision, Certificate, CertifiedPose, PoseEnclosure};
@@ -26,28 +28,17 @@ const FAR: f64 = 1.0 / 16.0;
 pub(super) struct EightPoints<'a> {
     pub(super) system: &'a LegSystem,
     pub(super) points: &'a [Study<f64>],
-    /// Receives what is proved of each point.
-    pub(super) out: &'a mut Vec<FoundInDoubles>,
-}
-
-/// What doubles prove of a point.
-#[derive(Debug, Clone, Copy)]
-#[allow(clippy::large_enum_variant)] // most are roots
-pub(super) enum FoundInDoubles {
-    /// The root with its pose.
-    Root(CertifiedPose),
-    /// One root, but not where its `R` and `p` are.
-    BallOnly,
-    /// Nothing.
-    Nothing,
+    /// Receives the root that is proved near each point, with its pose.
+    pub(super) out: &'a mut Vec<Option<CertifiedPose>>,
 }
 
 impl pulp::WithSimd for EightPoints<'_> {
-    type Output = ();
+    /// The lanes of which one root is proved, but not where its `R` and `p` are.
+    type Output = [bool; LANES];
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        certify(self.system, self.points, self.out);
+    fn with_simd<S: Simd>(self, simd: S) -> [bool; LANES] {
+        certify(simd, self.system, self.points, self.out)
     }
 }
 
@@ -110,23 +101,122 @@ fn off_patch(patch: &[usize; LANES], j: usize) -> Reals {
     out
 }
 
+/// Some lanes of complex numbers in registers of the vector unit. Where operations are loops over lanes, the compiler fills vectors along the rows of a matrix instead: numbers are gathered and
+/// scattered one by one, which takes several times as long.
+#[derive(Clone, Copy)]
+struct Register<S: Simd> {
+    re: S::f64s,
+    im: S::f64s,
+}
+
+/// The lanes from `first` on.
+#[inline(always)]
+fn load<S: Simd>(simd: S, x: &[f64; LANES], first: usize) -> S::f64s {
+    let mut v = simd.splat_f64s(0.0);
+    let lanes = cast_slice_mut::<S::f64s, f64>(std::slice::from_mut(&mut v));
+    lanes.copy_from_slice(&x[first..first + S::F64_LANES]);
+    v
+}
+
+#[inline(always)]
+fn store<S: Simd>(v: S::f64s, x: &mut [f64; LANES], first: usize) {
+    let lanes = cast_slice::<S::f64s, f64>(std::slice::from_ref(&v));
+    x[first..first + S::F64_LANES].copy_from_slice(lanes);
+}
+
+/// The larger of two, or NaN where one is NaN.
+#[inline(always)]
+fn largest<S: Simd>(simd: S, a: S::f64s, b: S::f64s) -> S::f64s {
+    let other = simd.add_f64s(b, simd.mul_f64s(a, simd.splat_f64s(0.0)));
+    simd.select_f64s(simd.greater_than_or_equal_f64s(a, b), a, other)
+}
+
+impl<S: Simd> Register<S> {
+    #[inline(always)]
+    fn real(simd: S, x: f64) -> Self {
+        Self { re: simd.splat_f64s(x), im: simd.splat_f64s(0.0) }
+    }
+
+    #[inline(always)]
+    fn load(simd: S, z: &ComplexBatch, first: usize) -> Self {
+        Self { re: load(simd, &z.re, first), im: load(simd, &z.im, first) }
+    }
+
+    #[inline(always)]
+    fn store(self, z: &mut ComplexBatch, first: usize) {
+        store::<S>(self.re, &mut z.re, first);
+        store::<S>(self.im, &mut z.im, first);
+    }
+
+    /// `|re| + |im|`, at least the modulus.
+    #[inline(always)]
+    fn size(self, simd: S) -> S::f64s {
+        // moduli by signs are calls of functions in `pulp`
+        let modulus = |x: S::f64s| simd.max_f64s(x, simd.sub_f64s(simd.splat_f64s(0.0), x));
+        simd.add_f64s(modulus(self.re), modulus(self.im))
+    }
+
+    /// Not a number where it is zero.
+    #[inline(always)]
+    fn reciprocal(self, simd: S) -> Self {
+        let square = simd.mul_add_e_f64s(self.re, self.re, simd.mul_f64s(self.im, self.im));
+        let inverse = simd.div_f64s(simd.splat_f64s(1.0), square);
+        let im = simd.sub_f64s(simd.splat_f64s(0.0), simd.mul_f64s(self.im, inverse));
+        Self { re: simd.mul_f64s(self.re, inverse), im }
+    }
+
+    #[inline(always)]
+    fn sum(self, simd: S, other: Self) -> Self {
+        Self { re: simd.add_f64s(self.re, other.re), im: simd.add_f64s(self.im, other.im) }
+    }
+
+    #[inline(always)]
+    fn difference(self, simd: S, other: Self) -> Self {
+        Self { re: simd.sub_f64s(self.re, other.re), im: simd.sub_f64s(self.im, other.im) }
+    }
+
+    /// Three roundings a part at most, as of a product that is not fused.
+    #[inline(always)]
+    fn product(self, simd: S, other: Self) -> Self {
+        Self {
+            re: simd.negate_mul_add_e_f64s(self.im, other.im, simd.mul_f64s(self.re, other.re)),
+            im: simd.mul_add_e_f64s(self.re, other.im, simd.mul_f64s(self.im, other.re)),
+        }
+    }
+
+    /// `self - a b` where roundings are not counted.
+    #[inline(always)]
+    fn less_product(self, simd: S, a: Self, b: Self) -> Self {
+        let re = simd.negate_mul_add_e_f64s(a.re, b.re, self.re);
+        let im = simd.negate_mul_add_e_f64s(a.re, b.im, self.im);
+        Self { re: simd.mul_add_e_f64s(a.im, b.im, re), im: simd.negate_mul_add_e_f64s(a.im, b.re, im) }
+    }
+
+    /// `self + k z` for a real `k`.
+    #[inline(always)]
+    fn plus_times(self, simd: S, k: f64, z: Self) -> Self {
+        let k = simd.splat_f64s(k);
+        Self { re: simd.mul_add_e_f64s(k, z.re, self.re), im: simd.mul_add_e_f64s(k, z.im, self.im) }
+    }
+}
+
 /// Row by row, the inverse by Gauss-Jordan elimination in place.
 #[inline(always)]
-fn approximate_inverse(j: &Rows) -> Rows {
+fn approximate_inverse<S: Simd>(simd: S, j: &[[Register<S>; N]; N]) -> [[Register<S>; N]; N] {
     let mut m = *j;
     for p in 0..N {
-        let pivot = m[p][p].reciprocal();
-        m[p][p] = ComplexBatch::real(1.0);
+        let pivot = m[p][p].reciprocal(simd);
+        m[p][p] = Register::real(simd, 1.0);
         for k in 0..N {
-            m[p][k] = m[p][k] * pivot;
+            m[p][k] = m[p][k].product(simd, pivot);
         }
         let row = m[p];
         for r in 0..N {
             if r != p {
                 let factor = m[r][p];
-                m[r][p] = ComplexBatch::ZERO;
+                m[r][p] = Register::real(simd, 0.0);
                 for k in 0..N {
-                    m[r][k] = m[r][k] - row[k] * factor;
+                    m[r][k] = m[r][k].less_product(simd, row[k], factor);
                 }
             }
         }
@@ -136,34 +226,37 @@ fn approximate_inverse(j: &Rows) -> Rows {
 
 /// Bounds `|sum_i y_i Q_i(h, k)|` on the unit polydisc, as [`LegSystem::second_order_bound`]; `rest` are what rounding and radii add for a weight of one.
 #[inline(always)]
-fn second_order(
+fn second_order<S: Simd>(
+    simd: S,
     system: &LegSystem,
-    y: &[ComplexBatch; N],
-    weights: &[Reals; N],
+    y: &[Register<S>; N],
+    weights: &[S::f64s; N],
     rest: &[f64; N],
-    off: &[Reals; 4],
-) -> Reals {
-    let mut size = [Reals::ZERO; COEFFICIENTS];
+    off: &[S::f64s; 4],
+) -> S::f64s {
+    let add = |a: S::f64s, b: S::f64s| simd.add_f64s(a, b);
+    let times = |k: f64, a: S::f64s| simd.mul_f64s(simd.splat_f64s(k), a);
+    let mut size = [simd.splat_f64s(0.0); COEFFICIENTS];
     for (k, size) in size.iter_mut().enumerate() {
-        let mut sum = ComplexBatch::ZERO;
+        let mut sum = Register::real(simd, 0.0);
         for i in 0..6 {
-            sum = sum + y[i].times(system.second_order.coefficient(i, k));
+            sum = sum.plus_times(simd, system.second_order.coefficient(i, k), y[i]);
         }
-        *size = sizes(&sum);
+        *size = sum.size(simd);
     }
     let [_, d0, d1, d2, c0, c1, c2, ..] = size;
-    let columns = [d0 + d1 + d2, d0 + c1 + c2, d1 + c2 + c0, d2 + c0 + c1];
-    let mut total = size[0].times(2.0) + weights[N - 1].times(3.0);
+    let columns = [add(add(d0, d1), d2), add(add(d0, c1), c2), add(add(d1, c2), c0), add(add(d2, c0), c1)];
+    let mut total = add(times(2.0, size[0]), times(3.0, weights[N - 1]));
     for j in 0..4 {
-        total = total + (columns[j] + size[7 + j].times(0.5)) * off[j];
+        total = add(total, simd.mul_f64s(add(columns[j], times(0.5, size[7 + j])), off[j]));
     }
     for (k, (i, j)) in PAIRS.into_iter().enumerate() {
-        total = total + size[11 + k] * off[i] * off[j];
+        total = add(total, simd.mul_f64s(simd.mul_f64s(size[11 + k], off[i]), off[j]));
     }
     for i in 0..N {
-        total = total + weights[i].times(rest[i]);
+        total = add(total, times(rest[i], weights[i]));
     }
-    total.up()
+    times(UP, add(total, simd.splat_f64s(TINY)))
 }
 
 /// Values, Jacobian (column `patch` holds the gradient by `g_3`) and bounds of their errors.
@@ -250,50 +343,90 @@ fn evaluate(system: &LegSystem, x: &[ComplexBatch; 8], patch: &[usize; LANES]) -
 }
 
 #[inline(always)]
-fn bounds(system: &LegSystem, x: &[ComplexBatch; 8], patch: &[usize; LANES]) -> EightBounds {
-    let Evaluated { f, j, f_error, width, j_error } = evaluate(system, x, patch);
-    let inverse = approximate_inverse(&j);
+fn bounds<S: Simd>(
+    simd: S,
+    system: &LegSystem,
+    x: &[ComplexBatch; 8],
+    patch: &[usize; LANES],
+) -> EightBounds {
+    let evaluated = evaluate(system, x, patch);
     let mut rest = [32.0 * U * system.q[N - 1]; N];
     for (i, rest) in rest.iter_mut().enumerate().take(6) {
         let data = 1.5 * system.s_blur(i) + system.joint_width_of_second_order(i);
         *rest = (data + 32.0 * U * system.q[i]) * UP;
     }
-    let off = [0, 1, 2, 3].map(|j| off_patch(patch, j));
-    let zero = ComplexBatch::ZERO;
     let mut out = EightBounds {
         eta_centre: Reals::ZERO,
         eta: Reals::ZERO,
         kappa: Reals::ZERO,
         beta: Reals::ZERO,
-        step: [zero; N],
+        step: [ComplexBatch::ZERO; N],
     };
-    for k in 0..N {
-        let y = &inverse[k];
-        let mut weights = [Reals::ZERO; N];
-        let (mut step, mut values, mut data, mut gradients) = (zero, Reals::ZERO, Reals::ZERO, Reals::ZERO);
-        for i in 0..N {
-            weights[i] = sizes(&y[i]);
-            step = step + y[i] * f[i];
-            values = values + weights[i] * f_error[i];
-            data = data + weights[i] * width[i];
-            gradients = gradients + weights[i] * j_error[i];
-        }
-        let mut defect = Reals::ZERO;
-        for l in 0..N {
-            let mut rest = if l == k { ComplexBatch::real(1.0) } else { zero };
-            for i in 0..N {
-                rest = rest - y[i] * j[i][l];
-            }
-            defect = defect + sizes(&rest);
-        }
-        out.step[k] = step;
-        let centre = sizes(&step) + values;
-        out.eta_centre = out.eta_centre.largest(centre);
-        out.eta = out.eta.largest(centre + data);
-        out.kappa = out.kappa.largest(defect + gradients);
-        out.beta = out.beta.largest(second_order(system, y, &weights, &rest, &off));
+    for first in (0..LANES).step_by(S::F64_LANES) {
+        bounds_of_lanes(simd, system, &evaluated, patch, &rest, first, &mut out);
     }
     out
+}
+
+/// The bounds of the lanes of one register.
+#[inline(always)]
+fn bounds_of_lanes<S: Simd>(
+    simd: S,
+    system: &LegSystem,
+    evaluated: &Evaluated,
+    patch: &[usize; LANES],
+    rest: &[f64; N],
+    first: usize,
+    out: &mut EightBounds,
+) {
+    let Evaluated { f, j, f_error, width, j_error } = evaluated;
+    let (zero, none) = (Register::real(simd, 0.0), simd.splat_f64s(0.0));
+    let mut matrix = [[zero; N]; N];
+    let (mut value, mut off) = ([zero; N], [none; 4]);
+    let (mut value_error, mut data_width, mut gradient_error) = ([none; N], [none; N], [none; N]);
+    for i in 0..N {
+        for k in 0..N {
+            matrix[i][k] = Register::load(simd, &j[i][k], first);
+        }
+        value[i] = Register::load(simd, &f[i], first);
+        value_error[i] = load(simd, &f_error[i].0, first);
+        data_width[i] = load(simd, &width[i].0, first);
+        gradient_error[i] = load(simd, &j_error[i].0, first);
+    }
+    for (j, off) in off.iter_mut().enumerate() {
+        *off = load(simd, &off_patch(patch, j).0, first);
+    }
+    let inverse = approximate_inverse(simd, &matrix);
+    let (mut eta_centre, mut eta, mut kappa, mut beta) = (none, none, none, none);
+    for (k, y) in inverse.iter().enumerate() {
+        let mut weights = [none; N];
+        let (mut step, mut values, mut data, mut gradients) = (zero, none, none, none);
+        for i in 0..N {
+            weights[i] = y[i].size(simd);
+            step = step.sum(simd, y[i].product(simd, value[i]));
+            values = simd.mul_add_e_f64s(weights[i], value_error[i], values);
+            data = simd.mul_add_e_f64s(weights[i], data_width[i], data);
+            gradients = simd.mul_add_e_f64s(weights[i], gradient_error[i], gradients);
+        }
+        let mut defect = none;
+        for l in 0..N {
+            let mut rest = Register::real(simd, if l == k { 1.0 } else { 0.0 });
+            for i in 0..N {
+                rest = rest.difference(simd, y[i].product(simd, matrix[i][l]));
+            }
+            defect = simd.add_f64s(defect, rest.size(simd));
+        }
+        step.store(&mut out.step[k], first);
+        let centre = simd.add_f64s(step.size(simd), values);
+        eta_centre = largest(simd, eta_centre, centre);
+        eta = largest(simd, eta, simd.add_f64s(centre, data));
+        kappa = largest(simd, kappa, simd.add_f64s(defect, gradients));
+        beta = largest(simd, beta, second_order(simd, system, y, &weights, rest, &off));
+    }
+    store::<S>(eta_centre, &mut out.eta_centre.0, first);
+    store::<S>(eta, &mut out.eta.0, first);
+    store::<S>(kappa, &mut out.kappa.0, first);
+    store::<S>(beta, &mut out.beta.0, first);
 }
 
 /// The entries of a pose, `R` row by row, then `p`.
@@ -341,8 +474,14 @@ fn agree(pose: &Entries<ComplexBatch>, discs: &Entries<Discs>) -> [bool; LANES] 
 }
 
 #[inline(always)]
-fn certify(system: &LegSystem, points: &[Study<f64>], out: &mut Vec<FoundInDoubles>) {
-    let Some(last) = points.len().checked_sub(1) else { return };
+fn certify<S: Simd>(
+    simd: S,
+    system: &LegSystem,
+    points: &[Study<f64>],
+    out: &mut Vec<Option<CertifiedPose>>,
+) -> [bool; LANES] {
+    let mut ball_only = [false; LANES];
+    let Some(last) = points.len().checked_sub(1) else { return ball_only };
     let mut x = [ComplexBatch::ZERO; 8];
     let mut patch = [0; LANES];
     for l in 0..LANES {
@@ -352,7 +491,7 @@ fn certify(system: &LegSystem, points: &[Study<f64>], out: &mut Vec<FoundInDoubl
             (x[k].re[l], x[k].im[l]) = (point.re[k], point.im[k]);
         }
     }
-    let bounds = bounds(system, &x, &patch);
+    let bounds = bounds(simd, system, &x, &patch);
     let mut better = x;
     for k in 0..N {
         let step = bounds.step[k];
@@ -392,14 +531,14 @@ fn certify(system: &LegSystem, points: &[Study<f64>], out: &mut Vec<FoundInDoubl
     let agrees = agree(&pose, &discs);
     let unit = system.unit();
     for (l, point) in points.iter().enumerate().take(LANES) {
-        let Some(ball) = balls[l] else {
-            out.push(FoundInDoubles::Nothing);
-            continue;
+        let ball = match balls[l] {
+            Some(ball) if near[l] && agrees[l] => ball,
+            other => {
+                ball_only[l] = other.is_some();
+                out.push(None);
+                continue;
+            }
         };
-        if !(near[l] && agrees[l]) {
-            out.push(FoundInDoubles::BallOnly);
-            continue;
-        }
         let disc = |k: usize| {
             let scale = if k < 9 { 1.0 } else { unit };
             Disc { centre: discs[k].c.lane(l) * scale, radius: discs[k].r.0[l] * scale }
@@ -425,8 +564,9 @@ fn certify(system: &LegSystem, points: &[Study<f64>], out: &mut Vec<FoundInDoubl
             rotation: nalgebra::Matrix3::from_fn(|i, j| entry(3 * i + j)),
             position: nalgebra::Vector3::from_fn(|i, _| entry(9 + i)),
         };
-        out.push(FoundInDoubles::Root(CertifiedPose { pose, certificate }));
+        out.push(Some(CertifiedPose { pose, certificate }));
     }
+    ball_only
 }
 
 #[cfg(test)]

@@ -19,6 +19,11 @@ use super::quadrics::{Forms, Quadrics};
 use super::system::{Line, ORDER, taylor, values};
 use crate::num::vector_unit::on_vector_unit;
 
+/// Ratio of corrections below which they are squared by every step, not shrunk by a constant factor: at a double root that is a half.
+const SQUARED: f64 = 1e-2;
+/// How much larger than estimated the next correction may be.
+const MARGIN: f64 = 100.0;
+
 /// Most Newton corrections at the target.
 const POLISHES: usize = 4;
 
@@ -35,7 +40,7 @@ pub(super) struct FastPath {
     pub(super) steps: u32,
     /// Rejected steps and repeated corrections.
     pub(super) rejections: u32,
-    /// Last Newton correction at the end point, after [`FastTracker`] has polished it.
+    /// The Newton correction at the end point that would be next, estimated from the last ones, after [`FastTracker`] has polished it; that of the last where there is only one.
     pub(super) correction: f64,
     /// Estimate of the condition number of the derivative matrix at the end point.
     pub(super) condition: f64,
@@ -55,7 +60,7 @@ impl<L, const F: usize> FastTracker<'_, L, F> {
     #[inline(always)]
     fn remaining(&self, t: Complex64) -> f64 {
         let [_, corner, end] = self.way;
-        (t - end).norm() / (corner - end).norm()
+        ((t - end).norm_sqr() / (corner - end).norm_sqr()).sqrt()
     }
 }
 
@@ -319,6 +324,14 @@ impl<S: Simd> PathBatch<S> {
     }
 }
 
+/// Size of the Newton correction after one of size `this`, which followed one of size `last`. They are squared by every step, times a constant that these two show: `d_2 = c d_1^2`, so that the next is
+/// `c d_2^2`. What does not shrink that fast is rounding or a multiple root: then it is as long as this one.
+#[inline(always)]
+fn next_correction(last: f64, this: f64) -> f64 {
+    let ratio = this / last;
+    if last.is_finite() && ratio < SQUARED { MARGIN * this * ratio * ratio } else { this }
+}
+
 /// Newton's method at the target for all paths that arrived there, and a condition estimate.
 #[inline(always)]
 fn polish<S: Simd, L: Line<F>, const F: usize>(simd: S, homotopy: &L, end: Complex64, paths: &mut [FastPath])
@@ -340,7 +353,7 @@ where
         for z in &mut patch {
             *z = z.conj();
         }
-        let mut sizes = [f64::INFINITY; MOST_LANES];
+        let (mut last, mut next) = ([f64::INFINITY; MOST_LANES], [f64::INFINITY; MOST_LANES]);
         let mut condition = [f64::INFINITY; MOST_LANES];
         for round in 0..POLISHES {
             homotopy.derivative_at(end, &x, &patch, &mut matrix);
@@ -352,11 +365,15 @@ where
             let mut inverse = patch;
             eliminate(&mut matrix, &mut inverse);
             substitute(&matrix, &inverse, &mut delta);
-            sizes = store::<S>(simd.sqrt_f64s(norm_sqr(&delta)));
+            let sizes = store::<S>(simd.sqrt_f64s(norm_sqr(&delta)));
             for p in 0..8 {
                 x[p] -= delta[p];
             }
-            let settled = sizes[..S::F64_LANES].iter().all(|size| *size < SETTLED);
+            for l in 0..S::F64_LANES {
+                next[l] = next_correction(last[l], sizes[l]);
+            }
+            last = sizes;
+            let settled = next[..S::F64_LANES].iter().all(|size| *size < SETTLED);
             if settled || round + 1 == POLISHES {
                 let mut probe = [Lanes::splat(simd, Complex64::new(0.25, 0.25)); 8];
                 substitute(&matrix, &inverse, &mut probe);
@@ -366,7 +383,7 @@ where
         }
         for (l, &index) in batch.iter().enumerate() {
             paths[index].x = lane_of(&x, l);
-            paths[index].correction = sizes[l];
+            paths[index].correction = next[l];
             paths[index].condition = condition[l];
         }
     }

@@ -17,7 +17,7 @@ use crate::solve::octuple_sections::OctupleSections;
 use crate::solve::planar::mirror;
 use crate::solve::sections::Sections;
 
-/// A last Newton correction below this needs no further polishing.
+/// A Newton correction below this, or expected to be, needs no further polishing.
 pub(super) const SETTLED: f64 = 1e-13;
 /// Paths to be tracked again are stopped here and always go through the endgame.
 const CAREFUL_ENDGAME_AT: f64 = 1e-2;
@@ -33,6 +33,9 @@ const ISOTROPIC_MEAN: f64 = 1e-4;
 const SAME_MEAN: f64 = 1e-3;
 /// Two regular ends closer than this are one root reached twice.
 pub(super) const SAME_END: f64 = 1e-7;
+
+/// Squared moduli of a coordinate of ends that may be one are no further apart.
+const ALIKE_MODULI: f64 = 10.0 * SAME_END;
 
 /// A regular end with a smaller pivot ratio may be one of two roots that coincide nearly.
 const NEARLY_SINGULAR: f64 = 1e-5;
@@ -273,17 +276,15 @@ pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Section
             ends.push((mirror(ends[i].0), ends[i].1));
         }
     }
-    // moduli of two coordinates, whatever the phases: a quick look before the accurate distance
+    // moduli of two coordinates, whatever the phases: a quick look before the accurate distance, in the order of the first
     let look: Vec<[f64; 2]> = ends.iter().map(|(x, _)| [x[0].norm_sqr(), x[1].norm_sqr()]).collect();
+    let mut order: Vec<usize> = (0..ends.len()).filter(|k| ends[*k].1).collect();
+    order.sort_unstable_by(|i, j| look[*i][0].total_cmp(&look[*j][0]));
     let is_reached = |x: &[Complex64; 8], seen: [f64; 2], but: usize| {
-        for (k, other) in look.iter().enumerate() {
-            let gap = (other[0] - seen[0]).abs().max((other[1] - seen[1]).abs());
-            if gap < 10.0 * SAME_END && k != but && ends[k].1 && projective_distance(&ends[k].0, x) < SAME_END
-            {
-                return true;
-            }
-        }
-        false
+        let first = order.partition_point(|k| look[*k][0] < seen[0] - ALIKE_MODULI);
+        let near = order[first..].iter().take_while(|k| look[**k][0] <= seen[0] + ALIKE_MODULI);
+        let mut alike = near.filter(|k| **k != but && (look[**k][1] - seen[1]).abs() < ALIKE_MODULI);
+        alike.any(|k| projective_distance(&ends[*k].0, x) < SAME_END)
     };
     let mut doubtful = Vec::new();
     for (i, p) in paths.iter().enumerate() {

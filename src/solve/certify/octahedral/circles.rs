@@ -127,8 +127,8 @@ impl CornerGap {
         let (up, vq, uq, vp) = (*u * *p, *v * *q, *u * *q, *v * *p);
         let (along, across) = ((up - vq).times(same), (uq - vp).times(other));
         let value = (*u + *v).times(a) + (*p + *q).times(b) + (up + vq).times(same) - (uq + vp).times(other);
-        let turn = |a: f64, z: ComplexBatch, w: ComplexBatch| (z - w).times(a) + along;
-        [value.plus(self.constant.centre), turn(a, *u, *v) - across, turn(b, *p, *q) + across]
+        let (turned_u, turned_p) = ((*u - *v).times(a) + along, (*p - *q).times(b) + along);
+        [value.plus(self.constant.centre), turned_u - across, turned_p + across]
     }
 
     /// Bounds of the errors of [`rounded`](Self::rounded), alike for all three, and `q`. `[u, v]`, `[p, q]` are moduli, where `v` and `q` are known up to `loose` times theirs.
@@ -200,19 +200,41 @@ pub(super) struct Zeros {
     pub(super) conjugates: [Reals; 2],
 }
 
+/// `(u, v)` of corners with these `u`.
+#[inline(always)]
+fn corners_at(circles: &[Circle; 3], u: &[ComplexBatch; 3]) -> [OnCircle; 3] {
+    let mut out = [[ComplexBatch::ZERO; 2]; 3];
+    for k in 0..3 {
+        out[k] = [u[k], u[k].reciprocal().times(circles[k].squared_radius.centre)];
+    }
+    out
+}
+
+/// The three gaps with their derivatives, rounded.
+#[inline(always)]
+fn gaps_at(gaps: &[CornerGap; 3], corners: &[OnCircle; 3]) -> [[ComplexBatch; 3]; 3] {
+    let mut out = [[ComplexBatch::ZERO; 3]; 3];
+    for k in 0..3 {
+        out[k] = gaps[k].rounded(&corners[k], &corners[(k + 1) % 3]);
+    }
+    out
+}
+
 /// Decides for each lane whether some disc about the corners `(h, z)` given holds exactly one zero of the three gaps. One Newton step comes first.
 #[inline(always)]
 pub(super) fn one_zero_about(circles: &[Circle; 3], gaps: &[CornerGap; 3], given: &[OnCircle; 3]) -> Zeros {
-    let corner = |k: usize, u: ComplexBatch| [u, u.reciprocal().times(circles[k].squared_radius.centre)];
-    let at = |c: &[OnCircle; 3]| [0, 1, 2].map(|k| gaps[k].rounded(&c[k], &c[(k + 1) % 3]));
-    let mut centres = [0, 1, 2].map(|k| larger(&given[k], circles[k].squared_radius.centre));
-    let first = at(&[0, 1, 2].map(|k| corner(k, centres[k])));
+    // loops all through: `map` of an array of batches is now and then a function of its own, compiled without vector units
+    let mut centres = [ComplexBatch::ZERO; 3];
+    for k in 0..3 {
+        centres[k] = larger(&given[k], circles[k].squared_radius.centre);
+    }
+    let first = gaps_at(gaps, &corners_at(circles, &centres));
     let y = inverse(&first);
     for k in 0..3 {
         let t = (y[k][0] * first[0][0] + y[k][1] * first[1][0] + y[k][2] * first[2][0]).times(-1.0);
         centres[k] = centres[k] * (t.plus(1.0) + (t * t).times(0.5));
     }
-    let corners = [0, 1, 2].map(|k| corner(k, centres[k]));
+    let corners = corners_at(circles, &centres);
     let (mut moduli, mut conjugates) = ([[Reals::ZERO; 2]; 3], [Reals::ZERO; 2]);
     let mut loose = [0.0_f64; 3];
     for k in 0..3 {
@@ -224,16 +246,20 @@ pub(super) fn one_zero_about(circles: &[Circle; 3], gaps: &[CornerGap; 3], given
         let new = from_conjugate(&centres[k], rho);
         conjugates = [conjugates[0].largest(new[0]), conjugates[1].largest(new[1])];
     }
-    let j = at(&corners);
-    let bounds = [0, 1, 2].map(|k| {
+    let j = gaps_at(gaps, &corners);
+    let mut bounds = [[Reals::ZERO; 2]; 3];
+    for k in 0..3 {
         let l = (k + 1) % 3;
-        gaps[k].errors(&moduli[k], &moduli[l], [loose[k], loose[l]])
-    });
+        bounds[k] = gaps[k].errors(&moduli[k], &moduli[l], [loose[k], loose[l]]);
+    }
     let (mut eta, mut kappa, mut beta, mut condition) = (Reals::ZERO, Reals::ZERO, Reals::ZERO, Reals::ZERO);
     // of each entry: its size, and its error with that of a product with it
-    let gradients = [0, 1, 2].map(|i| [1, 2].map(|n| sizes(&j[i][n])));
+    let mut gradients = [[Reals::ZERO; 2]; 3];
+    for i in 0..3 {
+        gradients[i] = [sizes(&j[i][1]), sizes(&j[i][2])];
+    }
     for k in 0..3 {
-        let size = [0, 1, 2].map(|i| sizes(&y[k][i]));
+        let size = [sizes(&y[k][0]), sizes(&y[k][1]), sizes(&y[k][2])];
         let step = y[k][0] * j[0][0] + y[k][1] * j[1][0] + y[k][2] * j[2][0];
         let mut products = [ComplexBatch::ZERO; 3];
         for (i, l, derivative) in ENTRIES {
@@ -278,12 +304,12 @@ pub(super) fn one_zero_about(circles: &[Circle; 3], gaps: &[CornerGap; 3], given
         // half the sum of u and v: one rounding, and what is not known of v
         let blur = (size.times(U) + moduli[k][1].times(loose[k])).up();
         let [h, z] = [(u + v).times(0.5), (v - u).times_i().times(0.5)];
-        out.corners[k] = [h, z].map(|c| Discs { c, r: blur });
+        out.corners[k] = [Discs { c: h, r: blur }, Discs { c: z, r: blur }];
         // the derivative of (u + v) / 2 is (u - v) / 2, that of (u - v) / 2i is (u + v) / 2i
         out.directions[k] = [z.times_i(), h.times_i().times(-1.0)];
         out.sizes[k] = size;
         let r = (blur + (size * moved).times(0.5)).up();
-        out.places[k] = [h, z].map(|c| Discs { c, r });
+        out.places[k] = [Discs { c: h, r }, Discs { c: z, r }];
     }
     out
 }

@@ -176,14 +176,15 @@ impl OctahedralCertifier {
     ) -> OctahedralCertificate {
         let disc = |centre: Complex64, radius: f64| Disc { centre, radius };
         let [turn, shift] = pair.distances;
-        let rotation = std::array::from_fn(|i| std::array::from_fn(|j| disc(pose.rotation[(i, j)], turn)));
-        let position = std::array::from_fn(|i| disc(pose.position[i], shift));
-        OctahedralCertificate {
-            order: self.order,
-            pair: *pair,
-            mirrored,
-            enclosure: PoseEnclosure { rotation, position },
+        let zero = disc(Complex64::ZERO, 0.0);
+        let mut enclosure = PoseEnclosure { rotation: [[zero; 3]; 3], position: [zero; 3] };
+        for i in 0..3 {
+            for j in 0..3 {
+                enclosure.rotation[i][j] = disc(pose.rotation[(i, j)], turn);
+            }
+            enclosure.position[i] = disc(pose.position[i], shift);
         }
+        OctahedralCertificate { order: self.order, pair: *pair, mirrored, enclosure }
     }
 
     /// Tries to prove that near each pose `2k` there is exactly one pose of the platform, and that pose `2k + 1` approximates its mirror image.
@@ -221,7 +222,8 @@ impl OctahedralCertifier {
         let deviation = deviation(self, &place(self, &circles, &found), &given);
         let relative = deviation.relative;
         // the poses of a pair are distinct where a corner is proved off the base plane
-        let heights = [0, 1, 2].map(|k| parts(&found.places[k][1].c));
+        let heights =
+            [parts(&found.places[0][1].c), parts(&found.places[1][1].c), parts(&found.places[2][1].c)];
         let mut out = OctahedralCertificates { pairs: [None; PAIRS], complete: false };
         for k in 0..PAIRS {
             let raised = (0..3).any(|i| heights[i].0[k] > found.places[i][1].r.0[k] * UP);
@@ -232,10 +234,16 @@ impl OctahedralCertifier {
             if !(in_range && raised && found.step.0[k] <= super::NEAR && relative.0[k] <= super::NEAR) {
                 continue;
             }
+            let (mut centre, mut across, mut blur) = ([Complex64::ZERO; 3], [Complex64::ZERO; 3], [0.0; 3]);
+            for i in 0..3 {
+                centre[i] = found.centres[i].lane(k) * self.unit;
+                across[i] = found.places[i][0].c.lane(k) * self.unit;
+                blur[i] = found.places[i][0].r.0[k] * self.unit;
+            }
             out.pairs[k] = Some(PairCertificate {
-                centre: found.centres.map(|u| u.lane(k) * self.unit),
-                across: [0, 1, 2].map(|i| found.places[i][0].c.lane(k) * self.unit),
-                blur: [0, 1, 2].map(|i| found.places[i][0].r.0[k] * self.unit),
+                centre,
+                across,
+                blur,
                 radius: found.radius.0[k],
                 uniqueness_radius: found.uniqueness.0[k],
                 reality: reality(&found, k),

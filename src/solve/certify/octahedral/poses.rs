@@ -69,7 +69,10 @@ pub(super) fn place(design: &OctahedralCertifier, circles: &[Circle; 3], zeros: 
     let (mut rest_x, mut rest_y) = (Reals::ZERO, Reals::ZERO);
     for k in 0..3 {
         // d (x cross y) = m cross (by_x y - by_y x) for a move m of the corner
-        let other = [0, 1, 2].map(|i| ay[i].c.times(by_x[k]) - ax[i].c.times(by_y[k]));
+        let mut other = [ComplexBatch::ZERO; 3];
+        for i in 0..3 {
+            other[i] = ay[i].c.times(by_x[k]) - ax[i].c.times(by_y[k]);
+        }
         let m = &moves[k];
         for i in 0..3 {
             let (j, l) = ((i + 1) % 3, (i + 2) % 3);
@@ -115,20 +118,24 @@ pub(super) fn corners_of(
 ) -> [OnCircle; 3] {
     let axes = &design.base.axes;
     let r = &given.rotation[0];
-    let p = [0, 1, 2].map(|i| given.position[0][i].plus(-design.origins[0][i].centre));
-    [0, 1, 2].map(|k| {
+    let mut out = [[ComplexBatch::ZERO; 2]; 3];
+    for k in 0..3 {
         let b = &design.corners[k];
-        let d = [0, 1, 2].map(|i| {
-            p[i] + r[i][0].times(b[0].centre) + r[i][1].times(b[1].centre) + r[i][2].times(b[2].centre)
-        });
-        let along = |j: usize| {
+        let mut d = [ComplexBatch::ZERO; 3];
+        for i in 0..3 {
+            let p = given.position[0][i].plus(-design.origins[0][i].centre);
+            d[i] = p + r[i][0].times(b[0].centre) + r[i][1].times(b[1].centre) + r[i][2].times(b[2].centre);
+        }
+        let mut along = [ComplexBatch::ZERO; 3];
+        for j in 0..3 {
             let e = &axes[j];
-            d[0].times(e[0].centre) + d[1].times(e[1].centre) + d[2].times(e[2].centre)
-        };
+            along[j] = d[0].times(e[0].centre) + d[1].times(e[1].centre) + d[2].times(e[2].centre);
+        }
         let (m, a) = (&circles[k].middle, &design.sides.across[k]);
-        let (x, y) = (along(0).plus(-m[0].centre), along(1).plus(-m[1].centre));
-        [x.times(a[0].centre) + y.times(a[1].centre), along(2)]
-    })
+        let (x, y) = (along[0].plus(-m[0].centre), along[1].plus(-m[1].centre));
+        out[k] = [x.times(a[0].centre) + y.times(a[1].centre), along[2]];
+    }
+    out
 }
 
 /// The larger of both radii and moduli over some discs.
