@@ -169,7 +169,10 @@ fn no_command_calls_a_design_good_that_assess_refuses() {
             let said = text.lines().find(|l| !l.is_empty()).unwrap_or_default();
             let line = words.join(" ");
             assert_eq!(said.contains("violates requirements"), refused, "{line}: {said}");
-            assert_eq!(text.contains("leg_too_short    !violated"), refused, "{line}: {text}");
+            // a search lists other platforms too, those that miss something after the others
+            if refused || words[..2] != ["equivalents", "move"] {
+                assert_eq!(text.contains("leg_too_short    !violated"), refused, "{line}: {text}");
+            }
             if refused {
                 for word in ["meets all its requirements", "optimal"] {
                     assert!(!text.contains(word), "{line}: {text}");
