@@ -260,8 +260,15 @@ fn the_page_quotes_the_margins_and_objectives_of_the_program() {
                     // sampled without searches: the worst pose is nearly reached
                     (objective(&designs[0], &designs[k], o), 0.03 * values[k].abs())
                 } else {
-                    let margin = found[k].iter().find(|m| m.term.kind.code() == code);
-                    (margin.unwrap_or_else(|| panic!("{result}: {code}")).value, half[k] + 1e-9)
+                    let least = |all: &[Margin]| {
+                        let margin = all.iter().find(|m| m.term.kind.code() == code);
+                        margin.unwrap_or_else(|| panic!("{result}: {code}")).value
+                    };
+                    let (value, allowed) = (least(&found[k]), half[k] + 1e-9);
+                    // the command bounds margins by cells too, which find worse poses than points do: more points
+                    let missed = value > values[k] + allowed;
+                    let more = || assessed(&designs[k], &AssessOptions::new().seed(1).points(20_000));
+                    (if missed { least(&more()) } else { value }, allowed)
                 };
                 assert!(
                     (value - values[k]).abs() <= allowed,
