@@ -584,9 +584,9 @@ impl Design {
     /// The plate of a body as a solid, where the file says something of it; the legs are on the side on which they are at home.
     #[must_use]
     pub fn plate(&self, body: Body) -> Option<PlateSolid> {
-        let housing = self.hardware.housing(body);
         let home = self.home_or_default();
-        self.plates.of(body).map(|plate| PlateSolid::of(plate, &self.manipulator, body, housing, &home))
+        let solid = |plate| PlateSolid::of(plate, &self.manipulator, body, &self.hardware, &home);
+        self.plates.of(body).map(solid)
     }
 
     /// The plate of a body as a rigid body; `None` where its density or the unit of length is not known.

@@ -16,8 +16,8 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     let (design, warnings) = parse(GOOD, Format::Toml).unwrap();
     assert_eq!(warnings, []);
     let h = design.hardware;
-    assert_eq!(h.housing(Body::Base), Some(Housing::Box(nalgebra::Vector3::new(1.0, 2.0, 3.0))));
-    assert_eq!(h.housing(Body::Platform), Some(Housing::Sphere(0.5)));
+    assert_eq!(h.housing(Body::Base, 0), Some(Housing::Box(nalgebra::Vector3::new(1.0, 2.0, 3.0))));
+    assert_eq!(h.housing(Body::Platform, 5), Some(Housing::Sphere(0.5)));
     assert_eq!(h.leg_body.unwrap().rod, Some((5.0, 0.2)));
     assert_eq!(h.leg_length, Some(LengthLimits::Stroke { dead: 4.0, stroke: 3.0 }));
     assert_eq!(h.platform_swing.unwrap().axes, JointAxes::Optimize);
@@ -433,9 +433,9 @@ const PER_LEG: &str = "base_joint = [
   { model = \"universal\", first_axis = [3, 0, 4], angle_deg = [120, 40.5] },
   { model = \"ball\" },
   { model = \"universal\", first_axis = [1, 0, 0], angle_deg = [50, 60], swing_deg = 170 },
-  { model = \"ball\", swing_deg = 12 },
+  { model = \"ball\", swing_deg = 12, housing = 0.375 },
   { model = \"universal\", first_axis = [0, 1, 0] },
-  { model = \"flexure\", bending_stiffness = 7e3, swing_deg = 3.5 },
+  { model = \"flexure\", bending_stiffness = 7e3, swing_deg = 3.5, housing = [0.25, 0.5, 0.75] },
 ]
 ";
 
@@ -451,6 +451,9 @@ fn kinds_of_joints_per_leg_are_read_scaled_and_written_back_to_the_bit() {
     assert_eq!(joints.limits_deg[..3], [Some([120.0, 40.5]), None, Some([50.0, 60.0])]);
     assert!((joints.first_axes[0].unwrap().z - 0.8).abs() < 1e-15 && joints.first_axes[1].is_none());
     assert_eq!(h.base_bending, [None, None, None, None, None, Some(7e3)]);
+    let block = Housing::Box(nalgebra::Vector3::new(0.25, 0.5, 0.75));
+    assert_eq!(h.base_joint_housing, [None, None, None, Some(Housing::Sphere(0.375)), None, Some(block)]);
+    assert_eq!(h.platform_joint_housing, [None; 6]);
     // the limit of the body is that of the legs without one of their own
     assert_eq!(h.base_swing.unwrap().limits_deg, [45.0, 45.0, 170.0, 12.0, 45.0, 3.5]);
     assert_eq!(h.platform_swing.unwrap().limits_deg, [60.0; 6]);
@@ -626,7 +629,7 @@ fn plates_are_read_and_written_back_to_the_bit_and_follow_the_unit() {
     let platform = design.plates.platform.as_ref().unwrap();
     assert_eq!(platform.kilograms_per_cubic_metre(), Some(7850.0));
     // housings of 0.5 on holes of 0.3
-    let height = platform.joint_height(design.hardware.housing(Body::Platform));
+    let height = platform.joint_height(&design.hardware, Body::Platform);
     assert!((height - 0.2).abs() < 1e-15);
     assert!(matches!(design.requirements().payload_shape, Some(KeepOutShape::Box { .. })));
     for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {

@@ -169,6 +169,8 @@ impl Design {
         let hardware = &mut self.hardware;
         housing(&mut hardware.base_housing);
         housing(&mut hardware.platform_housing);
+        hardware.base_joint_housing.iter_mut().for_each(housing);
+        hardware.platform_joint_housing.iter_mut().for_each(housing);
         length(&mut hardware.joint_diameter);
         length(&mut hardware.leg_clearance);
         length(&mut hardware.max_leg_speed);

@@ -82,7 +82,7 @@ impl<'a> PlateModel<'a> {
         size: f64,
     ) -> Self {
         let legs = (0..6).filter(|&i| !joints[..i].contains(&joints[i])).collect();
-        Self { body, plate, height: plate.joint_height(hardware.housing(body)), legs, others, size }
+        Self { body, plate, height: plate.joint_height(hardware, body), legs, others, size }
     }
 
     /// The plate under joints; `towards` leads from it to the legs, in the frame of the body.

@@ -319,8 +319,8 @@ impl<'a> RequirementTerms<'a> {
         let kind = TermKind::PlateClearance;
         let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
         for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
-            let reach = h.joint_reach(model.body);
             for i in 0..6 {
+                let reach = h.joint_reach(model.body, i);
                 plate.clearances(l, (&leg_body, i, reach), &mut |part, gap, pull: P| {
                     see(Item {
                         id: (kind, i, model.body.index(), part),
@@ -390,14 +390,13 @@ impl<'a> RequirementTerms<'a> {
     pub(crate) fn fixed<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
         for (kind, body) in [(TermKind::BaseSpacing, Body::Base), (TermKind::PlatformSpacing, Body::Platform)]
         {
-            let housing = self.required.hardware.housing(body);
             let reserve = self.required.reserve(kind);
-            for (i, j) in self.separate_joints(body) {
+            for (i, j) in self.separate_housings(body) {
                 let at = body.of((&ends.base, &ends.platform));
                 let d = at[j] - at[i];
                 let gaps = [
                     self.required.min_joint_distance.map(|least| sphere_gap(&d, least)),
-                    housing.map(|h| housing_gap(&h, &d)),
+                    self.housings(body, i, j).map(|pair| housing_gap(&pair, &d)),
                 ];
                 for (part, (value, g)) in gaps.into_iter().enumerate().filter_map(|(k, g)| Some((k, g?))) {
                     let pull = joint_pull(body, i, j, &(g / self.size));
@@ -429,10 +428,10 @@ impl<'a> RequirementTerms<'a> {
         ];
         for (kind, body, envelope) in bodies {
             let Some(envelope) = envelope else { continue };
-            let (half, ball) = requirements::room(self.required.hardware.housing(body));
             let reserve = self.required.reserve(kind);
-            let (joint, at) = (self.joints.map(|p| body.of(p)), body.of((&ends.base, &ends.platform)));
-            for i in (0..6).filter(|&i| !joint[..i].contains(&joint[i])) {
+            let at = body.of((&ends.base, &ends.platform));
+            for i in self.different_housings(body) {
+                let (half, ball) = requirements::room(self.required.hardware.housing(body, i));
                 room_inside(&envelope, &at[i], &half, &mut |part, value, g| {
                     let mut pull = P::none();
                     match body {
@@ -453,7 +452,7 @@ impl<'a> RequirementTerms<'a> {
         let reserve = self.required.reserve(kind);
         for i in 0..6 {
             for body in Body::BOTH {
-                let ball = requirements::ball(self.required.hardware.housing(body));
+                let ball = requirements::ball(self.required.hardware.housing(body, i));
                 let at = body.of((l.base[i], l.base[i] + l.line[i]));
                 room_inside(&envelope, &at, &Vector3::zeros(), &mut |part, value, g| {
                     let (mut pull, g) = (P::none(), g / self.size);
@@ -477,6 +476,26 @@ impl<'a> RequirementTerms<'a> {
         let firsts: Vec<usize> = (0..6).filter(|&i| !joint[..i].contains(&joint[i])).collect();
         let pairs = firsts.iter().enumerate();
         pairs.flat_map(|(n, &i)| firsts[n + 1..].iter().map(move |&j| (i, j))).collect()
+    }
+
+    /// Legs that stand for the housings of a body, each housing about a joint once.
+    fn different_housings(&self, body: Body) -> Vec<usize> {
+        let of = |i: usize| (body.of(self.joints[i]), self.required.hardware.housing(body, i));
+        (0..6).filter(|&i| (0..i).all(|k| of(k) != of(i))).collect()
+    }
+
+    /// Pairs of legs that stand for pairs of housings about different joints of a body, each pair once.
+    fn separate_housings(&self, body: Body) -> Vec<(usize, usize)> {
+        let legs = self.different_housings(body);
+        let pairs = legs.iter().enumerate();
+        let pairs = pairs.flat_map(|(n, &i)| legs[n + 1..].iter().map(move |&j| (i, j)));
+        pairs.filter(|&(i, j)| body.of(self.joints[i]) != body.of(self.joints[j])).collect()
+    }
+
+    /// The housings of the joints of two legs, where one of them has one.
+    fn housings(&self, body: Body, i: usize, j: usize) -> Option<[Housing; 2]> {
+        let hardware = &self.required.hardware;
+        Housing::pair(hardware.housing(body, i), hardware.housing(body, j))
     }
 }
 
@@ -534,17 +553,19 @@ fn sphere_gap(d: &Vector3<f64>, diameter: f64) -> (f64, Vector3<f64>) {
     (d.norm() - diameter, d.try_normalize(0.0).unwrap_or_else(Vector3::x))
 }
 
-/// Gap of two equal housings and its gradient: outside the distance, inside minus the shortest way out.
-fn housing_gap(h: &Housing, d: &Vector3<f64>) -> (f64, Vector3<f64>) {
-    let edges = match h {
-        Housing::Sphere(diameter) => return sphere_gap(d, *diameter),
-        Housing::Box(edges) => edges,
-    };
-    let g = d.abs() - edges;
+/// Gap of two housings and its gradient ([`Housing::gap`]): outside the distance, inside minus the shortest way out.
+fn housing_gap([a, b]: &[Housing; 2], d: &Vector3<f64>) -> (f64, Vector3<f64>) {
+    let ((half, ball), (other_half, other_ball)) =
+        (requirements::room(Some(*a)), requirements::room(Some(*b)));
+    let balls = ball + other_ball;
+    if let (Housing::Sphere(_), Housing::Sphere(_)) = (a, b) {
+        return sphere_gap(d, balls);
+    }
+    let g = d.abs() - (half + other_half);
     let out = Vector3::from_fn(|k, _| g[k].max(0.0) * d[k].signum());
     if g.max() > 0.0 {
-        return (out.norm(), out.normalize());
+        return (out.norm() - balls, out.normalize());
     }
     let k = g.imax();
-    (g[k], Vector3::ith(k, d[k].signum()))
+    (g[k] - balls, Vector3::ith(k, d[k].signum()))
 }

@@ -59,6 +59,9 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
     let h = &mut p.requirements.hardware;
     h.joint_diameter = Some(20.0);
     h.platform_housing = Some(Housing::Box(Vector3::new(30.0, 25.0, 10.0)));
+    // two joints are of their own kind
+    h.base_joint_housing[2] = Some(Housing::Sphere(34.0));
+    h.platform_joint_housing[4] = Some(Housing::Sphere(26.0));
     h.leg_body = Some(LegBody { diameter: 24.0, rod: Some((150.0, 10.0)) });
     h.leg_clearance = Some(3.0);
     h.base_swing = Some(Swing::of_all(25.0, axes));
@@ -582,6 +585,50 @@ fn families_of_an_octahedral_design_are_its_offsets() {
         crate::synthesis::leg_map(&p.manipulator, &m, crate::synthesis::LegMapTolerances::default()).unwrap();
     let (own, det) = (model.shape.determinant(&x).unwrap().0, map.determinant);
     assert!((own - det).abs() < 1e-9 && det.abs() > 1e-3, "{own} {det}");
+}
+
+/// Distances of joints and room in envelopes, with a housing of its own at every joint, are the margins that `assess` has.
+#[test]
+fn housings_of_single_joints_are_those_of_the_margins() {
+    let mut p = crowded(&[VariableKind::Offsets, VariableKind::Triangles], JointAxes::Home);
+    let mut rng = Rng::new(19);
+    let kinds = [
+        TermKind::BaseSpacing,
+        TermKind::PlatformSpacing,
+        TermKind::BaseEnvelope,
+        TermKind::PlatformEnvelope,
+        TermKind::MachineEnvelope,
+    ];
+    for trial in 0..40 {
+        let mut any = |leg: usize| match (trial + leg) % 3 {
+            0 => Some(Housing::Sphere(rng.uniform(5.0, 90.0))),
+            1 => Some(Housing::Box(Vector3::from_fn(|_, _| rng.uniform(5.0, 90.0)))),
+            _ => None,
+        };
+        let h = &mut p.requirements.hardware;
+        h.base_joint_housing = std::array::from_fn(&mut any);
+        h.platform_joint_housing = std::array::from_fn(&mut any);
+        (h.joint_diameter, h.platform_housing) = ((trial % 2 == 0).then_some(20.0), None);
+        let model = Model::new(&p).unwrap();
+        let x: Vec<f64> = model.shape.start.iter().map(|x| x + rng.uniform(-0.3, 0.4)).collect();
+        let (at, ends) = (tilted(&p, true), model.shape.ends(&x));
+        let mut least = std::collections::BTreeMap::new();
+        let mut keep = |item: super::terms::Item<()>| {
+            let known = least.entry(item.id.0).or_insert(f64::INFINITY);
+            *known = f64::min(*known, item.value);
+        };
+        model.terms.fixed(&ends, &mut keep);
+        model.terms.visit(&super::leg_lines::LegLines::new(&ends, &at), &ends, &x, &mut keep);
+        let m = model.shape.manipulator(&x).unwrap();
+        let terms = Terms::new(&m, &p.requirements, &p.space.home);
+        let margins: Vec<_> = terms.fixed().into_iter().chain(terms.at(&at.pose)).collect();
+        let size = p.manipulator.size();
+        for kind in kinds {
+            let own = margins.iter().filter(|(t, _)| t.kind == kind).map(|(_, x)| *x);
+            let margin = own.fold(f64::INFINITY, f64::min) - p.requirements.reserve(kind);
+            assert!((least[&kind] * size - margin).abs() < 1e-9 * size, "{trial} {kind:?}: {margin}");
+        }
+    }
 }
 
 /// The functions of the angles of universal joints have the sign of the margins that `assess` has.

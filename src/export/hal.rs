@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::text::{ascii, commented, real};
+use super::text::{ascii, commented, one_line, real};
 use super::{Export, ExportedFile, Unsupported, Writer};
 use crate::manipulator::Body;
 
@@ -20,7 +20,7 @@ impl Writer for Hal {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are"
+        "joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are; correlations of a calibration, which the formats csv, json and c have"
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
@@ -51,6 +51,13 @@ fn settings(export: &Export) -> String {
              # A strut shows its length plus its offset; genhexkins has no pin for that: add offset N to HOME_OFFSET of joint N.",
             offsets.join(" ")
         );
+    }
+    if let Some(found) = &export.calibration {
+        out.push_str("# Standard deviations of the calibration, which no pin takes; their correlations are not written here.\n");
+        for (name, deviation) in found.names.iter().zip(&found.deviations) {
+            let name = ascii(&one_line(name), |_| "?".to_string());
+            let _ = writeln!(out, "#   {name} {}", real(deviation * mm));
+        }
     }
     for leg in &export.legs {
         let b = export.bodies[1].joints[leg.platform].at;

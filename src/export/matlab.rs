@@ -37,6 +37,31 @@ fn matrix(out: &mut String, name: &str, rows: &[Vec<f64>]) {
     out.push_str("];\n");
 }
 
+/// What a calibration found beside the joints: offsets, and how uncertain the unknowns are, together.
+fn calibration(out: &mut String, export: &Export) {
+    let m = export.unit.metres;
+    let column = |values: &[f64]| values.iter().map(|x| vec![x * m]).collect::<Vec<_>>();
+    if let Some(offsets) = &export.leg_offsets {
+        out.push_str(
+            "% offsets: 6x1, what the length that each leg shows is longer than the distance of its joints\n",
+        );
+        matrix(out, "offsets", &column(offsets));
+    }
+    let Some(found) = &export.calibration else { return };
+    out.push_str(
+        "% unknowns: names of calibrated coordinates of joints and of offsets; values, deviations: n x 1, metres; covariance: n x n, square metres\n",
+    );
+    let names: Vec<String> = found.names.iter().map(|name| quoted(name)).collect();
+    let _ = writeln!(out, "stewart.unknowns = {{{}}};", names.join("; "));
+    matrix(out, "values", &column(&found.values));
+    matrix(out, "deviations", &column(&found.deviations));
+    let rows = found.correlations.row_iter().map(|row| row.iter().copied().collect());
+    matrix(out, "correlations", &rows.collect::<Vec<_>>());
+    out.push_str(
+        "stewart.covariance = diag(stewart.deviations) * stewart.correlations * diag(stewart.deviations);\n",
+    );
+}
+
 fn script(export: &Export) -> String {
     let m = export.unit.metres;
     let mut out = commented("%", export.heading("m"));
@@ -65,6 +90,7 @@ fn script(export: &Export) -> String {
     matrix(&mut out, "T", &poses.iter().map(row).collect::<Vec<_>>());
     let lengths = poses.iter().map(|p| export.lengths_at(p).iter().map(|l| l * m).collect());
     matrix(&mut out, "L", &lengths.collect::<Vec<_>>());
+    calibration(&mut out, export);
     out.push_str(
         "stewart.lengths = @(R, p) sqrt(sum((R * stewart.b + repmat(p, 1, 6) - stewart.a).^2, 1))';\n\
          % the lengths written are those of the formula\n\

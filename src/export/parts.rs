@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::text::{commented, csv_field, real};
 use super::{Export, ExportBody, Plate};
 use crate::manipulator::Body;
+use crate::requirements::Housing;
 
 /// Legs whose lengths differ by less than this share of the size are of one kind.
 const SAME_LENGTH: f64 = 1e-6;
@@ -18,6 +19,8 @@ struct JointSort {
     models: String,
     /// Greatest swing, degrees; `None` where there is none, or where those about one centre differ.
     swing_deg: Option<f64>,
+    /// Its housing; the widest of those about one centre, `None` where the design says none.
+    housing: Option<Housing>,
 }
 
 /// A line of the bill of materials; millimetres and kilograms.
@@ -109,7 +112,10 @@ impl Export {
                 let swing =
                     kind.swing_deg.map_or_else(String::new, |deg| format!("swings by {} deg; ", real(deg)));
                 let line = PartLine::new(name, names.len(), format!("{swing}{}", names.join(" ")));
-                out.push(PartLine { thickness: Some(body.ball_diameter * mm), ..line });
+                // the body has one ball, which fits into each of its housings
+                let differ = kinds.iter().any(|(other, _)| other.housing != kind.housing);
+                let own = kind.housing.filter(|_| differ).map(|h| h.least_width());
+                out.push(PartLine { thickness: Some(own.unwrap_or(body.ball_diameter) * mm), ..line });
             }
             out.extend(bolts(body, mm));
         }
@@ -145,6 +151,7 @@ impl Export {
         JointSort {
             models: h.joint_kind(body, leg).name().to_owned(),
             swing_deg: swing.map(|s| s.limits_deg[leg]).filter(|deg| *deg < 180.0),
+            housing: h.housing(body, leg),
         }
     }
 
@@ -161,8 +168,12 @@ impl Export {
                 }
             }
             let swing_deg = sorts.first().and_then(|s| s.swing_deg).filter(|_| sorts.len() == 1);
+            let housing = sorts
+                .iter()
+                .filter_map(|s| s.housing)
+                .max_by(|a, b| a.greatest_width().total_cmp(&b.greatest_width()));
             let models = sorts.into_iter().map(|s| s.models).collect::<Vec<_>>().join(" and ");
-            let sort = JointSort { models, swing_deg };
+            let sort = JointSort { models, swing_deg, housing };
             match kinds.iter_mut().find(|(known, _)| *known == sort) {
                 Some((_, names)) => names.push(joint.name.as_str()),
                 None => kinds.push((sort, vec![joint.name.as_str()])),

@@ -147,9 +147,9 @@ const PLATES: &str = "[plates]";
 
 const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
 
-/// Edge of the housing that a ball can have.
+/// Edge of the housing that a ball can have; where joints have different ones, the ball that fits into each.
 fn housing_width(hardware: &Hardware, body: Body) -> Option<f64> {
-    hardware.housing(body).map(|h| h.least_width())
+    hardware.joint_widths(body).map(|[least, _]| least)
 }
 
 /// Least distance of the axes of two seats, lines along `normal` through the joints, that do not coincide.

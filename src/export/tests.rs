@@ -204,6 +204,8 @@ fn hole_plans_have_a_circle_at_every_joint() {
         assert_eq!(circle[..2], [joint.at.x, joint.at.y], "the plate lies in the x-y plane");
         assert_eq!(circle[2..], [0.5 * body.plate().unwrap().hole_diameter]);
     }
+    let block = ["base plate", "material not stated", "general tolerances ISO 2768-m", "datum: "];
+    assert!(block.iter().all(|part| text.contains(part)), "{text}");
 }
 
 #[test]
@@ -258,6 +260,18 @@ fn a_simulation_has_six_actuators_and_five_loops() {
     // six slides, the twelve hinges of base joints that swing by so much from the leg at home, and six tendons for the swing at the platform
     assert_eq!((text.matches(" range=").count(), text.contains(&range)), (24, true));
     assert_eq!(text.matches("<spatial name=\"swing").count(), 6);
+    // what is seen and measured: a camera on the platform, ground below it, three sensors a drive and the pose
+    assert_eq!(
+        ["<camera ", "type=\"plane\"", "<jointpos ", "<jointvel ", "<actuatorfrc "]
+            .map(|s| text.matches(s).count()),
+        [1, 1, 6, 6, 6]
+    );
+    assert_eq!(text.matches("objname=\"platform_frame\"").count(), 2);
+    let geoms = text.lines().filter(|l| l.contains("<geom ") && !l.contains("contype"));
+    assert!(geoms.clone().count() > 24 && geoms.clone().all(|l| l.contains("rgba=")), "{text}");
+    let height = text.split("type=\"plane\"").nth(1).and_then(|l| l.split("pos=\"0 0 ").nth(1)).unwrap();
+    let height: f64 = height.split('"').next().unwrap().parse().unwrap();
+    assert!(height < -0.5 * limited.bodies[0].ball_diameter * 1e-3 && height > -0.1, "{height}");
     let swing = real(limited.hardware.base_swing.unwrap().limits_deg[0].to_radians());
     assert_eq!(text.matches(&format!(" range=\"-{swing} {swing}\"")).count(), 12);
 }

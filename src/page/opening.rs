@@ -8,7 +8,7 @@ use crate::design::Design;
 use crate::equivalents::Original;
 use crate::manipulator::Body;
 use crate::records::PoseRecord;
-use crate::requirements::{Hardware, Housing};
+use crate::requirements::Hardware;
 use crate::singularity::Architecture;
 use crate::synthesis::{
     Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,
@@ -72,10 +72,8 @@ struct HardwareRecord {
 impl HardwareRecord {
     fn of(hardware: &Hardware) -> Self {
         let width = |body| {
-            hardware.housing(body).map(|h| match h {
-                Housing::Sphere(diameter) => diameter,
-                Housing::Box(edges) => edges.max(),
-            })
+            let all = (0..6).filter_map(|leg| hardware.housing(body, leg));
+            all.map(|h| h.greatest_width()).reduce(f64::max)
         };
         Self {
             joints: Body::BOTH.map(width),

@@ -35,7 +35,9 @@ pub struct RoundAnswer {
     pub assessment: Option<AssessAnswer>,
     /// Which of them the rule takes; null: none meets the requirements.
     pub chosen: Option<VariantWord>,
-    /// The rounded design.
+    /// Where none meets the requirements, the one that misses them least, by the greatest violation as a share of what is limited; null otherwise.
+    pub least_missed: Option<VariantWord>,
+    /// The rounded design: the one chosen, or the one that misses the requirements least.
     pub design: Option<DesignRecord>,
     /// The file written.
     pub output: Option<String>,

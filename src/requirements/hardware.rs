@@ -1,5 +1,6 @@
 //! Sizes and limits of joints, legs and drives.
 
+use super::envelope::room;
 use super::term::TermKind;
 use super::universal::{HingeAngle, UniversalJoint};
 use crate::manipulator::Body;
@@ -24,18 +25,30 @@ impl Housing {
         }
     }
 
-    /// Gap between two equal housings whose centres differ by `d` (body frame), design units; negative when they overlap.
+    /// Gap between two housings whose centres differ by `d` (body frame), design units; negative when they overlap.
     ///
-    /// Spheres: `|d| - diameter`. Boxes: with `g_k = |d_k| - edge_k`, the norm of the positive `g_k` when
-    /// there are any (the distance of the boxes), else the greatest `g_k` (minus the shortest way out).
+    /// With half edges `h` (0 for a sphere) and radii `r` (0 for a box) of both, and `g_k = |d_k| - h_k - h'_k`: the norm of the positive `g_k` when there are any (the distance of
+    /// the boxes), else the greatest `g_k` (minus the shortest way out), less `r + r'`. Spheres have `|d| - r - r'`.
     #[must_use]
-    pub fn gap(&self, d: &Vector3<f64>) -> f64 {
+    pub fn gap(&self, other: &Self, d: &Vector3<f64>) -> f64 {
+        let ((half, ball), (other_half, other_ball)) = (room(Some(*self)), room(Some(*other)));
+        let g = d.abs() - (half + other_half);
+        let apart = if g.max() > 0.0 { g.map(|x| x.max(0.0)).norm() } else { g.max() };
+        apart - (ball + other_ball)
+    }
+
+    /// Two housings where at least one joint has one: a joint without a housing is a point.
+    pub(crate) fn pair(a: Option<Self>, b: Option<Self>) -> Option<[Self; 2]> {
+        let point = Self::Sphere(0.0);
+        (a.is_some() || b.is_some()).then(|| [a.unwrap_or(point), b.unwrap_or(point)])
+    }
+
+    /// Its diameter, or its longest edge.
+    #[must_use]
+    pub fn greatest_width(&self) -> f64 {
         match self {
-            Self::Sphere(diameter) => d.norm() - diameter,
-            Self::Box(edges) => {
-                let g = d.abs() - edges;
-                if g.max() > 0.0 { g.map(|x| x.max(0.0)).norm() } else { g.max() }
-            }
+            Self::Sphere(diameter) => *diameter,
+            Self::Box(edges) => edges.max(),
         }
     }
 }
@@ -200,10 +213,14 @@ impl JointType {
 /// Sizes and limits of joints, legs and drives. What is absent limits nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hardware {
-    /// Housing of each base joint.
+    /// Housing of each base joint that has none of its own.
     pub base_housing: Option<Housing>,
-    /// Housing of each platform joint.
+    /// Housing of each platform joint that has none of its own.
     pub platform_housing: Option<Housing>,
+    /// Housings of base joints whose model has one, in leg order.
+    pub base_joint_housing: [Option<Housing>; 6],
+    /// Housings of platform joints whose model has one, in leg order.
+    pub platform_joint_housing: [Option<Housing>; 6],
     /// Diameter of the joints of both bodies that have no housing of their own, design units.
     pub joint_diameter: Option<f64>,
     /// Bodies of the legs.
@@ -237,11 +254,35 @@ pub struct Hardware {
 }
 
 impl Hardware {
-    /// Housing of the joints of a body, [`Hardware::joint_diameter`] as a sphere when it has none of its own.
+    /// Housing of the joint of a leg at a body: that of its model, else that of the body, else [`Hardware::joint_diameter`] as a sphere.
     #[must_use]
-    pub fn housing(&self, body: Body) -> Option<Housing> {
-        let own = body.of((self.base_housing, self.platform_housing));
-        own.or(self.joint_diameter.map(Housing::Sphere))
+    pub fn housing(&self, body: Body, leg: usize) -> Option<Housing> {
+        let own = body.of((self.base_joint_housing, self.platform_joint_housing))[leg];
+        let of_body = body.of((self.base_housing, self.platform_housing));
+        own.or(of_body).or(self.joint_diameter.map(Housing::Sphere))
+    }
+
+    /// The housings about the centre of a joint, those of the legs that end there, each once; `ends` are the joints of the body in leg order.
+    pub(crate) fn housings_at(&self, body: Body, ends: &[usize; 6], joint: usize) -> Vec<Option<Housing>> {
+        let mut out = Vec::new();
+        for leg in (0..6).filter(|&leg| ends[leg] == joint) {
+            let housing = self.housing(body, leg);
+            if !out.contains(&housing) {
+                out.push(housing);
+            }
+        }
+        out
+    }
+
+    /// The least and the greatest of the widths of the housings of a body ([`Housing::least_width`]); `None` where a joint has no housing.
+    #[must_use]
+    pub fn joint_widths(&self, body: Body) -> Option<[f64; 2]> {
+        let widths: Option<Vec<f64>> =
+            (0..6).map(|leg| self.housing(body, leg).map(|h| h.least_width())).collect();
+        let widths = widths?;
+        let (least, greatest) =
+            (widths.iter().copied().reduce(f64::min), widths.iter().copied().reduce(f64::max));
+        least.zip(greatest).map(<[f64; 2]>::from)
     }
 
     /// The model of the joint of a leg at a body.
@@ -303,14 +344,33 @@ mod tests {
     #[test]
     fn gaps_of_spheres_and_boxes() {
         let d = Vector3::new(3.0, 4.0, 0.0);
-        assert!((Housing::Sphere(2.0).gap(&d) - 3.0).abs() < 1e-15);
+        let alike = |h: Housing| h.gap(&h, &d);
+        assert!((alike(Housing::Sphere(2.0)) - 3.0).abs() < 1e-15);
         let block = |x, y, z| Housing::Box(Vector3::new(x, y, z));
-        assert!((block(2.0, 2.0, 9.0).gap(&d) - (1.0f64 + 4.0).sqrt()).abs() < 1e-15, "corner to corner");
-        assert!((block(5.0, 2.0, 9.0).gap(&d) - 2.0).abs() < 1e-15, "face to face");
-        assert!(
-            (block(5.0, 4.5, 9.0).gap(&d) + 0.5).abs() < 1e-15,
-            "overlap: the shortest way out is along y"
-        );
+        assert!((alike(block(2.0, 2.0, 9.0)) - (1.0f64 + 4.0).sqrt()).abs() < 1e-15, "corner to corner");
+        assert!((alike(block(5.0, 2.0, 9.0)) - 2.0).abs() < 1e-15, "face to face");
+        let overlap = alike(block(5.0, 4.5, 9.0));
+        assert!((overlap + 0.5).abs() < 1e-15, "overlap: the shortest way out is along y");
+        // one of each: the box ends at x = 1, y = 2, its corner is (2, 2) from the centre of the ball
+        let (wide, ball) = (block(2.0, 4.0, 9.0), Housing::Sphere(3.0));
+        let mixed = 8f64.sqrt() - 1.5;
+        assert!((wide.gap(&ball, &d) - mixed).abs() < 1e-15 && (ball.gap(&wide, &d) - mixed).abs() < 1e-15);
+        assert!((Housing::Sphere(2.0).gap(&Housing::Sphere(5.0), &d) - 1.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_housing_of_a_joint_is_that_of_its_model_then_that_of_its_body() {
+        let mut h = Hardware { joint_diameter: Some(4.0), ..Hardware::default() };
+        h.base_joint_housing[2] = Some(Housing::Sphere(7.0));
+        h.platform_housing = Some(Housing::Box(Vector3::new(1.0, 2.0, 3.0)));
+        assert_eq!(h.housing(Body::Base, 2), Some(Housing::Sphere(7.0)));
+        assert_eq!(h.housing(Body::Base, 1), Some(Housing::Sphere(4.0)));
+        assert_eq!(h.housing(Body::Platform, 2), h.platform_housing);
+        assert_eq!(h.joint_widths(Body::Base), Some([4.0, 7.0]));
+        // legs 2 and 3 share a joint: two housings about one centre
+        let at = h.housings_at(Body::Base, &[0, 1, 1, 2, 2, 0], 1);
+        assert_eq!(at, [Some(Housing::Sphere(4.0)), Some(Housing::Sphere(7.0))]);
+        assert_eq!(h.housings_at(Body::Base, &[0, 1, 1, 2, 2, 0], 2).len(), 1);
     }
 
     #[test]

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::Requirements;
 use super::envelope::Envelope;
-use super::hardware::Housing;
 use super::term::TermKind;
 use crate::manipulator::Body;
 
@@ -37,7 +36,7 @@ impl Reserves {
 impl Requirements {
     /// The reserve on a kind of requirement, in the unit of its margin: 0 where none is asked for.
     ///
-    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle (the least of these where legs have different ones), force or speed, of the least stiffness or frequency, of the leg diameter for clearances, of the housing (or the
+    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle (the least of these where legs have different ones), force or speed, of the least stiffness or frequency, of the leg diameter for clearances, of the widest housing (or the
     /// least distance of centres, whichever is greater) for the room between joints, of the distance asked for or of the diameter of the greatest hole, whichever is greater, for the holes of plates, and of the radius or half the shortest edge for envelopes. For cranks it is one of the shortest rod, of half the narrowest range of angles, of the least transmission angle, and of the greatest swing, torque or speed.
     #[must_use]
     pub fn reserve(&self, kind: TermKind) -> f64 {
@@ -58,11 +57,8 @@ impl Requirements {
     pub(crate) fn whole(&self, kind: TermKind) -> f64 {
         let h = &self.hardware;
         let spacing = |body: Body| {
-            let housing = h.housing(body).map_or(0.0, |housing| match housing {
-                Housing::Sphere(diameter) => diameter,
-                Housing::Box(edges) => edges.max(),
-            });
-            housing.max(self.min_joint_distance.unwrap_or(0.0))
+            let widths = (0..6).filter_map(|leg| h.housing(body, leg)).map(|h| h.greatest_width());
+            widths.fold(self.min_joint_distance.unwrap_or(0.0), f64::max)
         };
         let envelope = |e: Option<Envelope>| e.map_or(0.0, |e| e.half_width());
         match kind {

@@ -5,7 +5,7 @@ use nalgebra::{Matrix6, Point3, Unit, Vector3};
 use super::Requirements;
 use super::coupled::{CoupledLegs, DriveState, NoDriveLength};
 use super::envelope::{ball, room};
-use super::hardware::{JointAxes, LegBody};
+use super::hardware::{Housing, JointAxes, LegBody};
 use super::keep_out::KeepOut;
 use super::load::forces_along;
 use super::plate::PlateSolid;
@@ -365,8 +365,8 @@ impl<'a> Terms<'a> {
         };
         let hinges = [hinges(Body::Base, &base), hinges(Body::Platform, &platform)];
         let plates = Body::BOTH.map(|body| {
-            let housing = required.hardware.housing(body);
-            required.plates.of(body).map(|plate| PlateSolid::of(plate, manipulator, body, housing, home))
+            let hardware = &required.hardware;
+            required.plates.of(body).map(|plate| PlateSolid::of(plate, manipulator, body, hardware, home))
         });
         Self { manipulator, required, axes: [base, platform], hinges, plates, coupled }
     }
@@ -408,14 +408,18 @@ impl<'a> Terms<'a> {
         let mut out = self.joints_in_envelopes();
         self.holes(&mut out);
         for (kind, body, joints, used) in bodies {
-            let housing = self.required.hardware.housing(body);
             let is_used = |i: &usize| used.contains(i);
+            let housings: Vec<Vec<Option<Housing>>> =
+                (0..joints.len()).map(|k| self.required.hardware.housings_at(body, &used, k)).collect();
             for i in (0..joints.len()).filter(is_used) {
                 for j in (i + 1..joints.len()).filter(is_used) {
                     let d = joints[j] - joints[i];
-                    let gap = housing.map(|h| h.gap(&d));
+                    let pairs = housings[i]
+                        .iter()
+                        .flat_map(|a| housings[j].iter().filter_map(|b| Housing::pair(*a, *b)));
+                    let gaps = pairs.map(|[a, b]| a.gap(&b, &d));
                     let centres = self.required.min_joint_distance.map(|least| d.norm() - least);
-                    if let Some(margin) = [gap, centres].into_iter().flatten().reduce(f64::min) {
+                    if let Some(margin) = gaps.chain(centres).reduce(f64::min) {
                         out.push((Term { kind, first: i, second: j }, margin));
                     }
                 }
@@ -434,12 +438,17 @@ impl<'a> Terms<'a> {
         let mut out = Vec::new();
         for (kind, body, envelope) in bodies {
             let Some(envelope) = envelope else { continue };
-            let (half, radius) = room(self.required.hardware.housing(body));
             let used = self.manipulator.pairs().map(|p| body.of(p));
             for (i, joint) in
                 self.manipulator.joints(body).iter().enumerate().filter(|(i, _)| used.contains(i))
             {
-                out.push((Term { kind, first: i, second: i }, envelope.margin(joint, &half, radius)));
+                let housings = self.required.hardware.housings_at(body, &used, i);
+                let inside = housings.into_iter().map(|housing| {
+                    let (half, radius) = room(housing);
+                    envelope.margin(joint, &half, radius)
+                });
+                let margin = inside.fold(f64::INFINITY, f64::min);
+                out.push((Term { kind, first: i, second: i }, margin));
             }
         }
         out
@@ -466,7 +475,7 @@ impl<'a> Terms<'a> {
         let Some(envelope) = self.required.envelopes.machine else { return };
         for (i, (a, b)) in ends.iter().enumerate() {
             for (second, (body, at)) in [(Body::Base, a), (Body::Platform, b)].into_iter().enumerate() {
-                let ball = ball(self.required.hardware.housing(body));
+                let ball = ball(self.required.hardware.housing(body, i));
                 let margin = envelope.margin(at, &Vector3::zeros(), ball);
                 out.push((Term { kind: TermKind::MachineEnvelope, first: i, second }, margin));
             }
@@ -628,7 +637,7 @@ impl<'a> Terms<'a> {
         let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
         for body in Body::BOTH {
             let Some(plate) = self.plate(body) else { continue };
-            let free = without_end(leg.to_vec(), body, self.required.hardware.joint_reach(body));
+            let free = without_end(leg.to_vec(), body, self.required.hardware.joint_reach(body, i));
             let gap = |(p, q, radius): &Part| match body {
                 Body::Base => plate.distance(p, q) - radius,
                 Body::Platform => plate.distance(&back(p), &back(q)) - radius,

@@ -167,6 +167,38 @@ fn poses_listed_from_home_move_with_it() {
     assert!((margin(high, from_home) - margin(low, from_home)).abs() > 1.0);
 }
 
+/// Over a wide workspace the cells do not decide the stiffness: the answer is undecided, with the least value found and a bound below it, and nothing is called met.
+#[test]
+fn a_stiffness_that_cells_do_not_decide_is_not_called_met() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("designs/symmetric-hexapod.toml").unwrap();
+    let path = folder.path().join("wide.toml");
+    std::fs::write(&path, format!("{text}leg_stiffness = 1e4\n[stiffness]\nangular = 1e8\n")).unwrap();
+    let words = ["assess", path.to_str().unwrap(), "--cells", "200"];
+    let doc = document(&equipod(&[&words[..], &["--json"]].concat()));
+    let rows = doc["requirements"].as_array().unwrap_or_else(|| panic!("{doc}"));
+    let row = rows.iter().find(|r| r["name"] == "angular_stiffness").unwrap();
+    assert_eq!((row["status"].as_str(), &doc["met"]), (Some("searched"), &Value::Null), "{doc}");
+    let (found, proved) = (row["margin"].as_f64().unwrap(), row["proved_margin"].as_f64().unwrap());
+    assert!(found > 0.0 && proved < 0.0, "{row}");
+    let out = equipod(&words);
+    let text = String::from_utf8(out.stdout).unwrap();
+    assert_eq!(out.status.code(), Some(3), "{text}");
+    assert!(text.lines().next().unwrap().contains("not all is proved: angular_stiffness"), "{text}");
+    // on a single pose the same requirement is decided
+    let home = text_of_home(&path);
+    std::fs::write(&path, home).unwrap();
+    let doc = document(&equipod(&[&words[..], &["--json"]].concat()));
+    assert_eq!(doc["met"].as_bool(), Some(true), "{doc}");
+}
+
+/// A design without its workspace: home alone.
+fn text_of_home(path: &std::path::Path) -> String {
+    let text = std::fs::read_to_string(path).unwrap();
+    let (before, after) = text.split_once("[workspace]").unwrap();
+    format!("{before}{}", &after[after.find("[hardware]").unwrap()..])
+}
+
 /// The masses are a payload of 300 kg on legs of 1e5 N/mm; `motion` computes the same numbers at home by its own formulas.
 #[test]
 fn stiffness_and_frequency_have_rows_of_their_own() {

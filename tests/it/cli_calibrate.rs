@@ -138,9 +138,11 @@ fn poses_and_exports_of_a_calibrated_machine_say_how_uncertain_it_is() {
 
     // numbers of the exported document against the definition: derivatives of the pose by differences of Newton's method are those of J^-1 and the directions of the legs
     let files = path("files");
-    assert!(equipod(&["export", &out, "--to", "c,csv,json", "-o", &files]).status.success());
+    assert!(equipod(&["export", &out, "--to", "c,csv,json,hal,matlab,mjcf", "-o", &files]).status.success());
     let read = |name: &str| {
-        let mut found = ["", "c/", "csv/", "json/"].iter().map(|f| format!("{files}/{f}{name}"));
+        let mut found = ["", "c/", "csv/", "json/", "hal/", "matlab/", "mjcf/"]
+            .iter()
+            .map(|f| format!("{files}/{f}{name}"));
         found.find_map(|path| std::fs::read_to_string(path).ok()).unwrap_or_else(|| panic!("{name}"))
     };
     let doc: Value = serde_json::from_str(&read("platform.json")).unwrap();
@@ -181,6 +183,45 @@ fn poses_and_exports_of_a_calibrated_machine_say_how_uncertain_it_is() {
     assert_eq!((cells[0], cells[3 + 5]), (names[5], "1.0"));
     assert!(read("equipod_design.h").contains("EQUIPOD_HAS_CALIBRATION 1"));
     assert!(read("equipod_design.c").contains("const real_t equipod_calibration[42][42] = {"));
+
+    // the others have the same numbers in metres, or say what they leave out
+    let metres = |k: usize| number(&exported["deviations"][k]) / 1e3;
+    let near = |found: f64, wanted: f64| assert!((found - wanted).abs() <= 1e-12 * wanted.abs().max(1e-9));
+    let script = read("platform.m");
+    let block = |name: &str| -> Vec<Vec<f64>> {
+        let from = script.find(&format!("stewart.{name} = [")).unwrap_or_else(|| panic!("{name}"));
+        let rows = script[from..].lines().skip(1).take_while(|line| *line != "];");
+        let row =
+            |line: &str| line.trim().trim_end_matches(';').split(", ").map(|x| x.parse().unwrap()).collect();
+        rows.map(row).collect()
+    };
+    let (deviations, correlations) = (block("deviations"), block("correlations"));
+    assert_eq!((deviations.len(), correlations.len(), block("offsets").len()), (42, 42, 6));
+    assert!(script.contains(&format!("stewart.unknowns = {{'{}'; ", names[0])));
+    let model = read("platform.xml");
+    let numeric = |name: &str| -> Vec<f64> {
+        let from = format!("<numeric name=\"{name}\" data=\"");
+        let rest = &model[model.find(&from).unwrap_or_else(|| panic!("{name}")) + from.len()..];
+        rest[..rest.find('"').unwrap()].split(' ').map(|x| x.parse().unwrap()).collect()
+    };
+    let custom = numeric("calibration_deviations");
+    assert_eq!((custom.len(), numeric("leg_offsets").len()), (42, 6));
+    for i in 0..42 {
+        near(deviations[i][0], metres(i));
+        near(custom[i], metres(i));
+        let row = numeric(&format!("calibration_correlations_{}", i + 1));
+        for (j, value) in row.iter().enumerate() {
+            near(*value, number(&exported["correlations"][i.max(j)][i.min(j)]));
+            near(correlations[i][j], *value);
+        }
+    }
+    let pins = read("genhexkins.hal");
+    let said = |k: usize| {
+        let line = pins.lines().find_map(|l| l.strip_prefix(&format!("#   {} ", names[k])));
+        line.unwrap_or_else(|| panic!("{pins}")).parse::<f64>().unwrap()
+    };
+    near(said(0), number(&exported["deviations"][0]));
+    assert!(pins.contains("their correlations are not written here"), "{pins}");
 }
 
 #[test]

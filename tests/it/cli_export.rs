@@ -79,7 +79,7 @@ fn what_is_written_and_left_out_is_told() {
     wrote DIR/platform-plate.dxf
       dxf leaves out legs, and heights of joints out of the plane of the plate other than as text
     wrote DIR/genhexkins.hal
-      hal leaves out joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are
+      hal leaves out joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are; correlations of a calibration, which the formats csv, json and c have
     sizes
       ball diameter, base                      0.346410 design units  rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home
       hole diameter, base                      0.173205 design units  rule: half a ball

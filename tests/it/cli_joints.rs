@@ -62,6 +62,40 @@ fn per_leg(second: f64, ball: f64, flexure: f64) -> String {
     format!("base_joint = [{}]\n", list.join(", "))
 }
 
+/// A joint with a housing of its own decides the distance from its neighbours, and has its own line in the list of parts; boxes that are no housings are refused at the place.
+#[test]
+fn joints_per_leg_have_housings_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let six = |third: &str| {
+        let ball = |k: usize| format!("{{ model = \"ball\"{} }}", if k == 2 { third } else { "" });
+        format!("base_joint = [{}]\n", (0..6).map(ball).collect::<Vec<_>>().join(", "))
+    };
+    let spacing = |third: &str| {
+        let path = with(&folder, "housings.toml", &six(third));
+        let answer = document(&equipod(&["assess", &path, "--json"]));
+        let rows = answer["requirements"].as_array().unwrap_or_else(|| panic!("{answer}"));
+        let row = rows.iter().find(|r| r["name"] == "base_spacing").unwrap_or_else(|| panic!("{answer}"));
+        (path, row.clone())
+    };
+    let margin = |row: &Value| row["margin"].as_f64().unwrap();
+    // pairs are 2 * 62.374 apart, and all joints are 30 wide
+    let (_, alike) = spacing("");
+    assert!((margin(&alike) - (2.0 * 62.374 - 30.0)).abs() < 1e-9, "{alike}");
+    let (path, wide) = spacing(", housing = 50");
+    assert!((margin(&wide) - (2.0 * 62.374 - 40.0)).abs() < 1e-9, "{wide}");
+    assert!(wide["between"].as_array().unwrap().iter().any(|j| j == "A3"), "{wide}");
+    let out = folder.path().join("parts");
+    let done = equipod(&["export", &path, "--to", "csv", "-o", &out.display().to_string()]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let table = std::fs::read_to_string(out.join("parts.csv")).unwrap();
+    for part in ["\"base joint, ball\",5,,,,,,30.0,", "\"base joint, ball\",1,,,,,,50.0,"] {
+        assert!(table.contains(part), "{part}: {table}");
+    }
+    let path = with(&folder, "flat.toml", &six(", housing = [1, 2]"));
+    let answer = document(&equipod(&["assess", &path, "--json"]));
+    assert!(answer["error"]["violations"][0]["line"].as_u64().is_some(), "{answer}");
+}
+
 /// Each leg has the limits of its own joint: the least margin of a row is at a leg that has such a joint, and a limit of other legs changes nothing.
 #[test]
 fn joints_per_leg_are_judged_leg_by_leg() {

@@ -131,3 +131,56 @@ fn all_rows_of_a_smooth_path_of_the_symmetric_hexapod_are_proved() {
         );
     }
 }
+
+/// One contract: a design that `assess` refuses is refused by every command that shows or writes it, in its first line, in its answer and in its exit code where that judges.
+#[test]
+#[ignore = "slow evidence"]
+fn no_command_calls_a_design_good_that_assess_refuses() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("designs/symmetric-hexapod.toml").unwrap();
+    let narrow = text
+        .replacen("translation = [60.0, 60.0, 60.0]", "translation = [5.0, 5.0, 5.0]", 1)
+        .replacen("rotation_deg = [10.0, 10.0, 10.0]", "rotation_deg = [1.0, 1.0, 1.0]", 1);
+    assert_ne!(narrow, text);
+    let out = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    // legs are between 386 and 402 long: the second design is met, the first is not
+    let [bad, good] = [("bad.toml", 395.0), ("good.toml", 380.0)].map(|(name, least)| {
+        let path = out(name);
+        std::fs::write(&path, format!("{narrow}leg_length = [{least}, 600.0]\n")).unwrap();
+        path
+    });
+    let commands = |design: &str, run: &str| -> Vec<Vec<String>> {
+        let own = |name: &str| out(&format!("{run}-{name}"));
+        let all = [
+            format!("assess {design}"),
+            format!("build tolerances {design} --bound 0.1,0.1"),
+            format!("build round {design} --grid 0.01 -o {}", own("rounded.toml")),
+            format!("export {design} --to csv -o {}", own("files")),
+            format!("view {design} -o {}", own("page.html")),
+            format!("equivalents move {design} --search --no-shared-joints -o {}", own("moved")),
+        ];
+        all.iter().map(|line| line.split(' ').map(str::to_owned).collect()).collect()
+    };
+    for (design, run, refused) in [(&bad, "bad", true), (&good, "good", false)] {
+        for words in commands(design, run) {
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            let found = equipod(&words);
+            let text = String::from_utf8(found.stdout).unwrap();
+            let said = text.lines().find(|l| !l.is_empty()).unwrap_or_default();
+            let line = words.join(" ");
+            assert_eq!(said.contains("violates requirements"), refused, "{line}: {said}");
+            // a search lists other platforms too, those that miss something after the others
+            if refused || words[..2] != ["equivalents", "move"] {
+                assert_eq!(text.contains("leg_too_short    !violated"), refused, "{line}: {text}");
+            }
+            if refused {
+                for word in ["meets all its requirements", "optimal"] {
+                    assert!(!text.contains(word), "{line}: {text}");
+                }
+            }
+        }
+        let compared = equipod(&["compare", design, design, "--json"]);
+        let answer = document(&compared);
+        assert_eq!(answer.to_string().contains("\"violated\""), refused, "{answer}");
+    }
+}

@@ -110,9 +110,28 @@ fn a_rounding_that_meets_no_requirement_is_a_no() {
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, format!("{text}\n[hardware]\njoint_diameter = 30.0\n")).unwrap();
     let out = folder.path().join("rounded.toml");
-    let (code, doc) = round(&[&path, "--grid", "0.25", "-o", out.to_str().unwrap()]);
+    let words = ["build", "round", &path, "--grid", "0.25", "-o", out.to_str().unwrap()];
+    let (code, doc) = round(&words[2..]);
     assert_eq!((code, &doc["chosen"]), (Some(1), &Value::Null));
-    assert!(!out.exists());
+    // the one that misses the least is written all the same, and its violations stand first
+    let way = doc["least_missed"].as_str().unwrap();
+    assert_eq!(doc["assessment"]["met"].as_bool(), Some(false), "{doc}");
+    let written = std::fs::read_to_string(&out).unwrap();
+    assert!(written.contains(&format!("variant {way}")), "{written}");
+    let text = equipod(&words);
+    assert_eq!(text.status.code(), Some(1));
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.lines().next().unwrap().contains("violates requirements: "), "{text}");
+    assert!(
+        text.contains(&format!("chosen: none meets the requirements; {way} misses them least")),
+        "{text}"
+    );
+    // a variant that is asked for by name is the one chosen
+    let (code, doc) = round(&[&path, "--grid", "0.25", "--variant", "nearest"]);
+    assert_eq!(
+        (code, doc["chosen"].as_str(), &doc["least_missed"]),
+        (Some(1), Some("nearest"), &Value::Null)
+    );
 }
 
 #[test]

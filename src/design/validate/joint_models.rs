@@ -3,13 +3,13 @@
 use nalgebra::{Unit, Vector3};
 
 use super::axes::named;
-use super::tables::{angle_to_half_turn, axis, joint_axes, not_negative, positive};
+use super::tables::{angle_to_half_turn, axis, housing, joint_axes, not_negative, positive};
 use super::{check_keys, element_span, number, numbers, shown, table, text};
 use crate::design::Code;
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use crate::manipulator::Body;
-use crate::requirements::{Hardware, JointAxes, UniversalJoint};
+use crate::requirements::{Hardware, Housing, JointAxes, UniversalJoint};
 
 /// What the joints of a body are, leg by leg.
 #[derive(Debug, Clone, Copy, Default)]
@@ -18,6 +18,8 @@ pub(super) struct JointModel {
     pub(super) bending: [Option<f64>; 6],
     /// Greatest angles of the joints whose tables have one.
     pub(super) swing_deg: [Option<f64>; 6],
+    /// Housings of the joints whose tables have one.
+    pub(super) housing: [Option<Housing>; 6],
 }
 
 /// What a table says of the joint of one leg, or of those of all.
@@ -29,16 +31,17 @@ struct JointTable {
     offset: f64,
     bending: Option<f64>,
     swing_deg: Option<f64>,
+    housing: Option<Housing>,
 }
 
-pub(super) const KEYS: [&str; 6] =
-    ["model", "first_axis", "angle_deg", "offset", "swing_deg", "bending_stiffness"];
+pub(super) const KEYS: [&str; 7] =
+    ["model", "first_axis", "angle_deg", "offset", "housing", "swing_deg", "bending_stiffness"];
 
 /// The keys of a model besides its name.
 fn keys_of(model: &str) -> Option<&'static [&'static str]> {
     match model {
-        "ball" => Some(&KEYS[4..5]),
-        "universal" => Some(&KEYS[1..5]),
+        "ball" => Some(&KEYS[4..6]),
+        "universal" => Some(&KEYS[1..6]),
         "flexure" => Some(&KEYS[4..]),
         _ => None,
     }
@@ -96,6 +99,7 @@ fn models(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointMo
             }),
             bending: [one.bending; 6],
             swing_deg: [one.swing_deg; 6],
+            housing: [one.housing; 6],
         });
     };
     if list.len() != 6 {
@@ -129,6 +133,7 @@ fn models(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointMo
         }),
         bending: all.map(|joint| joint.bending),
         swing_deg: all.map(|joint| joint.swing_deg),
+        housing: all.map(|joint| joint.housing),
     })
 }
 
@@ -204,7 +209,8 @@ fn model(
         report.refuse(Code::ConflictingKeys, &other.key_span, message, "remove it, or change the model");
     }
     let swing_deg = angle_to_half_turn(report, entries, "swing_deg");
-    let found = JointTable { swing_deg, ..JointTable::default() };
+    let housing = housing(report, entries, "housing");
+    let found = JointTable { swing_deg, housing, ..JointTable::default() };
     Some(match name.as_str() {
         "universal" => {
             let Some(first) = find(entries, "first_axis") else {

@@ -79,7 +79,8 @@ fn plate(
         report.refuse(Code::OutOfRange, &e.node.span, message, help);
     }
     let height = positive(report, entries, "height");
-    let housing = hardware.housing(body).map(|h| h.least_width());
+    // the narrowest joint sits on its hole too
+    let housing = hardware.joint_widths(body).map(|[least, _]| least);
     match (find(entries, "height"), housing, hole) {
         (None, None, _) => {
             let message = format!("{place} does not say how high the joints are above it");

@@ -402,6 +402,8 @@ pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> Hardware {
     Hardware {
         base_housing: housing(report, entries, "base_housing"),
         platform_housing: housing(report, entries, "platform_housing"),
+        base_joint_housing: base_joint.housing,
+        platform_joint_housing: platform_joint.housing,
         joint_diameter: positive(report, entries, "joint_diameter"),
         leg_body: body.map(|diameter| LegBody { diameter, rod: cylinder.zip(rod) }),
         leg_clearance: not_negative(report, entries, "leg_clearance"),
@@ -450,7 +452,8 @@ fn leg_masses(report: &mut Findings<'_>, entries: &[Entry]) -> Option<LegMasses>
     })
 }
 
-fn housing(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<Housing> {
+/// A diameter, or the edges of a box.
+pub(super) fn housing(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<Housing> {
     let node = &find(entries, key)?.node;
     if matches!(node.value, Value::Array(_)) {
         return edges(report, node, key).map(Housing::Box);

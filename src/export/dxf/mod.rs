@@ -70,7 +70,7 @@ fn plan(export: &Export, body: &ExportBody, plate: &Plate) -> String {
     origin(&mut page, extent);
     let centres: Vec<Point2<f64>> = plate.holes.iter().map(|h| h.at * mm).collect();
     dimensions(&mut page, &centres, extent);
-    table(&mut page, body, plate, extent, mm);
+    table(&mut page, export, body, plate, extent);
     page.finish()
 }
 
@@ -115,9 +115,44 @@ fn origin(page: &mut Page, [low, high]: [Point2<f64>; 2]) {
     }
 }
 
-/// Positions of the holes in the drawing, which are those in the frame of the plate.
-fn table(page: &mut Page, body: &ExportBody, plate: &Plate, extent: [Point2<f64>; 2], mm: f64) {
+/// Title, scale, tolerance and datum in a frame.
+fn title_block(
+    page: &mut Page,
+    export: &Export,
+    (body, plate): (&ExportBody, &Plate),
+    top: Point2<f64>,
+    mm: f64,
+) {
     let h = page.text_height;
+    let material = plate.material.as_ref().map_or_else(|| "not stated".to_string(), |name| one_line(name));
+    let lines = [
+        format!("{}: {} plate", one_line(&export.name), body.body),
+        format!("material {material}, thickness {:.4}", plate.thickness * mm),
+        "mm, scale 1:1, general tolerances ISO 2768-m".to_string(),
+        "datum: the cross is the origin of the frame; dimensions from the lowest holes".to_string(),
+        export.program.clone(),
+    ];
+    let (left, mut at) = (top.x, Point2::new(top.x + h, top.y - 1.8 * h));
+    for line in &lines {
+        page.text("TABLE", at, line);
+        at.y -= 1.8 * h;
+    }
+    let (right, low) = (page.right() + h, at.y);
+    let corners = [
+        Point2::new(left, top.y),
+        Point2::new(right, top.y),
+        Point2::new(right, low),
+        Point2::new(left, low),
+    ];
+    for (k, corner) in corners.iter().enumerate() {
+        page.entities.line("TABLE", *corner, corners[(k + 1) % 4]);
+        page.reaches(*corner);
+    }
+}
+
+/// Positions of the holes in the drawing, which are those in the frame of the plate.
+fn table(page: &mut Page, export: &Export, body: &ExportBody, plate: &Plate, extent: [Point2<f64>; 2]) {
+    let (h, mm) = (page.text_height, export.unit.millimetres);
     let mut at = Point2::new(page.right() + 3.0 * h, extent[1].y);
     let mut lines = vec![
         format!("{} plate, mm, thickness {:.4}", body.body, plate.thickness * mm),
@@ -147,4 +182,5 @@ fn table(page: &mut Page, body: &ExportBody, plate: &Plate, extent: [Point2<f64>
         page.text("TABLE", at, &line);
         at.y -= 1.8 * h;
     }
+    title_block(page, export, (body, plate), at, mm);
 }

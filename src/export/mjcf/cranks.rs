@@ -158,7 +158,9 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
             real(kv)
         );
     }
-    out.push_str("  </actuator>\n  <keyframe>\n");
+    out.push_str("  </actuator>\n");
+    super::sensors(&mut out, "angle");
+    out.push_str("  <keyframe>\n");
     // the angle and both swings of each leg; the ball joint after those of leg 1
     let legs = cranks.home_angles.map(|q| format!("{} 0 0", real(q)));
     let qpos = format!("{} 1 0 0 0 {}", legs[0], legs[1..].join(" "));

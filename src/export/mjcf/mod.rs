@@ -62,6 +62,12 @@ const YOKE_MASS: f64 = 0.005;
 /// change no force by a millionth.
 const NEARLY_NONE: f64 = 1e-9;
 
+/// Colours of base and platform.
+const PLATES: [&str; 2] = ["0.45 0.45 0.48 1", "0.16 0.42 0.66 1"];
+const CYLINDER: &str = "0.25 0.25 0.28 1";
+const ROD: &str = "0.75 0.75 0.78 1";
+const GROUND: &str = "0.86 0.87 0.84 1";
+
 /// What all parts are computed from: SI units.
 #[derive(Debug)]
 struct Scale {
@@ -132,12 +138,12 @@ fn quat(pose: &Pose) -> String {
 
 /// Bars along the hull of the joints of a body stand for its plate, balls for its joints.
 fn shape(out: &mut String, scale: &Scale, body: &ExportBody, indent: &str) {
-    let radius = real(0.25 * body.ball_diameter * scale.metres);
+    let (radius, colour) = (real(0.25 * body.ball_diameter * scale.metres), PLATES[body.body.index()]);
     for joint in &body.joints {
         let ball = real(0.5 * body.ball_diameter * scale.metres);
         let _ = writeln!(
             out,
-            "{indent}<geom type=\"sphere\" size=\"{ball}\" pos=\"{}\"/>",
+            "{indent}<geom type=\"sphere\" size=\"{ball}\" pos=\"{}\" rgba=\"{colour}\"/>",
             scale.at(&joint.at.coords)
         );
     }
@@ -149,7 +155,7 @@ fn shape(out: &mut String, scale: &Scale, body: &ExportBody, indent: &str) {
         let [p, q] = [p, q].map(|p| plate.to_body(&Point3::new(p.x, p.y, middle)).coords);
         let _ = writeln!(
             out,
-            "{indent}<geom type=\"capsule\" size=\"{radius}\" fromto=\"{} {}\"/>",
+            "{indent}<geom type=\"capsule\" size=\"{radius}\" fromto=\"{} {}\" rgba=\"{colour}\"/>",
             scale.at(&p),
             scale.at(&q)
         );
@@ -190,10 +196,10 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
     let half = 0.5 * length;
     let mass = LEG_MASS * scale.mass;
     let gyration = length * scale.metres / 12.0f64.sqrt();
-    let capsule = |from: f64, to: f64, diameter: f64| {
+    let capsule = |from: f64, to: f64, diameter: f64, colour: &str| {
         let ends = [Vector3::new(0.0, 0.0, from), Vector3::new(0.0, 0.0, to)].map(|p| scale.at(&p));
         format!(
-            "<geom type=\"capsule\" size=\"{}\" fromto=\"{} {}\"/>",
+            "<geom type=\"capsule\" size=\"{}\" fromto=\"{} {}\" rgba=\"{colour}\"/>",
             real(0.5 * diameter * scale.metres),
             ends[0],
             ends[1]
@@ -235,12 +241,12 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
         yoke,
         scale.gravity,
         cylinder,
-        capsule(0.0, leg.cylinder.min(length), thick),
+        capsule(0.0, leg.cylinder.min(length), thick, CYLINDER),
         scale.at(&tip),
         scale.gravity,
         real(armature),
         rod,
-        capsule(-half.min(length - leg.cylinder.min(length)).max(0.1 * length), 0.0, thin),
+        capsule(-half.min(length - leg.cylinder.min(length)).max(0.1 * length), 0.0, thin, ROD),
     );
     if let Some(tendon) = SwingTendon::of(export, leg)? {
         tendon.at_rod(out, scale);
@@ -335,6 +341,34 @@ fn masses(export: &Export, scale: &Scale) -> String {
     }
 }
 
+/// How high the ground is: below the lowest joint at home, its ball and the plate that carries it, metres. None where gravity does not pull along the third axis of the base.
+fn ground(export: &Export, scale: &Scale) -> Option<f64> {
+    let down = export.gravity.x == 0.0 && export.gravity.y == 0.0 && export.gravity.z < 0.0;
+    let place = |k: usize, p: &Point3<f64>| if k == 0 { *p } else { export.home.transform(p) };
+    let lowest = export.bodies.iter().enumerate().flat_map(|(k, body)| {
+        let below = 0.5 * body.ball_diameter + body.plate().map_or(0.0, |plate| plate.thickness);
+        body.joints.iter().map(move |joint| place(k, &joint.at).z - below)
+    });
+    lowest.reduce(f64::min).filter(|_| down).map(|z| z * scale.metres)
+}
+
+/// What the drives and the platform do, as sensors: place, speed and force of each drive, pose of the platform frame. `joint` is what the joints of the drives are called.
+fn sensors(out: &mut String, joint: &str) {
+    out.push_str("  <sensor>\n");
+    for i in 1..=6 {
+        let _ = writeln!(
+            out,
+            "    <jointpos name=\"{joint}{i}_position\" joint=\"{joint}{i}\"/>\n    \
+             <jointvel name=\"{joint}{i}_velocity\" joint=\"{joint}{i}\"/>\n    \
+             <actuatorfrc name=\"{joint}{i}_effort\" actuator=\"actuator{i}\"/>"
+        );
+    }
+    out.push_str(
+        "    <framepos name=\"platform_position\" objtype=\"site\" objname=\"platform_frame\"/>\n    \
+         <framequat name=\"platform_orientation\" objtype=\"site\" objname=\"platform_frame\"/>\n  </sensor>\n",
+    );
+}
+
 /// Everything before the bodies, with what is said of this kind of model in the comment, lines indented.
 fn opening(export: &Export, scale: &Scale, text: &str) -> String {
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!--\n");
@@ -353,13 +387,54 @@ fn opening(export: &Export, scale: &Scale, text: &str) -> String {
          <option timestep=\"{step}\" gravity=\"{}\" integrator=\"implicitfast\" solver=\"Newton\" tolerance=\"1e-12\" iterations=\"200\"/>\n  \
          <default>\n    <geom contype=\"0\" conaffinity=\"0\" mass=\"0\"/>\n    \
          <equality solref=\"{} 1\" solimp=\"0.9999 0.99999 0.0001\"/>\n  </default>\n  \
-         <worldbody>\n    <light pos=\"0 0 {}\" dir=\"0 0 -1\"/>\n    <body name=\"base\">",
+         <worldbody>\n    <light pos=\"0 0 {}\" dir=\"0 0 -1\"/>",
         escape(&one_line(&export.name)),
         reals(export.gravity.iter().copied(), " "),
         real(2.0 * scale.step),
         real(10.0 * scale.size),
     );
+    let away = [2.5, -2.5, 1.5].map(|x| x * scale.size);
+    let _ = writeln!(
+        out,
+        "    <camera name=\"side\" mode=\"targetbody\" target=\"platform\" pos=\"{}\"/>",
+        reals(away, " ")
+    );
+    if let Some(z) = ground(export, scale) {
+        let _ = writeln!(
+            out,
+            "    <geom name=\"ground\" type=\"plane\" size=\"0 0 {}\" pos=\"0 0 {}\" rgba=\"{GROUND}\"/>",
+            real(0.1 * scale.size),
+            real(z)
+        );
+    }
+    out.push_str("    <body name=\"base\">\n");
     out
+}
+
+/// What a calibration found beside the joints, which changes nothing in the simulation: numbers that programs can read, one row of correlations an element, since some versions take
+/// at most 500 numbers in one.
+fn calibration(out: &mut String, export: &Export) {
+    if export.leg_offsets.is_none() && export.calibration.is_none() {
+        return;
+    }
+    let metres = export.unit.metres;
+    out.push_str("  <custom>\n");
+    let mut numeric = |name: &str, values: &mut dyn Iterator<Item = f64>| {
+        let _ = writeln!(out, "    <numeric name=\"{name}\" data=\"{}\"/>", reals(values, " "));
+    };
+    if let Some(offsets) = &export.leg_offsets {
+        numeric("leg_offsets", &mut offsets.iter().map(|x| x * metres));
+    }
+    if let Some(found) = &export.calibration {
+        numeric("calibration_values", &mut found.values.iter().map(|x| x * metres));
+        numeric("calibration_deviations", &mut found.deviations.iter().map(|x| x * metres));
+        for (i, row) in found.correlations.row_iter().enumerate() {
+            numeric(&format!("calibration_correlations_{}", i + 1), &mut row.iter().copied());
+        }
+        let names = found.names.iter().map(|name| escape(&one_line(name))).collect::<Vec<_>>().join(" ");
+        let _ = writeln!(out, "    <text name=\"calibration_unknowns\" data=\"{names}\"/>");
+    }
+    out.push_str("  </custom>\n");
 }
 
 fn model(export: &Export) -> Result<String, Unsupported> {
@@ -385,6 +460,9 @@ fn model(export: &Export) -> Result<String, Unsupported> {
     if swing::is_limited(export) {
         text.push_str(swing::COMMENT);
     }
+    if export.leg_offsets.is_some() || export.calibration.is_some() {
+        text.push_str("  Custom numbers: leg offsets, values and standard deviations of the calibration in metres, correlations row by row; the simulation does not use them.\n");
+    }
     if export.payload_shape.is_some() {
         text.push_str("  Geom payload: the room that the payload takes up. It touches nothing, and its mass is that of the platform.\n");
     }
@@ -393,7 +471,9 @@ fn model(export: &Export) -> Result<String, Unsupported> {
     for l in &export.legs {
         leg(&mut out, &scale, export, l)?;
     }
-    out.push_str("    </body>\n  </worldbody>\n  <equality>\n");
+    out.push_str("    </body>\n  </worldbody>\n");
+    calibration(&mut out, export);
+    out.push_str("  <equality>\n");
     for l in &export.legs[1..] {
         let _ = writeln!(
             out,
@@ -417,7 +497,9 @@ fn model(export: &Export) -> Result<String, Unsupported> {
             range_of(export, l, "ctrlrange")
         );
     }
-    out.push_str("  </actuator>\n  <keyframe>\n");
+    out.push_str("  </actuator>\n");
+    sensors(&mut out, "leg");
+    out.push_str("  <keyframe>\n");
     // x swing, y swing, slide of each leg; the ball joint after the slide of leg 1
     let qpos = format!("0 0 0 1 0 0 0{}", " 0 0 0".repeat(5));
     let _ = writeln!(

@@ -1039,6 +1039,9 @@ class DesignJointModel(Record):
     angle_deg: Union[tuple[float, float], None]
     #: universal: distance of the two axes, which meet when it is 0
     offset: Union[DesignNotNegative, None]
+    #: the room that the joint takes up, in place of that of the body: a diameter, or edge lengths of a box
+    #: along the axes of the body
+    housing: Union[DesignHousing, None]
     #: flexure: torque over angle, force units times design units per radian; required
     bending_stiffness: Union[DesignPositive, None]
 
@@ -3298,7 +3301,10 @@ class RoundAnswer(Record):
     assessment: Union[AssessAnswer, None]
     #: Which of them the rule takes; null: none meets the requirements.
     chosen: Union[VariantWord, None]
-    #: The rounded design.
+    #: Where none meets the requirements, the one that misses them least, by the greatest violation as a
+    #: share of what is limited; null otherwise.
+    least_missed: Union[VariantWord, None]
+    #: The rounded design: the one chosen, or the one that misses the requirements least.
     design: Union[Design, None]
     #: The file written.
     output: Union[str, None]

@@ -23,7 +23,7 @@ impl CellJudge<'_> {
         let mut out = AtPoint::nothing(cell);
         let Some(leg) = &self.required.hardware.leg_body else { return out };
         let clearance = Interval::from(self.required.hardware.leg_clearance.unwrap_or(0.0));
-        let cut = self.required.hardware.joint_reach(body);
+        let cut = self.required.hardware.joint_reach(body, i);
         let free = |frame: &CellFrame<'_>| {
             gap::without_end(frame, self.m, i, leg, gap::leg_parts(frame, self.m, i, leg), (body, cut))
         };

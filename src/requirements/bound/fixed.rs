@@ -32,13 +32,16 @@ impl CellJudge<'_> {
         } else {
             (Body::Base, self.required.envelopes.base)
         };
-        let (half, radius) = envelope::room(self.required.hardware.housing(body));
+        let ends = self.m.pairs().map(|p| body.of(p));
         let (mut below, mut upper) = (f64::INFINITY, f64::INFINITY);
         let joints = self.m.joints(body);
         for (term, _) in self.terms.fixed().iter().filter(|(t, _)| t.kind == kind) {
             let at = enclosed(&joints[term.first]);
-            let margin = envelope.map_or(Interval::WHOLE, |e| room_inside(&e, &at, &half, radius));
-            (below, upper) = (below.min(margin.lo()), upper.min(margin.hi()));
+            for housing in self.required.hardware.housings_at(body, &ends, term.first) {
+                let (half, radius) = envelope::room(housing);
+                let margin = envelope.map_or(Interval::WHOLE, |e| room_inside(&e, &at, &half, radius));
+                (below, upper) = (below.min(margin.lo()), upper.min(margin.hi()));
+            }
         }
         let verdict = verdict(below, upper, self.terms.rounding(kind, None));
         MarginBound { found, below, verdict, cells: 0, reserve: None }
@@ -55,14 +58,18 @@ impl CellJudge<'_> {
         }
         let body = if kind == TermKind::PlatformSpacing { Body::Platform } else { Body::Base };
         let joints = body.of((self.m.base_joints(), self.m.platform_joints()));
-        let housing = self.required.hardware.housing(body);
+        let hardware = &self.required.hardware;
+        let ends = self.m.pairs().map(|p| body.of(p));
         let (mut below, mut upper) = (f64::INFINITY, f64::INFINITY);
         for (term, _) in self.terms.fixed().iter().filter(|(t, _)| t.kind == kind) {
             let (a, b) = (enclosed(&joints[term.first]), enclosed(&joints[term.second]));
             let d: IntervalVector = std::array::from_fn(|k| a[k] - b[k]);
             let norm = dot_square(&d).sqrt().unwrap_or(Interval::WHOLE);
             let centres = self.required.min_joint_distance.map(|least| norm - Interval::from(least));
-            for margin in [housing.map(|h| housing_gap(&h, &d, norm)), centres].into_iter().flatten() {
+            let [ours, theirs] = [term.first, term.second].map(|k| hardware.housings_at(body, &ends, k));
+            let pairs = ours.iter().flat_map(|a| theirs.iter().filter_map(|b| Housing::pair(*a, *b)));
+            let gaps = pairs.map(|housings| housing_gap(&housings, &d, norm));
+            for margin in gaps.chain(centres) {
                 (below, upper) = (below.min(margin.lo()), upper.min(margin.hi()));
             }
         }
@@ -105,28 +112,28 @@ pub(super) fn room_inside(
     }
 }
 
-/// [`Housing::gap`], enclosed.
-pub(super) fn housing_gap(housing: &Housing, d: &IntervalVector, norm: Interval) -> Interval {
-    match housing {
-        Housing::Sphere(diameter) => norm - Interval::from(*diameter),
-        Housing::Box(edges) => {
-            let beside =
-                |x: f64, edge: f64, side: fn(Interval) -> f64| side(Interval::from(x) - Interval::from(edge));
-            let least = |x: Interval| {
-                if x.lo() <= 0.0 && x.hi() >= 0.0 { 0.0 } else { x.lo().abs().min(x.hi().abs()) }
-            };
-            let end = |size: &dyn Fn(usize) -> f64, side: fn(Interval) -> f64| {
-                let g: [f64; 3] = std::array::from_fn(|k| beside(size(k), edges[k], side));
-                let largest = g.into_iter().fold(f64::NEG_INFINITY, f64::max);
-                if largest > 0.0 {
-                    let positive: IntervalVector = g.map(|x| Interval::from(x.max(0.0)));
-                    dot_square(&positive).sqrt().map_or(largest, side)
-                } else {
-                    largest
-                }
-            };
-            let (lo, hi) = (end(&|k| least(d[k]), Interval::lo), end(&|k| d[k].magnitude(), Interval::hi));
-            Interval::new(lo, hi).unwrap_or(Interval::WHOLE)
-        }
+/// [`Housing::gap`], enclosed; `norm` is that of `d`.
+pub(super) fn housing_gap([a, b]: &[Housing; 2], d: &IntervalVector, norm: Interval) -> Interval {
+    // halves of doubles are exact
+    let ((half, ball), (other_half, other_ball)) = (envelope::room(Some(*a)), envelope::room(Some(*b)));
+    let balls = Interval::from(ball) + Interval::from(other_ball);
+    if let (Housing::Sphere(_), Housing::Sphere(_)) = (a, b) {
+        return norm - balls;
     }
+    let edges: IntervalVector =
+        std::array::from_fn(|k| Interval::from(half[k]) + Interval::from(other_half[k]));
+    let least =
+        |x: Interval| if x.lo() <= 0.0 && x.hi() >= 0.0 { 0.0 } else { x.lo().abs().min(x.hi().abs()) };
+    let end = |size: &dyn Fn(usize) -> f64, side: fn(Interval) -> f64| {
+        let g: [f64; 3] = std::array::from_fn(|k| side(Interval::from(size(k)) - edges[k]));
+        let largest = g.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        if largest > 0.0 {
+            let positive: IntervalVector = g.map(|x| Interval::from(x.max(0.0)));
+            dot_square(&positive).sqrt().map_or(largest, side)
+        } else {
+            largest
+        }
+    };
+    let (lo, hi) = (end(&|k| least(d[k]), Interval::lo), end(&|k| d[k].magnitude(), Interval::hi));
+    Interval::new(lo, hi).unwrap_or(Interval::WHOLE) - balls
 }

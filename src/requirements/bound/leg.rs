@@ -75,8 +75,8 @@ impl CellJudge<'_> {
     }
 
     /// The margin for a value of the function of a joint, which it increases with.
-    pub(super) fn room_left(&self, end: usize, side: Side, value: Interval) -> Interval {
-        let housing = self.required.hardware.housing(Body::BOTH[end]);
+    pub(super) fn room_left(&self, leg: usize, end: usize, side: Side, value: Interval) -> Interval {
+        let housing = self.required.hardware.housing(Body::BOTH[end], leg);
         // the same double as in the evaluation of a pose; its rounding is part of what the housing is
         let ball = Interval::from(envelope::ball(housing));
         match (self.required.envelopes.machine, side) {

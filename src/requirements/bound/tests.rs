@@ -322,8 +322,10 @@ fn gaps_of_housings_are_enclosed() {
         let enclosed: IntervalVector = std::array::from_fn(|k| Interval::from(d[k]));
         let norm = dot_square(&enclosed).sqrt().unwrap();
         let edges = Vector3::from_fn(|_, _| rng.uniform(0.1, 3.0));
-        for housing in [Housing::Sphere(1.0), Housing::Box(edges)] {
-            let (gap, found) = (housing.gap(&d), housing_gap(&housing, &enclosed, norm));
+        let (ball, block) = (Housing::Sphere(1.0), Housing::Box(edges));
+        let wider = Housing::Sphere(1.7);
+        for (housing, other) in [(ball, ball), (ball, wider), (block, block), (block, ball), (wider, block)] {
+            let (gap, found) = (housing.gap(&other, &d), housing_gap(&[housing, other], &enclosed, norm));
             assert!(
                 found.lo() - 1e-14 <= gap && gap <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13
             );
@@ -378,6 +380,55 @@ fn envelopes_and_reserves_of_upright_legs_are_those_by_hand() {
             assert_eq!((bound.verdict, bound.keeps_reserve()), (MarginVerdict::Met, expected), "{bound:?}");
         }
     }
+}
+
+/// One wide joint among narrow ones: it decides spacing, envelopes and where its leg begins beside a plate, and the proof agrees.
+#[test]
+fn the_housing_of_a_single_joint_counts_for_that_joint() {
+    let ring = || -> Vec<Point3<f64>> {
+        let at = |i: usize| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
+        (0..6).map(|i| Point3::new(4.0 * at(i).1, 4.0 * at(i).0, 0.0)).collect()
+    };
+    let m = Manipulator::try_new(ring(), ring(), std::array::from_fn(|i| (i, i))).unwrap();
+    let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 10.0) };
+    let space = PoseSpace::at(home);
+    let mut r = Requirements::default();
+    r.hardware.joint_diameter = Some(1.0);
+    let circle = |radius: f64| Some(Envelope::Cylinder { radius, center: [0.0, 0.0] });
+    (r.envelopes.base, r.envelopes.platform) = (circle(5.5), circle(5.5));
+    r.envelopes.machine = circle(6.0);
+    let of = |r: &Requirements, kind: TermKind| {
+        let proof = prove(&m, r, &space, &quick(), 4000);
+        let bound = proof.bounds.into_iter().find(|b| b.found.term.kind == kind).unwrap();
+        assert!(bound.verdict == MarginVerdict::Met && bound.found.value - bound.below < 1e-9, "{bound:?}");
+        bound.found
+    };
+    let near = |found: crate::requirements::Margin, value: f64| {
+        assert!((found.value - value).abs() < 1e-12, "{value}: {found:?}");
+        found.term
+    };
+    let all = [
+        (TermKind::BaseSpacing, 3.0, 2.5),
+        (TermKind::PlatformSpacing, 3.0, 3.0),
+        (TermKind::BaseEnvelope, 1.0, 0.5),
+        (TermKind::PlatformEnvelope, 1.0, 1.0),
+        (TermKind::MachineEnvelope, 1.5, 1.0),
+    ];
+    for (kind, narrow, _) in all {
+        near(of(&r, kind), narrow);
+    }
+    r.hardware.base_joint_housing[2] = Some(Housing::Sphere(2.0));
+    for (kind, _, wide) in all {
+        let term = near(of(&r, kind), wide);
+        if wide < 2.0 && kind == TermKind::BaseEnvelope {
+            assert_eq!(term.first, 2);
+        }
+    }
+    let reaches: [f64; 6] = std::array::from_fn(|leg| r.hardware.joint_reach(Body::Base, leg));
+    assert_eq!(reaches.map(f64::to_bits), [0.5, 0.5, 1.0, 0.5, 0.5, 0.5].map(f64::to_bits));
+    assert!(r.reserve(TermKind::BaseSpacing).abs() < 1e-15);
+    r.reserves.all = Some(10.0);
+    assert!((r.reserve(TermKind::BaseSpacing) - 0.2).abs() < 1e-15, "of the widest");
 }
 
 /// Rooms of joints inside round and square envelopes, enclosed.

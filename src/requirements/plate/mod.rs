@@ -8,7 +8,7 @@ mod tests;
 
 use nalgebra::Point2;
 
-use super::hardware::{Hardware, Housing};
+use super::hardware::Hardware;
 use crate::manipulator::Body;
 
 pub(crate) use moments::PlateBody;
@@ -123,10 +123,11 @@ impl PlateDesign {
         self.density.or_else(|| self.material.as_ref().and_then(known))
     }
 
-    /// Height of the lowest joint centre above the face, for joints with this housing.
+    /// Height of the lowest joint centre above the face, for the joints of this body: where none is given that of the widest one on its hole, since all centres are as high.
     #[must_use]
-    pub fn joint_height(&self, housing: Option<Housing>) -> f64 {
-        self.height.unwrap_or_else(|| seat_height(housing.map_or(0.0, |h| h.least_width()), self.hole))
+    pub fn joint_height(&self, hardware: &Hardware, body: Body) -> f64 {
+        let widest = || hardware.joint_widths(body).map_or(0.0, |[_, greatest]| greatest);
+        self.height.unwrap_or_else(|| seat_height(widest(), self.hole))
     }
 
     /// Diameter of the greatest hole.
@@ -153,10 +154,10 @@ impl Plates {
 }
 
 impl Hardware {
-    /// Distance from the centre of a joint of this body at which its leg begins to be a body that can meet a plate: half the least width of the housing, 0 without one, less the offset of the second axis of a universal joint, where its leg begins.
+    /// Distance from the centre of the joint of a leg at this body at which the leg begins to be a body that can meet a plate: half the least width of the housing, 0 without one, less the offset of the second axis of a universal joint, where its leg begins.
     #[must_use]
-    pub fn joint_reach(&self, body: Body) -> f64 {
+    pub fn joint_reach(&self, body: Body, leg: usize) -> f64 {
         let offset = self.universal(body).map_or(0.0, |joint| joint.offset);
-        (self.housing(body).map_or(0.0, |h| 0.5 * h.least_width()) - offset).max(0.0)
+        (self.housing(body, leg).map_or(0.0, |h| 0.5 * h.least_width()) - offset).max(0.0)
     }
 }

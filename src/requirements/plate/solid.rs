@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
-use super::super::hardware::Housing;
+use super::super::hardware::Hardware;
 use super::PlateDesign;
 use super::outline::Outline;
 use crate::geom::{Pose, any_across};
@@ -84,13 +84,7 @@ pub(crate) type HoleMargin = ([usize; 2], f64);
 impl PlateSolid {
     /// The plate of a body; `home` says on which side the legs are.
     #[must_use]
-    pub fn of(
-        plate: &PlateDesign,
-        m: &Manipulator,
-        body: Body,
-        housing: Option<Housing>,
-        home: &Pose,
-    ) -> Self {
+    pub fn of(plate: &PlateDesign, m: &Manipulator, body: Body, hardware: &Hardware, home: &Pose) -> Self {
         let towards: Vector3<f64> = m.legs().iter().map(|l| home.transform(&l.platform) - l.base).sum();
         let towards = if body == Body::Base { towards } else { -(home.rotation.inverse() * towards) };
         let (joints, size) = (m.joints(body), m.size());
@@ -114,7 +108,7 @@ impl PlateSolid {
         Self {
             axes,
             legs_above,
-            face: side * (lowest - plate.joint_height(housing)),
+            face: side * (lowest - plate.joint_height(hardware, body)),
             thickness: plate.thickness,
             outline: Outline::around(&centres, plate.margin, SAME * size),
             seats,

@@ -10,8 +10,8 @@ use crate::geom::{Pose, PoseSpace};
 use crate::manipulator::Manipulator;
 use crate::num::Rng;
 use crate::requirements::{
-    AssessOptions, KeepOutShape, LegBody, MarginVerdict, Requirements, Standing, TermKind, Terms, assess,
-    prove,
+    AssessOptions, Hardware, KeepOutShape, LegBody, MarginVerdict, Requirements, Standing, TermKind, Terms,
+    assess, prove,
 };
 
 fn stated() -> PlateDesign {
@@ -163,7 +163,7 @@ fn a_round_plate_has_the_mass_and_inertia_of_a_disc() {
     let m = Manipulator::try_new(centre(), ring(), std::array::from_fn(|i| (i, i))).unwrap();
     let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 10.0) };
     let plate = PlateDesign { bolts: None, hole: 1.0, density: Some(2000.0), ..stated() };
-    let solid = PlateSolid::of(&plate, &m, Body::Base, None, &home);
+    let solid = PlateSolid::of(&plate, &m, Body::Base, &Hardware::default(), &home);
     let body = solid.rigid(&plate, 0.01).unwrap();
     // a ring from radius 0.5 to 2, thickness 0.5, in centimetres
     let mass = 2000.0 * 1e-6 * PI * (4.0 - 0.25) * 0.5;
@@ -179,7 +179,7 @@ fn a_round_plate_has_the_mass_and_inertia_of_a_disc() {
 #[test]
 fn no_point_of_a_plate_is_nearer_to_a_segment() {
     let (m, home) = crooked();
-    let solid = PlateSolid::of(&stated(), &m, Body::Base, None, &home);
+    let solid = PlateSolid::of(&stated(), &m, Body::Base, &Hardware::default(), &home);
     let ring = solid.outline.polygon(400);
     let mut rng = Rng::new(9);
     let mut positive = 0;

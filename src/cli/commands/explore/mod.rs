@@ -264,6 +264,7 @@ fn round_record(on: &DesignOnHoles, assessment: Option<AssessAnswer>) -> RoundAn
         choices: &on.choices,
         found: &on.rounding,
         rounded: on.found.as_ref().map(|(way, design)| (VariantWord::from(*way), design)),
+        is_taken: on.met() != Some(false),
         assessment,
         written: None,
     };

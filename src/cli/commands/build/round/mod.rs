@@ -17,9 +17,9 @@ use crate::design::Design;
 use crate::entrance::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use crate::equivalence::{Verdict, Verification};
 use crate::manipulator::{Body, Manipulator};
-use crate::manufacture::{NoRounding, Rounding};
+use crate::manufacture::{Judgement, NoRounding, Rounding};
 use crate::records::{AssessAnswer, VariantWord};
-use crate::requirements::{Grid, HoleCircles, HolePattern};
+use crate::requirements::{Grid, HoleCircles, HolePattern, Requirements, TermKind};
 
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
@@ -94,7 +94,7 @@ impl From<PatternWord> for HolePattern {
 /// Which rounding is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum Variant {
-    /// The exact rounding when it meets the requirements and keeps the share of --keep, else the nearest, else the exact one
+    /// The exact rounding when it meets the requirements and keeps the share of --keep, else the nearest, else the exact one; where neither meets them the one that misses them least
     Rule,
     /// All joints lie exactly on the sides of two triangles
     Exact,
@@ -125,6 +125,27 @@ fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
             [exact, nearest].into_iter().flatten().find(|c| std::ptr::eq(c.manipulator, choice))
         }
     }
+}
+
+/// By how much a rounding misses a requirement at most, as a share of what is limited, or of the size of the design; 0 where it misses none.
+fn missed_share(judgement: &Judgement, required: &Requirements, size: f64) -> f64 {
+    let share = |(kind, margin): &(TermKind, f64)| {
+        let whole = required.whole(*kind);
+        -margin / if whole > 0.0 { whole } else { size }
+    };
+    judgement.margins.iter().map(share).fold(0.0, f64::max)
+}
+
+/// Of roundings that all miss requirements the one that misses them least, the exact one of equals.
+fn least_missed<'a>(found: &'a Rounding, design: &Design) -> Option<Choice<'a>> {
+    let (required, size) = (design.requirements(), design.manipulator().size());
+    let missed = |judgement: &Judgement| missed_share(judgement, &required, size);
+    let exact =
+        chosen(found, Variant::Exact, 0.0).zip(found.exact.as_ref().ok().map(|e| missed(&e.judgement)));
+    let nearest =
+        chosen(found, Variant::Nearest, 0.0).zip(found.nearest.as_ref().ok().map(|n| missed(&n.judgement)));
+    let better = |a: (Choice<'a>, f64), b: (Choice<'a>, f64)| if b.1 < a.1 { b } else { a };
+    exact.into_iter().chain(nearest).reduce(better).map(|(choice, _)| choice)
 }
 
 /// The grids of the design, or of `--grid`, with what other options say of them.
@@ -206,7 +227,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             if matches!(why, NoRounding::NotPlanar(_)) { "round::not_planar" } else { "round::bad_grid" };
         Failure::refused(code, why.to_string())
     })?;
-    let choice = chosen(&found, args.variant, args.keep);
+    let taken = chosen(&found, args.variant, args.keep);
+    let choice = taken.or_else(|| least_missed(&found, &design).filter(|_| args.variant == Variant::Rule));
     let rounded = choice.map(|c| (VariantWord::from(c.way), design.on_holes(c.way, c.manipulator, c.grids)));
     let mut written = None;
     if let (Some(path), Some((_, rounded))) = (&args.output, &rounded) {
@@ -223,14 +245,15 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     });
     let exit = match rounded {
         _ if contradicted => Exit::Inconclusive,
-        Some(_) => requirements::exit_of(met),
-        None => Exit::No,
+        Some(_) if taken.is_some() => requirements::exit_of(met),
+        _ => Exit::No,
     };
     let report = render::RoundReport {
         design: &design,
         choices: &choices,
         found: &found,
         rounded,
+        is_taken: taken.is_some(),
         assessment,
         written: written.as_deref(),
     };

@@ -18,6 +18,8 @@ pub(in crate::cli::commands) struct RoundReport<'a> {
     pub(in crate::cli::commands) choices: &'a RoundingChoices,
     pub(in crate::cli::commands) found: &'a Rounding,
     pub(in crate::cli::commands) rounded: Option<(VariantWord, &'a Design)>,
+    /// The rounded design is that of the rule or of the variant asked for, not the one that misses the requirements least.
+    pub(in crate::cli::commands) is_taken: bool,
     pub(in crate::cli::commands) assessment: Option<AssessAnswer>,
     pub(in crate::cli::commands) written: Option<&'a str>,
 }
@@ -33,7 +35,8 @@ impl RoundReport<'_> {
             exact: ExactRoundingOutcome::new(self.design, &self.found.exact),
             nearest: NearestRoundingOutcome::new(self.design, &self.found.nearest),
             assessment: self.assessment.clone(),
-            chosen: self.rounded.map(|r| r.0),
+            chosen: self.rounded.map(|r| r.0).filter(|_| self.is_taken),
+            least_missed: self.rounded.map(|r| r.0).filter(|_| !self.is_taken),
             design: self.rounded.map(|r| r.1.into()),
             output: self.written.map(str::to_owned),
         }
@@ -128,7 +131,9 @@ pub(super) fn text(r: &RoundAnswer) -> String {
         }
     }
     let chosen = r.chosen.map_or("none meets the requirements", VariantWord::as_str);
-    let _ = writeln!(out, "chosen: {chosen}");
+    let missed =
+        r.least_missed.map_or_else(String::new, |way| format!("; {} misses them least", way.as_str()));
+    let _ = writeln!(out, "chosen: {chosen}{missed}");
     if let Some(path) = &r.output {
         let _ = writeln!(out, "wrote {path}");
     }

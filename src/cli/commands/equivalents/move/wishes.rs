@@ -87,7 +87,10 @@ impl WishArgs {
         let poses = if self.workspace { design.workspace.sample(&home) } else { vec![home] };
         let length = design.characteristic_length();
         let own = poses.iter().map(|p| inverse_condition(&jacobian(m, p, length))).fold(f64::MAX, f64::min);
-        let spacing = self.spacing.or(hardware.joint_diameter).or(design.optimize.min_joint_distance);
+        let housings = Body::BOTH.into_iter().flat_map(|body| (0..6).map(move |leg| (body, leg)));
+        let widths =
+            housings.filter_map(|(body, leg)| hardware.housing(body, leg)).map(|h| h.greatest_width());
+        let spacing = self.spacing.or(widths.reduce(f64::max)).or(design.optimize.min_joint_distance);
         let mut holes = Vec::new();
         for text in &self.hole {
             holes.push(hole(text)?);
