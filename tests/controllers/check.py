@@ -103,6 +103,12 @@ def faulty(folder, to):
     path.write_text(text.replace(number, wrong, 1))
 
 
+def sources(place):
+    """The library and the numbers of the design in a folder."""
+    more = [name for name in ("equipod_cranks.c", "equipod_drives.c") if (place / name).exists()]
+    return [place / name for name in [*SOURCES, *more]]
+
+
 def host(folder, wrong, name):
     for compiler, real in itertools.product(["gcc", "clang"], [[], ["-DEQUIPOD_FLOAT"]]):
         if not has(compiler):
@@ -113,9 +119,7 @@ def host(folder, wrong, name):
                 if not good and options != ["-O2"]:
                     continue
                 binary = place / "selftest"
-                more = [s for s in ("equipod_cranks.c", "equipod_drives.c") if (place / s).exists()]
-                sources = [place / s for s in [*SOURCES, *more, "equipod_selftest.c"]]
-                code, out = run(compiler, *STRICT, "-ffp-contract=off", *real, *options, *sources, "-lm", "-o", binary)
+                code, out = run(compiler, *STRICT, "-ffp-contract=off", *real, *options, *sources(place), place / "equipod_selftest.c", "-lm", "-o", binary)
                 if not told(code == 0, f"{label} compiles", out):
                     continue
                 code, out = run(binary)
@@ -171,12 +175,14 @@ def board(folder, wrong, name, table):
         options = [*options, *ARM, *real]
         link = ["--specs=rdimon.specs", "-nostartfiles", "-T", HERE / "firmware/mps2.ld", HERE / "firmware/start.c", "-Wl,--gc-sections", "-lm"]
         binaries = {}
-        for place, main in ((folder, folder / "equipod_selftest.c"), (wrong, wrong / "equipod_selftest.c"), (folder, HERE / "firmware/count.c")):
+        programs = [(folder, folder / "equipod_selftest.c"), (wrong, wrong / "equipod_selftest.c")]
+        programs += [(folder, HERE / "firmware/count.c")] if table else []
+        for place, main in programs:
             binary = place / f"{main.stem}.elf"
-            code, out = run("arm-none-eabi-gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", *options, "-I", place, *[place / s for s in SOURCES], main, *link, "-o", binary)
+            code, out = run("arm-none-eabi-gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", *options, "-I", place, *sources(place), main, *link, "-o", binary)
             if told(code == 0, f"{name}: {label}: {main.stem} compiles", out):
                 binaries[(place, main.stem)] = binary
-        if len(binaries) < 3:
+        if len(binaries) < len(programs):
             continue
         code, out = qemu(machine, binaries[(folder, "equipod_selftest")])
         told(code == 0 and " 0 failed" in out, f"{name}: {label}: agrees", out)
@@ -311,12 +317,16 @@ def main():
                 board(folder, wrong, design, args.table)
                 if args.table:
                     operations(folder)
+            if design == "presets/reachy-mini":
+                board(folder, wrong, design, False)
         for name, offsets in JOINTS.items():
             folder, wrong = top / name.replace(" ", "-"), top / f"{name.replace(' ', '-')}-wrong"
             not_ideal(program, offsets, folder)
             faulty(folder, wrong)
             host(folder, wrong, name)
             table_of_operations(folder, name, known_rows(program, folder / "design.toml", folder))
+            if name == "offsets and screws":
+                board(folder, wrong, name, False)
         cmake(folder)
         linuxcnc(program, top, folder)
     print(f"{len(passed)} passed, {len(failed)} failed" + (f", not installed: {', '.join(missing)}" if missing else ""))

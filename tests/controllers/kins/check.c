@@ -176,6 +176,20 @@ int main(void)
                     added = s.out[place(&module, name)];
                     length_errors += !(fabs(joints[i] - added - leg(&p, &module, &pose, i)) <= 1e-12 * size) || (!screws && !drives && added != 0);
                 }
+                if (p.tool.tran.z != 0) {
+                    /* a tool moves the pose that is told and nothing else: the machine without it has the same joint values */
+                    const double k = acos(-1.0) / 180, o = p.tool.tran.z, a = pose.a * k, b = pose.b * k, c = pose.c * k;
+                    kins_params bare = p;
+                    EmcPose moved = pose;
+                    bare.tool.tran.z = 0;
+                    moved.tran.x += o * (cos(c) * sin(b) * cos(a) + sin(c) * sin(a));
+                    moved.tran.y += o * (sin(c) * sin(b) * cos(a) - cos(c) * sin(a));
+                    moved.tran.z += o * (cos(b) * cos(a) - 1);
+                    check(module.ops[0]->inverse(&bare, &s, &moved, again, 0, 0) == 0, "joint values without a tool");
+                    for (i = 0; i < 6; i++) {
+                        check(fabs(again[i] - joints[i]) <= 1e-12 * size, "joint values do not depend on the tool");
+                    }
+                }
                 start = pose;
                 if (n % 2) {
                     start.tran.x += 1e-3 * size, start.b += 0.05;
