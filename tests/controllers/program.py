@@ -133,9 +133,16 @@ def display(folder):
             time.sleep(0.005)
         return False
 
+    resting, moved = 0, False
+
     def sampled():
+        """Whether the program has moved the machine and all is at rest for sixty looks: the interpreter is done before the motion that it has queued begins."""
+        nonlocal resting, moved
         rows.append([list(status.actual_position[:6]), list(status.joint_actual_position[:6]), list(status.position[:6])])
-        return status.interp_state == linuxcnc.INTERP_IDLE and status.inpos
+        done = status.interp_state == linuxcnc.INTERP_IDLE and status.exec_state == linuxcnc.EXEC_DONE and status.queue == 0 and status.inpos
+        moved = moved or rows[-1][1] != rows[0][1]
+        resting = resting + 1 if done and moved else 0
+        return resting >= 60
 
     try:
         command.state(linuxcnc.STATE_ESTOP_RESET)
