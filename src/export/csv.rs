@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::hal::home_words;
 use super::text::{commented, csv_field, real, reals, scaled};
 use super::{Export, ExportCalibration, ExportedFile, Unsupported, Writer};
 use crate::geom::Pose;
@@ -53,13 +54,23 @@ fn joints(export: &Export) -> String {
     out
 }
 
+/// Both ends of each leg: a table that `new --points` makes the design of again, shared joints and home too.
 fn legs(export: &Export) -> String {
-    let mut out = comments(export, "lengths between the joint centres at the home pose");
-    out.push_str("leg,base_joint,platform_joint,home_length_mm\n");
+    let mm = export.unit.millimetres;
+    let mut out = comments(
+        export,
+        "joint centres in the frames of their bodies; lengths between them at the home pose",
+    );
+    out.push_str(&commented("#", [home_words(export)]));
+    out.push_str(
+        "leg,base_joint,platform_joint,home_length_mm,base_x_mm,base_y_mm,base_z_mm,platform_x_mm,platform_y_mm,platform_z_mm\n",
+    );
     for leg in &export.legs {
         let (a, b) = export.ends_of(leg);
-        let length = real(leg.length() * export.unit.millimetres);
-        let _ = writeln!(out, "{},{},{},{length}", leg.number, csv_field(a), csv_field(b));
+        let length = real(leg.length() * mm);
+        let ends = [leg.foot, export.bodies[1].joints[leg.platform].at];
+        let [foot, tip] = ends.map(|p| scaled(&p.coords, mm, ","));
+        let _ = writeln!(out, "{},{},{},{length},{foot},{tip}", leg.number, csv_field(a), csv_field(b));
     }
     out
 }

@@ -28,6 +28,14 @@ impl Writer for Hal {
     }
 }
 
+/// The home pose as the reader of tables knows it: position in millimetres, angles of `R = Rz(C) Ry(B) Rx(A)` in degrees.
+pub(super) fn home_words(export: &Export) -> String {
+    let (roll, pitch, yaw) = export.home.rotation.euler_angles();
+    let p = export.home.position * export.unit.millimetres;
+    let pose = [p.x, p.y, p.z, roll.to_degrees(), pitch.to_degrees(), yaw.to_degrees()].map(real);
+    format!("Home pose X Y Z A B C: {}", pose.join(" "))
+}
+
 fn settings(export: &Export) -> String {
     let mm = export.unit.millimetres;
     let heading = export.heading("mm").into_iter();
@@ -38,10 +46,7 @@ fn settings(export: &Export) -> String {
          # genhexkins finds it from the struts only where the platform is turned little: B up to 75 with C = 0, C up to 45 with B = 0.\n",
     );
     let lengths: Vec<String> = export.legs.iter().map(|l| real(l.length() * mm)).collect();
-    let (roll, pitch, yaw) = export.home.rotation.euler_angles();
-    let p = export.home.position * mm;
-    let pose = [p.x, p.y, p.z, roll.to_degrees(), pitch.to_degrees(), yaw.to_degrees()].map(real);
-    let _ = writeln!(out, "# Home pose X Y Z A B C: {}", pose.join(" "));
+    let _ = writeln!(out, "# {}", home_words(export));
     let _ = writeln!(out, "# Strut lengths there: {}", lengths.join(" "));
     if let Some(offsets) = export.leg_offsets {
         let offsets = offsets.map(|d| real(d * mm));

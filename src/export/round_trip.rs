@@ -19,13 +19,15 @@ fn design(text: &str) -> Design {
     parse_with_cranks(text, Format::Toml).unwrap().0
 }
 
-/// The only file of a format, with the unit of the export.
+/// The file of a format that has the legs, with the unit of the export.
 fn exported(design: &Design, format: &str) -> (String, &'static str) {
     let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("m")).unwrap();
     let options = ExportOptions { unit: Some(unit), ..ExportOptions::default() };
     let export = Export::new(design, design.home_or_default(), (Vec::new(), Vec::new()), &options).unwrap();
     let files = export.files(format.parse::<ExportFormat>().unwrap().writer());
-    (files.unwrap_or_else(|why| panic!("{}: {format}: {why}", design.name)).remove(0).text, unit.label)
+    let files = files.unwrap_or_else(|why| panic!("{}: {format}: {why}", design.name));
+    let file = files.iter().find(|f| f.name == "legs.csv").unwrap_or(&files[0]);
+    (file.text.clone(), unit.label)
 }
 
 fn returns(design: &Design, format: &str) {
@@ -67,6 +69,18 @@ fn returns(design: &Design, format: &str) {
 fn models_of_mujoco_return() {
     for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN, MOTION_BASE] {
         returns(&design(text), "mjcf");
+    }
+}
+
+#[test]
+fn tables_of_legs_return() {
+    for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN, MOTION_BASE] {
+        let mut given = design(text);
+        // the table is in millimetres; pure numbers are called so
+        if LengthUnit::of(&given.units).is_err() {
+            given.units = "mm".into();
+        }
+        returns(&given.in_units("mm").unwrap(), "csv");
     }
 }
 

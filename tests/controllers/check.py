@@ -10,8 +10,10 @@ run by qemu-system-arm. Every compiler also has to find a planted fault: a self-
 
 import argparse
 import itertools
+import json
 import os
 import pathlib
+import random
 import re
 import shutil
 import subprocess
@@ -101,6 +103,12 @@ def faulty(folder, to):
     path.write_text(text.replace(number, wrong, 1))
 
 
+def sources(place):
+    """The library and the numbers of the design in a folder."""
+    more = [name for name in ("equipod_cranks.c", "equipod_drives.c") if (place / name).exists()]
+    return [place / name for name in [*SOURCES, *more]]
+
+
 def host(folder, wrong, name):
     for compiler, real in itertools.product(["gcc", "clang"], [[], ["-DEQUIPOD_FLOAT"]]):
         if not has(compiler):
@@ -111,9 +119,7 @@ def host(folder, wrong, name):
                 if not good and options != ["-O2"]:
                     continue
                 binary = place / "selftest"
-                more = [s for s in ("equipod_cranks.c", "equipod_drives.c") if (place / s).exists()]
-                sources = [place / s for s in [*SOURCES, *more, "equipod_selftest.c"]]
-                code, out = run(compiler, *STRICT, "-ffp-contract=off", *real, *options, *sources, "-lm", "-o", binary)
+                code, out = run(compiler, *STRICT, "-ffp-contract=off", *real, *options, *sources(place), place / "equipod_selftest.c", "-lm", "-o", binary)
                 if not told(code == 0, f"{label} compiles", out):
                     continue
                 code, out = run(binary)
@@ -169,12 +175,14 @@ def board(folder, wrong, name, table):
         options = [*options, *ARM, *real]
         link = ["--specs=rdimon.specs", "-nostartfiles", "-T", HERE / "firmware/mps2.ld", HERE / "firmware/start.c", "-Wl,--gc-sections", "-lm"]
         binaries = {}
-        for place, main in ((folder, folder / "equipod_selftest.c"), (wrong, wrong / "equipod_selftest.c"), (folder, HERE / "firmware/count.c")):
+        programs = [(folder, folder / "equipod_selftest.c"), (wrong, wrong / "equipod_selftest.c")]
+        programs += [(folder, HERE / "firmware/count.c")] if table else []
+        for place, main in programs:
             binary = place / f"{main.stem}.elf"
-            code, out = run("arm-none-eabi-gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", *options, "-I", place, *[place / s for s in SOURCES], main, *link, "-o", binary)
+            code, out = run("arm-none-eabi-gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", *options, "-I", place, *sources(place), main, *link, "-o", binary)
             if told(code == 0, f"{name}: {label}: {main.stem} compiles", out):
                 binaries[(place, main.stem)] = binary
-        if len(binaries) < 3:
+        if len(binaries) < len(programs):
             continue
         code, out = qemu(machine, binaries[(folder, "equipod_selftest")])
         told(code == 0 and " 0 failed" in out, f"{name}: {label}: agrees", out)
@@ -213,17 +221,33 @@ def operations(folder):
         print(run(place / "operations")[1])
 
 
-def table_of_operations(folder):
+def known_rows(program, design, folder):
+    """Poses about home, the home pose first, and the lengths to command there by the library, millimetres and degrees."""
+    here, table = folder / "in-millimetres.toml", folder / "poses.csv"
+    code, out = run(program, "design", "convert", design, "--units", "mm", "-o", here, "--json")
+    if code != 0:
+        sys.exit(f"the program does not convert {design}: {out}")
+    at = json.loads(subprocess.run([program, "ik", here, "--pose", "home", "--json"], capture_output=True, text=True, check=True).stdout)
+    home, size = at["pose"]["p"], max(at["lengths"])
+    dice = random.Random(7)
+    poses = [[*home, 0, 0, 0]]
+    poses += [[x + 0.05 * size * dice.uniform(-1, 1) for x in home] + [12 * dice.uniform(-1, 1) for _ in range(3)] for _ in range(20)]
+    table.write_text("".join(",".join(map(repr, pose)) + "\n" for pose in poses))
+    out = subprocess.run([program, "ik", here, table, "--json"], capture_output=True, text=True, check=False).stdout
+    return [(pose, row.get("drives", row)["lengths"]) for pose, row in zip(poses, json.loads(out)["rows"], strict=True)]
+
+
+def table_of_operations(folder, name, rows):
     """The kinematics module with a table of operations, against a stand-in for LinuxCNC's headers, and against the true ones where KINS_HEADERS names their
     folders, with colons between them. The module of 2.9 has to suit the stand-in too."""
     if not has("gcc"):
         return
-    height = float(re.search(r"equipod_home = .*?\{R\([^)]*\), R\([^)]*\), R\(([\d.]+)\)\}\s*\};", (folder / "equipod_design.c").read_text(), re.S).group(1))
     options = ["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]
     own = ["-I", HERE / "kins"]
     code, out = run("gcc", *options, *own, "-fsyntax-only", folder / "equipodkins.c")
-    told(code == 0, "equipodkins suits the stand-in", out)
+    told(code == 0, f"{name}: equipodkins suits the stand-in", out)
     binary = folder / "kins"
+    text = "".join(" ".join(map(repr, [*pose, *lengths])) + "\n" for pose, lengths in rows)
     for fault in (False, True):
         source = folder / "equipodkins_ops.c"
         if fault:
@@ -234,36 +258,39 @@ def table_of_operations(folder):
             header.write_text(header.read_text().replace("#define DEGREE 0.017453292519943295", "#define DEGREE 0.0174532925"))
             source = place / "equipodkins_ops.c"
         sources = [source, HERE / "kins/check.c", "-lm"]
-        code, out = run("gcc", *options, "-O2", *SANITIZE, f"-DHOME_Z={height}", *own, *sources, "-o", binary)
-        if told(code == 0, "equipodkins_ops suits the stand-in", out):
-            code, out = run(binary)
-            told((code != 0) == fault, f"equipodkins_ops {'finds the planted fault' if fault else 'goes there and back'}", out)
+        code, out = run("gcc", *options, "-O2", *SANITIZE, f"-DHOME_Z={rows[0][0][2]!r}", *own, *sources, "-o", binary)
+        if told(code == 0, f"{name}: equipodkins_ops suits the stand-in", out):
+            done = subprocess.run([binary], input=text, capture_output=True, text=True, timeout=300)
+            out = done.stdout + done.stderr
+            told((done.returncode != 0) == fault, f"{name}: equipodkins_ops {'finds the planted fault' if fault else 'goes there and back'}", out)
             if not fault:
-                print(f"  equipodkins_ops: {out.strip()}")
+                print(f"  {name}: equipodkins_ops: {out.strip()}")
     headers = [part for part in os.environ.get("KINS_HEADERS", "").split(":") if part]
     if not headers:
         print("  KINS_HEADERS is not set: equipodkins_ops was not compiled with LinuxCNC's own headers")
         return
     true = [x for part in headers for x in ("-I", part)]
     code, out = run("gcc", *options, "-DRTAPI", "-DUSPACE", "-D_GNU_SOURCE", *true, "-fsyntax-only", folder / "equipodkins_ops.c")
-    told(code == 0, "equipodkins_ops compiles with LinuxCNC's own headers", out)
+    told(code == 0, f"{name}: equipodkins_ops compiles with LinuxCNC's own headers", out)
 
 
-def linuxcnc(program, folder):
-    """The kinematics module with the headers and the HAL of LinuxCNC, where they are."""
+def linuxcnc(program, top, coupled):
+    """The kinematics module with the headers and the HAL of LinuxCNC, where they are: of a design without shared joints and of one whose joints are not ideal."""
     root = os.environ.get("LINUXCNC_ROOT", "/")
     if not pathlib.Path(root, "usr/include/linuxcnc/kinematics.h").exists():
         print("  LinuxCNC's headers are not installed: its kinematics module was not compiled")
         return
     import linuxcnc as own
-    export(program, "worked/linuxcnc-griffis-duffy", [], folder)
-    # home of that design, millimetres
-    (folder / "height").write_text("508")
-    own.check(root, folder, told)
-    if root == "/" and shutil.which("linuxcnc") and shutil.which("halcompile"):
-        # with the Python that LinuxCNC's own module is for
-        code, out = run("/usr/bin/python3", HERE / "program.py", program, ROOT / "designs/worked/linuxcnc-griffis-duffy.toml", timeout=400)
-        told(code == 0, f"a program runs in LinuxCNC: {out.strip()}", out)
+    ideal = top / "linuxcnc"
+    export(program, "worked/linuxcnc-griffis-duffy", [], ideal)
+    separate = ROOT / "designs/worked/linuxcnc-griffis-duffy.toml"
+    for name, design, folder in (("separate joints", separate, ideal), ("offsets and screws", coupled / "design.toml", coupled)):
+        own.check(root, folder, told, name, known_rows(program, design, folder))
+        if root == "/" and shutil.which("linuxcnc") and shutil.which("halcompile"):
+            # with the Python that LinuxCNC's own module is for
+            code, out = run("/usr/bin/python3", HERE / "program.py", program, design, timeout=400)
+            told(code == 0, f"{name}: a program runs in LinuxCNC", out)
+            print(f"  {name}: {out.strip()}")
 
 
 def main():
@@ -286,17 +313,22 @@ def main():
             if number == 0 or design == "presets/reachy-mini":
                 cmake(folder)
             if number == 1:
-                table_of_operations(folder)
+                table_of_operations(folder, design, known_rows(program, ROOT / f"designs/{design}.toml", folder))
                 board(folder, wrong, design, args.table)
                 if args.table:
                     operations(folder)
+            if design == "presets/reachy-mini":
+                board(folder, wrong, design, False)
         for name, offsets in JOINTS.items():
             folder, wrong = top / name.replace(" ", "-"), top / f"{name.replace(' ', '-')}-wrong"
             not_ideal(program, offsets, folder)
             faulty(folder, wrong)
             host(folder, wrong, name)
+            table_of_operations(folder, name, known_rows(program, folder / "design.toml", folder))
+            if name == "offsets and screws":
+                board(folder, wrong, name, False)
         cmake(folder)
-        linuxcnc(program, top / "linuxcnc")
+        linuxcnc(program, top, folder)
     print(f"{len(passed)} passed, {len(failed)} failed" + (f", not installed: {', '.join(missing)}" if missing else ""))
     sys.exit(1 if failed or (missing and not args.allow_missing) else 0)
 

@@ -32,11 +32,17 @@ class Machine:
         if self.module.rtapi_app_main() != 0:
             raise SystemExit("equipodkins does not start")
 
-    def pin(self, name):
+    def pin(self, name, needed=True):
         kind, linked, value = ctypes.c_int(), ctypes.c_bool(), ctypes.POINTER(ctypes.c_double)()
         if self.hal.hal_get_pin_value_by_name(f"equipodkins.{name}".encode(), *map(ctypes.byref, (kind, value, linked))) != 0:
-            raise SystemExit(f"equipodkins has no pin {name}")
+            if needed:
+                raise SystemExit(f"equipodkins has no pin {name}")
+            return None
         return value
+
+    def joint_offsets(self):
+        """The pins of offsets, where the joints of the design are not ideal."""
+        return [name for name in ("base-joint-offset", "platform-joint-offset") if self.pin(name, needed=False)]
 
     def joints(self, pose):
         joints = (ctypes.c_double * 16)()
@@ -65,23 +71,27 @@ def there_and_back(machine, home, size, tilt):
     return worst, lost
 
 
-def check(root, folder, told):
-    """`told(good, what, why)` for every check."""
+def check(root, folder, told, name, rows):
+    """`told(good, what, why)` for every check. `rows` are poses and the joint values that the library has there, millimetres."""
     complaint = build(root, folder)
-    if not told(not complaint, "equipodkins compiles with LinuxCNC's headers", complaint):
+    if not told(not complaint, f"{name}: equipodkins compiles with LinuxCNC's headers", complaint):
         return
     machine = Machine(root, folder)
     try:
         base = [[machine.pin(f"base.{i}.{axis}")[0] for axis in "xyz"] for i in range(6)]
         size = max(math.dist(base[0], b) for b in base)
-        home = [0, 0, float((folder / "height").read_text())]
-        for lead in (0, 0.02 * size):
+        home = rows[0][0][:3]
+        off = max(abs(a - b) for pose, lengths in rows for a, b in zip(machine.joints([*pose, 0, 0, 0]), lengths)) / size
+        told(off < 1e-12, f"{name}: equipodkins has the joint values of the library", f"off by {off} of the size")
+        for lead in (machine.pin("screw-lead")[0], 0.02 * size):
             machine.pin("screw-lead")[0] = lead
             worst, lost = there_and_back(machine, home, size, 15)
-            told(worst < 1e-9 and lost == 0, f"equipodkins: poses come back with a lead of {lead:.1f}", f"off by {worst}, {lost} lost")
+            print(f"  {name}: lead {lead:.1f} mm, poses come back to {worst:.1e} of the size")
+            told(worst < 1e-9 and lost == 0, f"{name}: equipodkins: poses come back with a lead of {lead:.1f}", f"off by {worst}, {lost} lost")
         # another machine has other joint values
-        before = machine.joints([*home, 5, 0, 0])
-        machine.pin("platform.3.y")[0] += 1
-        told(machine.joints([*home, 5, 0, 0]) != before, "equipodkins: the pins are the joints", "joint values did not change")
+        for pin in ("platform.3.y", *machine.joint_offsets()):
+            before = machine.joints([*home, 5, 0, 0])
+            machine.pin(pin)[0] += 1
+            told(machine.joints([*home, 5, 0, 0]) != before, f"{name}: equipodkins: {pin} is read", "joint values did not change")
     finally:
         machine.module.rtapi_app_exit()

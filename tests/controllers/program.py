@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A part program in a whole LinuxCNC whose kinematics are `equipodkins` of a design without shared joints, computed by the octahedral formulas, with simulated drives.
+"""A part program in a whole LinuxCNC whose kinematics are `equipodkins` of a design, with simulated drives. Poses are computed by the octahedral formulas where the design has them.
 
     /usr/bin/python3 tests/controllers/program.py PROGRAM DESIGN [FOLDER]
 
@@ -88,12 +88,13 @@ JOINTS = 6
     return text
 
 
-def wiring():
-    """HAL: the drives are low passes, and the pose comes from the octahedral platform."""
+def wiring(octahedral):
+    """HAL: the drives are low passes, and the pose comes from the octahedral platform where there is one."""
     lines = ["loadrt [KINS]KINEMATICS", "loadrt motmod servo_period_nsec=1000000 num_joints=6", "loadrt lowpass count=6", "addf motion-command-handler servo-thread", "addf motion-controller servo-thread"]
     for n in range(6):
         lines += [f"addf lowpass.{n} servo-thread", f"setp lowpass.{n}.gain 0.2", f"net c{n} joint.{n}.motor-pos-cmd => lowpass.{n}.in", f"net f{n} lowpass.{n}.out => joint.{n}.motor-pos-fb"]
-    lines += ["net on iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in", "setp equipodkins.octahedral 1"]
+    lines += ["net on iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in"]
+    lines += ["setp equipodkins.octahedral 1"] if octahedral else []
     lines += ["net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared", "net change iocontrol.0.tool-change => iocontrol.0.tool-changed"]
     return "\n".join(lines) + "\n"
 
@@ -132,9 +133,16 @@ def display(folder):
             time.sleep(0.005)
         return False
 
+    resting, moved = 0, False
+
     def sampled():
+        """Whether the program has moved the machine and all is at rest for sixty looks: the interpreter is done before the motion that it has queued begins."""
+        nonlocal resting, moved
         rows.append([list(status.actual_position[:6]), list(status.joint_actual_position[:6]), list(status.position[:6])])
-        return status.interp_state == linuxcnc.INTERP_IDLE and status.inpos
+        done = status.interp_state == linuxcnc.INTERP_IDLE and status.exec_state == linuxcnc.EXEC_DONE and status.queue == 0 and status.inpos
+        moved = moved or rows[-1][1] != rows[0][1]
+        resting = resting + 1 if done and moved else 0
+        return resting >= 60
 
     try:
         command.state(linuxcnc.STATE_ESTOP_RESET)
@@ -164,6 +172,11 @@ def asked(program, *words):
     return json.loads(out.stdout)
 
 
+def commanded(answer):
+    """Lengths to command at a pose: those of drives where they are not the distances of the joints."""
+    return answer.get("drives", answer)["lengths"]
+
+
 def started(folder):
     """Runs LinuxCNC without a screen; its realtime part does not run for root, who becomes another user for it."""
     words = ["linuxcnc", str(folder / "machine.ini")]
@@ -185,11 +198,10 @@ def main(program, design, folder):
     asked(program, "design", "convert", design, "--units", "mm", "-o", str(here))
     subprocess.run([program, "export", str(here), "--to", "c", "-o", str(folder / "c"), "--quiet"], check=True, stdout=subprocess.DEVNULL)
     at = asked(program, "ik", str(here), "--pose", "home")
-    lengths = at["lengths"]
-    home = asked(program, "limits", str(here))["pose"]["p"]
+    lengths, home = commanded(at), at["pose"]["p"]
     size = max(lengths)
     (folder / "machine.ini").write_text(settings(folder, home, lengths, size))
-    (folder / "machine.hal").write_text(wiring())
+    (folder / "machine.hal").write_text(wiring("EQUIPOD_HAS_OCTAHEDRAL" in (folder / "c/equipod_design.h").read_text()))
     (folder / "part.ngc").write_text(part(home, size))
     (folder / "machine.tbl").write_text("")
     script = folder / "display"
@@ -215,7 +227,7 @@ def main(program, design, folder):
         return 1
     table = folder / "poses.csv"
     table.write_text("".join(",".join(map(repr, pose)) + "\n" for pose, _, _ in rows))
-    own = [row["lengths"] for row in asked(program, "ik", str(here), str(table))["rows"]]
+    own = [commanded(row) for row in asked(program, "ik", str(here), str(table))["rows"]]
     worst = max(abs(a - b) for mine, (_, theirs, _) in zip(own, rows) for a, b in zip(mine, theirs))
     lag = max(math.dist(actual[:3], wanted[:3]) for actual, _, wanted in rows)
     print(f"{len(rows)} samples, {len(moving)} of them after the first motion: lengths of the shown poses differ by {worst:.2e} mm at most from those of the drives (size {size:.0f} mm); drives lag by up to {lag:.3f} mm")

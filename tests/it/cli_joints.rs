@@ -298,6 +298,15 @@ fn what_takes_drives_for_distances_refuses_joints_that_are_not_ideal() {
         let first = &document["error"]["violations"][0]["code"];
         assert!(*code == "design::not_ideal" || *first == "design::not_ideal", "{words:?} {document}");
     }
+    // C has the functions of the drives, and kinematics modules that compute with them
+    assert_eq!(equipod(&["export", &path, "--to", "c", "-o", &out]).status.code(), Some(0));
+    let of = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).unwrap();
+    assert!(of("equipod_design.h").contains("#define EQUIPOD_HAS_DRIVES 1"));
+    assert!(
+        of("equipodkins.h").contains("equipod_track_drives")
+            && of("equipodkins.c").contains("base-joint-offset")
+    );
+    assert!(of("equipodkins_ops.c").contains("base-joint-offset"));
     let written = folder.path().join("written.toml").display().to_string();
     assert_eq!(equipod(&["design", "convert", &path, "-o", &written]).status.code(), Some(0));
     assert!(std::fs::read_to_string(&written).unwrap().contains("offset = 14"));

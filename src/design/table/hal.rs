@@ -29,8 +29,11 @@ fn joint_pin(name: &str) -> Option<JointPin> {
     Some([body, number, axis])
 }
 
+/// What says of a home pose that it was read.
+pub(super) const HOME_OF_COMMENT: &str = "Home is the pose of the comment `Home pose X Y Z A B C`.";
+
 /// The six numbers of the comment on home.
-fn home_of(line: &str) -> Option<Pose> {
+pub(super) fn home_of(line: &str) -> Option<Pose> {
     let numbers = line.trim_start_matches('#').trim().strip_prefix("Home pose X Y Z A B C:")?;
     let numbers: Vec<f64> = numbers.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
     let [x, y, z, a, b, c] = numbers[..] else { return None };
@@ -87,7 +90,7 @@ impl HexapodPins {
                 .push(format!("Not taken, since a design has no place for it: {}.", passed_over.join(", ")));
         }
         if home.is_some() {
-            guesses.push("Home is the pose of the comment `Home pose X Y Z A B C`.".to_string());
+            guesses.push(HOME_OF_COMMENT.to_string());
         }
         Some(Ok(Self { legs, home, guesses }))
     }

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 use thiserror::Error;
 
-use super::hal::HexapodPins;
+use super::hal::{HOME_OF_COMMENT, HexapodPins, home_of};
 use super::header::{UNITS, plain};
 use super::sheet::{InvalidSheet, Sheet, SheetRow};
 use super::text::decode;
@@ -24,7 +24,7 @@ pub(crate) struct PointTable {
     pub(crate) names: Option<[[String; 6]; 2]>,
     /// The length unit that the header names.
     pub(crate) units: Option<String>,
-    /// Where the platform frame is at home, base frame, when the table has both bodies in one frame.
+    /// Where the platform frame is at home, base frame, when a comment says so or the table has both bodies in one frame.
     pub(crate) home: Option<Pose>,
     /// What was guessed, a sentence each.
     pub(crate) guesses: Vec<String>,
@@ -88,10 +88,14 @@ impl PointTable {
             legs: std::array::from_fn(|i| Leg { base: points[0][i].at, platform: points[1][i].at }),
             names,
             units,
-            home: None,
+            home: text.lines().find_map(home_of),
             guesses,
         };
-        table.part_frames();
+        if table.home.is_some() {
+            table.guesses.push(HOME_OF_COMMENT.to_string());
+        } else {
+            table.part_frames();
+        }
         Ok(table)
     }
 

@@ -19,6 +19,14 @@
  * Screws that are not kept from turning change their length as their joints turn against each other. With u along the leg, n the axis at the
  * base and m = R n' that at the platform, and the parts of n and m across u: correction = lead asin(u . (n x m)) / (2 pi).
  *
+ * Where the joints of the design are not ideal (equipod_drives.h), joint N is the length of drive N, `correction` what it is longer than the distance of its
+ * joints, base-n and platform-n the first axes of the joints, and screw-lead begins as the design has it, each leg turned by nothing at home. `octahedral` and
+ * `position-error` give way to
+ *
+ *     equipodkins.base-joint-offset, .platform-joint-offset  from the first to the second axis of the joints, millimetres
+ *
+ * and last-iterations counts steps of the fixed point of the corrections.
+ *
  * The forward kinematics continues the pose it is given. Where that is no start (LinuxCNC begins with all zeros) it continues the last pose it
  * found, or the home pose of the design. */
 #include <rtapi.h>
@@ -39,9 +47,15 @@ typedef struct {
     hal_float_t *base_axis[LEGS][3], *platform_axis[LEGS][3];
     hal_float_t *correction[LEGS];
     hal_float_t *screw_lead, *spindle_offset, *tool_offset;
-    hal_bit_t *octahedral, *failed;
+    hal_bit_t *failed;
     hal_u32_t *status, *iterations;
-    hal_float_t *condition, *position_error;
+    hal_float_t *condition;
+#ifdef EQUIPOD_HAS_DRIVES
+    hal_float_t *joint_offset[2];
+#else
+    hal_bit_t *octahedral;
+    hal_float_t *position_error;
+#endif
 } pins_t;
 
 static pins_t *pins;
@@ -53,21 +67,24 @@ static int has_last;
 /* The machine as the pins have it. */
 static int read_machine(void)
 {
-    double base[LEGS][3], platform[LEGS][3];
-    const double offset = *pins->spindle_offset + *pins->tool_offset;
     int i, k;
     for (i = 0; i < LEGS; i++) {
         for (k = 0; k < 3; k++) {
-            const double more = k == 2 ? offset : 0;
-            base[i][k] = (*pins->base[i][k] + more) / EQUIPOD_UNIT_MILLIMETRES;
-            platform[i][k] = (*pins->platform[i][k] + more) / EQUIPOD_UNIT_MILLIMETRES;
+            machine.base[i][k] = *pins->base[i][k];
+            machine.platform[i][k] = *pins->platform[i][k];
             machine.base_axis[i][k] = *pins->base_axis[i][k];
             machine.platform_axis[i][k] = *pins->platform_axis[i][k];
         }
     }
     machine.screw_lead = *pins->screw_lead;
+    machine.tool = *pins->spindle_offset + *pins->tool_offset;
+#ifdef EQUIPOD_HAS_DRIVES
+    machine.joint_offset[0] = *pins->joint_offset[0];
+    machine.joint_offset[1] = *pins->joint_offset[1];
+#else
     machine.octahedral = *pins->octahedral;
-    return equipod_prepare(base, platform, &machine.legs);
+#endif
+    return ready(&machine);
 }
 
 int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags, KINEMATICS_INVERSE_FLAGS *iflags)
@@ -92,7 +109,9 @@ int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMAT
     *pins->status = (hal_u32_t)status;
     *pins->iterations = result.newton_steps;
     *pins->condition = result.frobenius_ratio;
+#ifndef EQUIPOD_HAS_DRIVES
     *pins->position_error = result.position_error * EQUIPOD_UNIT_MILLIMETRES;
+#endif
     if (status != EQUIPOD_TRACKED) {
         return -1;
     }
@@ -143,30 +162,40 @@ static int vector_pin(hal_float_t **pin, const char *what, int leg, const double
     return failed;
 }
 
+static int length_pin(hal_float_t **pin, const char *what, double value)
+{
+    const int failed = hal_pin_float_newf(HAL_IN, pin, component, NAME ".%s", what);
+    if (!failed) {
+        **pin = value;
+    }
+    return failed;
+}
+
 static int make_pins(void)
 {
-    int i, k, failed = 0;
+    int i, failed = 0;
+    as_designed(&machine);
     for (i = 0; i < LEGS && !failed; i++) {
-        double base[3], platform[3];
-        for (k = 0; k < 3; k++) {
-            base[k] = equipod_nominal.base[i][k] * EQUIPOD_UNIT_MILLIMETRES;
-            platform[k] = equipod_nominal.platform[i][k] * EQUIPOD_UNIT_MILLIMETRES;
-        }
-        failed |= vector_pin(pins->base[i], "base", i, base);
-        failed |= vector_pin(pins->platform[i], "platform", i, platform);
-        failed |= vector_pin(pins->base_axis[i], "base-n", i, equipod_across_base[i]);
-        failed |= vector_pin(pins->platform_axis[i], "platform-n", i, equipod_across_platform[i]);
+        failed |= vector_pin(pins->base[i], "base", i, machine.base[i]);
+        failed |= vector_pin(pins->platform[i], "platform", i, machine.platform[i]);
+        failed |= vector_pin(pins->base_axis[i], "base-n", i, machine.base_axis[i]);
+        failed |= vector_pin(pins->platform_axis[i], "platform-n", i, machine.platform_axis[i]);
         failed |= hal_pin_float_newf(HAL_OUT, &pins->correction[i], component, NAME ".correction.%d", i);
     }
-    failed |= hal_pin_float_newf(HAL_IN, &pins->screw_lead, component, NAME ".screw-lead");
-    failed |= hal_pin_float_newf(HAL_IN, &pins->spindle_offset, component, NAME ".spindle-offset");
-    failed |= hal_pin_float_newf(HAL_IN, &pins->tool_offset, component, NAME ".tool-offset");
-    failed |= hal_pin_bit_newf(HAL_IN, &pins->octahedral, component, NAME ".octahedral");
+    failed |= length_pin(&pins->screw_lead, "screw-lead", machine.screw_lead);
+    failed |= length_pin(&pins->spindle_offset, "spindle-offset", 0);
+    failed |= length_pin(&pins->tool_offset, "tool-offset", 0);
     failed |= hal_pin_bit_newf(HAL_OUT, &pins->failed, component, NAME ".fwd-kins-fail");
     failed |= hal_pin_u32_newf(HAL_OUT, &pins->status, component, NAME ".status");
     failed |= hal_pin_u32_newf(HAL_OUT, &pins->iterations, component, NAME ".last-iterations");
     failed |= hal_pin_float_newf(HAL_OUT, &pins->condition, component, NAME ".condition");
+#ifdef EQUIPOD_HAS_DRIVES
+    failed |= length_pin(&pins->joint_offset[0], "base-joint-offset", machine.joint_offset[0]);
+    failed |= length_pin(&pins->joint_offset[1], "platform-joint-offset", machine.joint_offset[1]);
+#else
+    failed |= hal_pin_bit_newf(HAL_IN, &pins->octahedral, component, NAME ".octahedral");
     failed |= hal_pin_float_newf(HAL_OUT, &pins->position_error, component, NAME ".position-error");
+#endif
     return failed;
 }
 

@@ -5,25 +5,167 @@
 
 #include "equipod.c"
 #include "equipod_design.c"
+#ifdef EQUIPOD_HAS_DRIVES
+/* both files are one here, and have helpers of the same names */
+#define dot dot_of_drives
+#define cross cross_of_drives
+#define is_finite is_finite_of_drives
+#define invert invert_of_drives
+#include "equipod_drives.c"
+#undef dot
+#undef cross
+#undef is_finite
+#undef invert
+#endif
 
 #ifdef EQUIPOD_FLOAT
 #error "the modules for LinuxCNC compute in double"
 #endif
 
 #define LEGS 6
-/* Segments of a way, and rounds in which the turn of the screws is taken into account. */
+/* Segments of a way. */
 #define SEGMENTS 200u
-#define ROUNDS 30
 #define DEGREE 0.017453292519943295
 #define TWO_PI 6.283185307179586
 
-/* A machine as it was measured: its joints in the unit of the design, the axes next to base and platform, the lead in millimetres. */
+/* A machine as it was measured, which is what the pins say: joints, the axes next to base and platform, lead, and what tool and spindle add to z of all
+ * joints; millimetres. `ready` makes the rest of it. */
 typedef struct {
-    equipod_legs legs;
+    double base[LEGS][3], platform[LEGS][3];
     double base_axis[LEGS][3], platform_axis[LEGS][3];
-    double screw_lead;
+    double screw_lead, tool;
+    equipod_legs legs;
+#ifdef EQUIPOD_HAS_DRIVES
+    double joint_offset[2];
+    equipod_drives drives;
+#else
     int octahedral;
+#endif
 } machine_t;
+
+/* The machine as it was designed. */
+static void as_designed(machine_t *machine)
+{
+    int i, k;
+    for (i = 0; i < LEGS; i++) {
+        for (k = 0; k < 3; k++) {
+            machine->base[i][k] = equipod_nominal.base[i][k] * EQUIPOD_UNIT_MILLIMETRES;
+            machine->platform[i][k] = equipod_nominal.platform[i][k] * EQUIPOD_UNIT_MILLIMETRES;
+#ifdef EQUIPOD_HAS_DRIVES
+            machine->base_axis[i][k] = equipod_design_drives.axis[0][i][k];
+            machine->platform_axis[i][k] = equipod_design_drives.axis[1][i][k];
+#else
+            machine->base_axis[i][k] = equipod_across_base[i][k];
+            machine->platform_axis[i][k] = equipod_across_platform[i][k];
+#endif
+        }
+    }
+    machine->tool = 0;
+#ifdef EQUIPOD_HAS_DRIVES
+    machine->screw_lead = equipod_design_drives.lead * TWO_PI * EQUIPOD_UNIT_MILLIMETRES;
+    machine->joint_offset[0] = equipod_design_drives.offset[0] * EQUIPOD_UNIT_MILLIMETRES;
+    machine->joint_offset[1] = equipod_design_drives.offset[1] * EQUIPOD_UNIT_MILLIMETRES;
+#else
+    machine->screw_lead = 0;
+    machine->octahedral = 0;
+#endif
+}
+
+static int legs_with(const machine_t *machine, double tool, equipod_legs *legs)
+{
+    double base[LEGS][3], platform[LEGS][3];
+    int i, k;
+    for (i = 0; i < LEGS; i++) {
+        for (k = 0; k < 3; k++) {
+            const double more = k == 2 ? tool : 0;
+            base[i][k] = (machine->base[i][k] + more) / EQUIPOD_UNIT_MILLIMETRES;
+            platform[i][k] = (machine->platform[i][k] + more) / EQUIPOD_UNIT_MILLIMETRES;
+        }
+    }
+    return equipod_prepare(base, platform, legs);
+}
+
+#ifdef EQUIPOD_HAS_DRIVES
+/* What axes, offsets and lead make of the lengths of drives. Legs are turned by nothing at home without a tool, whatever tool is mounted. */
+static int drives_of(machine_t *machine)
+{
+    equipod_drives *drives = &machine->drives;
+    equipod_legs bare;
+    equipod_drive_state at_home;
+    int i;
+    *drives = equipod_design_drives;
+    for (i = 0; i < LEGS; i++) {
+        /* an axis without a direction makes legs that need one have no length */
+        (void)unit(machine->base_axis[i], drives->axis[0][i]);
+        (void)unit(machine->platform_axis[i], drives->axis[1][i]);
+        drives->turned[i] = 0;
+    }
+    drives->offset[0] = machine->joint_offset[0] / EQUIPOD_UNIT_MILLIMETRES;
+    drives->offset[1] = machine->joint_offset[1] / EQUIPOD_UNIT_MILLIMETRES;
+    drives->lead = machine->screw_lead / EQUIPOD_UNIT_MILLIMETRES / TWO_PI;
+    if (drives->lead == 0) {
+        return 1;
+    }
+    if (!legs_with(machine, 0, &bare) || equipod_drive_states(drives, &bare, &equipod_home, &at_home)) {
+        return 0;
+    }
+    for (i = 0; i < LEGS; i++) {
+        drives->turned[i] = at_home.twist[i];
+    }
+    return 1;
+}
+
+static int ready(machine_t *machine)
+{
+    return legs_with(machine, machine->tool, &machine->legs) && drives_of(machine);
+}
+
+/* The pose whose drives have the lengths of the joints, by the fixed point of equipod_track_drives, whose steps are told as those of Newton's method. */
+static equipod_status pose_from(const machine_t *machine, const double joints[LEGS], const equipod_pose *start, equipod_result *result)
+{
+    equipod_drive_result found;
+    double lengths[LEGS];
+    int i;
+    for (i = 0; i < LEGS; i++) {
+        lengths[i] = joints[i] / EQUIPOD_UNIT_MILLIMETRES;
+    }
+    (void)equipod_track_drives(&machine->drives, &machine->legs, lengths, start, EQUIPOD_SINGULAR, SEGMENTS, &found);
+    if (found.steps == 0) {
+        return EQUIPOD_LOST;
+    }
+    *result = found.near;
+    result->newton_steps = found.steps;
+    if (found.status == EQUIPOD_DRIVES_REACHED) {
+        return EQUIPOD_TRACKED;
+    }
+    return found.near.status == EQUIPOD_NEAR_SINGULAR ? EQUIPOD_NEAR_SINGULAR : EQUIPOD_LOST;
+}
+
+/* Joint values at a pose, and what of them is not the distance of the joints, millimetres; 0 where a drive has no length. */
+static int joints_at(const machine_t *machine, const equipod_pose *pose, double joints[LEGS], double add[LEGS])
+{
+    equipod_drive_state state;
+    int i;
+    if (equipod_drive_states(&machine->drives, &machine->legs, pose, &state)) {
+        return 0;
+    }
+    for (i = 0; i < LEGS; i++) {
+        add[i] = state.correction[i] * EQUIPOD_UNIT_MILLIMETRES;
+        joints[i] = (state.distance[i] + state.correction[i]) * EQUIPOD_UNIT_MILLIMETRES;
+        if (!(joints[i] > 0)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+#else
+/* Rounds in which the turn of the screws is taken into account. */
+#define ROUNDS 30
+
+static int ready(machine_t *machine)
+{
+    return legs_with(machine, machine->tool, &machine->legs);
+}
 
 /* What the screws add to each leg at a pose, in the unit of the design; 0 where an axis points along its leg. */
 static int corrections(const machine_t *machine, const equipod_pose *pose, double out[LEGS])
@@ -60,36 +202,6 @@ static int corrections(const machine_t *machine, const equipod_pose *pose, doubl
         out[i] = lead * asin(sine > 1 ? 1 : sine < -1 ? -1 : sine) / TWO_PI;
     }
     return 1;
-}
-
-static void pose_of_world(const EmcPose *world, equipod_pose *pose)
-{
-    double position[3], angles[3];
-    position[0] = world->tran.x / EQUIPOD_UNIT_MILLIMETRES;
-    position[1] = world->tran.y / EQUIPOD_UNIT_MILLIMETRES;
-    position[2] = world->tran.z / EQUIPOD_UNIT_MILLIMETRES;
-    angles[0] = world->a * DEGREE;
-    angles[1] = world->b * DEGREE;
-    angles[2] = world->c * DEGREE;
-    equipod_pose_from_angles(position, angles, pose);
-}
-
-/* The angle of the same turn next to the one before. */
-static double next_to(double angle, double before)
-{
-    return angle + 360 * floor((before - angle) / 360 + 0.5);
-}
-
-static void world_of_pose(const equipod_pose *pose, EmcPose *world)
-{
-    double angles[3];
-    equipod_angles(pose, angles);
-    world->tran.x = pose->position[0] * EQUIPOD_UNIT_MILLIMETRES;
-    world->tran.y = pose->position[1] * EQUIPOD_UNIT_MILLIMETRES;
-    world->tran.z = pose->position[2] * EQUIPOD_UNIT_MILLIMETRES;
-    world->a = next_to(angles[0] / DEGREE, world->a);
-    world->b = next_to(angles[1] / DEGREE, world->b);
-    world->c = next_to(angles[2] / DEGREE, world->c);
 }
 
 /* The pose whose legs, with what the screws add, have the lengths of the joints: the corrections of a pose shorten the legs of the next. */
@@ -155,6 +267,37 @@ static int joints_at(const machine_t *machine, const equipod_pose *pose, double 
         add[i] *= EQUIPOD_UNIT_MILLIMETRES;
     }
     return 1;
+}
+#endif
+
+static void pose_of_world(const EmcPose *world, equipod_pose *pose)
+{
+    double position[3], angles[3];
+    position[0] = world->tran.x / EQUIPOD_UNIT_MILLIMETRES;
+    position[1] = world->tran.y / EQUIPOD_UNIT_MILLIMETRES;
+    position[2] = world->tran.z / EQUIPOD_UNIT_MILLIMETRES;
+    angles[0] = world->a * DEGREE;
+    angles[1] = world->b * DEGREE;
+    angles[2] = world->c * DEGREE;
+    equipod_pose_from_angles(position, angles, pose);
+}
+
+/* The angle of the same turn next to the one before. */
+static double next_to(double angle, double before)
+{
+    return angle + 360 * floor((before - angle) / 360 + 0.5);
+}
+
+static void world_of_pose(const equipod_pose *pose, EmcPose *world)
+{
+    double angles[3];
+    equipod_angles(pose, angles);
+    world->tran.x = pose->position[0] * EQUIPOD_UNIT_MILLIMETRES;
+    world->tran.y = pose->position[1] * EQUIPOD_UNIT_MILLIMETRES;
+    world->tran.z = pose->position[2] * EQUIPOD_UNIT_MILLIMETRES;
+    world->a = next_to(angles[0] / DEGREE, world->a);
+    world->b = next_to(angles[1] / DEGREE, world->b);
+    world->c = next_to(angles[2] / DEGREE, world->c);
 }
 
 #endif

@@ -31,12 +31,17 @@ enum {
     SCREW_LEAD = CORRECTION + LEGS,
     SPINDLE_OFFSET,
     TOOL_OFFSET,
-    OCTAHEDRAL,
     FAILED,
     STATUS,
     ITERATIONS,
     CONDITION,
+#ifdef EQUIPOD_HAS_DRIVES
+    BASE_JOINT_OFFSET,
+    PLATFORM_JOINT_OFFSET,
+#else
+    OCTAHEDRAL,
     POSITION_ERROR,
+#endif
     ENTRIES
 };
 
@@ -54,12 +59,17 @@ static kins_param_desc table[] = {
     ENTRY("screw-lead", KINS_PARAM_FLOAT, KINS_IN),
     ENTRY("spindle-offset", KINS_PARAM_FLOAT, KINS_IN),
     {"tool-offset", KINS_PARAM_FLOAT, KINS_IN, 1, 0},
-    ENTRY("octahedral", KINS_PARAM_BIT, KINS_IN),
     ENTRY("fwd-kins-fail", KINS_PARAM_BIT, KINS_OUT),
     ENTRY("status", KINS_PARAM_U32, KINS_OUT),
     ENTRY("last-iterations", KINS_PARAM_U32, KINS_OUT),
     ENTRY("condition", KINS_PARAM_FLOAT, KINS_OUT),
+#ifdef EQUIPOD_HAS_DRIVES
+    ENTRY("base-joint-offset", KINS_PARAM_FLOAT, KINS_IN),
+    ENTRY("platform-joint-offset", KINS_PARAM_FLOAT, KINS_IN),
+#else
+    ENTRY("octahedral", KINS_PARAM_BIT, KINS_IN),
     ENTRY("position-error", KINS_PARAM_FLOAT, KINS_OUT),
+#endif
 };
 
 /* One size for the table, the places in it and the block of parameters. */
@@ -67,37 +77,47 @@ typedef char table_has_its_entries[sizeof table / sizeof *table == ENTRIES && (i
 
 static void fill_table(void)
 {
+    machine_t machine;
     int i, k;
+    as_designed(&machine);
     for (i = 0; i < LEGS; i++) {
         kins_param_desc *of_leg = table + i * OF_LEG;
         for (k = 0; k < 3; k++) {
-            of_leg[BASE + k].dflt = equipod_nominal.base[i][k] * EQUIPOD_UNIT_MILLIMETRES;
-            of_leg[PLATFORM + k].dflt = equipod_nominal.platform[i][k] * EQUIPOD_UNIT_MILLIMETRES;
-            of_leg[BASE_AXIS + k].dflt = equipod_across_base[i][k];
-            of_leg[PLATFORM_AXIS + k].dflt = equipod_across_platform[i][k];
+            of_leg[BASE + k].dflt = machine.base[i][k];
+            of_leg[PLATFORM + k].dflt = machine.platform[i][k];
+            of_leg[BASE_AXIS + k].dflt = machine.base_axis[i][k];
+            of_leg[PLATFORM_AXIS + k].dflt = machine.platform_axis[i][k];
         }
     }
+    table[SCREW_LEAD].dflt = machine.screw_lead;
+#ifdef EQUIPOD_HAS_DRIVES
+    table[BASE_JOINT_OFFSET].dflt = machine.joint_offset[0];
+    table[PLATFORM_JOINT_OFFSET].dflt = machine.joint_offset[1];
+#endif
 }
 
 /* The machine as the block has it. */
 static int machine_of(const kins_params *p, machine_t *machine)
 {
-    double base[LEGS][3], platform[LEGS][3];
-    const double offset = p->geometry[SPINDLE_OFFSET] + p->tool.tran.z;
     int i, k;
     for (i = 0; i < LEGS; i++) {
         const double *of_leg = p->geometry + i * OF_LEG;
         for (k = 0; k < 3; k++) {
-            const double more = k == 2 ? offset : 0;
-            base[i][k] = (of_leg[BASE + k] + more) / EQUIPOD_UNIT_MILLIMETRES;
-            platform[i][k] = (of_leg[PLATFORM + k] + more) / EQUIPOD_UNIT_MILLIMETRES;
+            machine->base[i][k] = of_leg[BASE + k];
+            machine->platform[i][k] = of_leg[PLATFORM + k];
             machine->base_axis[i][k] = of_leg[BASE_AXIS + k];
             machine->platform_axis[i][k] = of_leg[PLATFORM_AXIS + k];
         }
     }
     machine->screw_lead = p->geometry[SCREW_LEAD];
+    machine->tool = p->geometry[SPINDLE_OFFSET] + p->tool.tran.z;
+#ifdef EQUIPOD_HAS_DRIVES
+    machine->joint_offset[0] = p->geometry[BASE_JOINT_OFFSET];
+    machine->joint_offset[1] = p->geometry[PLATFORM_JOINT_OFFSET];
+#else
     machine->octahedral = p->geometry[OCTAHEDRAL] != 0;
-    return equipod_prepare(base, platform, &machine->legs);
+#endif
+    return ready(machine);
 }
 
 static int forward(const kins_params *p, kins_scratch *s, const double *joint, EmcPose *pos, const KINEMATICS_FORWARD_FLAGS *fflags,
@@ -130,7 +150,9 @@ static int forward(const kins_params *p, kins_scratch *s, const double *joint, E
     s->out[STATUS] = status;
     s->out[ITERATIONS] = result.newton_steps;
     s->out[CONDITION] = result.frobenius_ratio;
+#ifndef EQUIPOD_HAS_DRIVES
     s->out[POSITION_ERROR] = result.position_error * EQUIPOD_UNIT_MILLIMETRES;
+#endif
     if (status != EQUIPOD_TRACKED) {
         return -1;
     }

@@ -52,7 +52,7 @@ impl Writer for C {
             return Ok(cranks::files(export, cranks));
         }
         one_swing_a_body(export)?;
-        Ok(vec![
+        let mut files = vec![
             ExportedFile::new("equipod.h", include_str!("equipod.h").to_string()),
             ExportedFile::new("equipod.c", include_str!("equipod.c").to_string()),
             ExportedFile::new("equipod_design.h", header(export)),
@@ -60,11 +60,19 @@ impl Writer for C {
             ExportedFile::new("equipod_vectors.h", vectors::text(export)),
             ExportedFile::new("equipod_selftest.c", include_str!("equipod_selftest.c").to_string()),
             ExportedFile::new("CMakeLists.txt", include_str!("CMakeLists.txt").to_string()),
-            ExportedFile::new("equipodkins.h", include_str!("equipodkins.h").to_string()),
-            ExportedFile::new("equipodkins.c", include_str!("equipodkins.c").to_string()),
-            ExportedFile::new("equipodkins_ops.c", include_str!("equipodkins_ops.c").to_string()),
-        ])
+        ];
+        files.extend(kinematics_modules());
+        Ok(files)
     }
+}
+
+/// Kinematics for `LinuxCNC`, which take the other files in.
+fn kinematics_modules() -> [ExportedFile; 3] {
+    [
+        ExportedFile::new("equipodkins.h", include_str!("equipodkins.h").to_string()),
+        ExportedFile::new("equipodkins.c", include_str!("equipodkins.c").to_string()),
+        ExportedFile::new("equipodkins_ops.c", include_str!("equipodkins_ops.c").to_string()),
+    ]
 }
 
 /// Refuses joints of one body with different greatest angles.

@@ -65,7 +65,7 @@ const Cranks = {
       : "Both angles hold the platform; the kept one is on the side that the design names, the other one is dashed in the picture. At a transmission of 0 both are one and the crank is singular.";
     const rows = list.map((c, k) => row([legName(k + 1), [el("b", {}, `${show(c.angle_deg, 6)} ●`), el("small", {}, `${c.elbow}, kept`)], show(c.other_angle_deg, 6),
       c.limit_margin_deg === null ? "no limits" : el("span", { class: c.limit_margin_deg < 0 ? "bad" : null }, show(c.limit_margin_deg, 4)), show(c.transmission, 4), show(c.to_singular_deg, 4)]));
-    $("lengths").replaceChildren(...(rows.length ? [heading(["", "angle [°]", "other side [°]", "to its limit [°]", "transmission", "to singular [°]"]), el("tbody", {}, ...rows)] : []));
+    $("lengths").replaceChildren(...(rows.length ? [heading(["", "angle [°]", "other side [°]", "to its limit [°]", "trans\u00admission", "to singular [°]"]), el("tbody", {}, ...rows)] : []));
   },
 
   missing: ({ leg, too_short_by: by }, units) => `The rod of leg ${leg} is ${show(Math.abs(by), 4)}${unit(units)} too ${by > 0 ? "short" : "long"} to reach from its crank to the platform.`,

@@ -7,7 +7,7 @@ const REQUIREMENTS = {
   base_first_angle: "angle about the first axes, base joints", base_second_angle: "angle about the second axes, base joints",
   platform_first_angle: "angle about the first axes, platform joints",
   platform_second_angle: "angle about the second axes, platform joints",
-  rod_too_short: "rods, long enough to reach", rod_too_long: "rods, short enough to close", crank_transmission: "transmission angle of the cranks",
+  rod_too_short: "rods, long enough to reach", rod_too_long: "rods, short enough to close", crank_transmission: "trans\u00admission angle of the cranks",
   crank_angle: "angle of the cranks", tip_swing: "lean of the rods at the tips", crank_torque: "torque of the cranks", crank_speed: "speed of the cranks",
   leg_clearance: "gap between legs", keep_out: "gap to the keep-outs", leg_force: "leg force", leg_speed: "leg speed",
   base_spacing: "gap between base joints", platform_spacing: "gap between platform joints",
@@ -87,7 +87,7 @@ const Tables = {
     });
     const none = radio("ghost", -1, compared < 0, "compare with no");
     none.setAttribute("aria-label", "compare with none");
-    const last = row(["", [none, " none"], "", "", "", "", ...(turns ? [""] : [])]);
+    const last = row(["none", [none], "", "", "", "", ...(turns ? [""] : [])]);
     $("modes").replaceChildren(heading(["show", "ghost", "det\u00a0J", ...(turns ? ["elbows kept"] : []), "σ₆/σ₁", "turned", `position p${inUnits(open.units)}`]), el("tbody", {}, ...rows, last));
   },
 

@@ -32,7 +32,7 @@ class View {
     context.clearRect(0, 0, width, height);
     this.floor(platform);
     if (ghost) {
-      context.globalAlpha = 0.38;
+      context.globalAlpha = 0.6;
       this.body(ghost, { plain: true });
       context.globalAlpha = 1;
     }

@@ -1,4 +1,5 @@
-/* The kinematics module with a table of operations, called through that table as LinuxCNC calls it: poses become joint values and poses again. Exit 0: all well. */
+/* The kinematics module with a table of operations, called through that table as LinuxCNC calls it: poses become joint values and poses again. Standard input
+ * has rows of a pose x y z a b c and the six joint values that the library has there. Exit 0: all well. */
 #include <stdio.h>
 #include <string.h>
 
@@ -53,7 +54,8 @@ static double any(void)
     return (state >> 8) / 8388608.0 - 1;
 }
 
-static int place(const kins_module_info *module, const char *name)
+/* -1: there is none. */
+static int entry(const kins_module_info *module, const char *name)
 {
     int i;
     for (i = 0; i < module->nparams; i++) {
@@ -61,12 +63,21 @@ static int place(const kins_module_info *module, const char *name)
             return i;
         }
     }
-    printf("no entry %s\n", name);
-    failures += 1;
-    return 0;
+    return -1;
 }
 
-/* The length of leg i, from the definition, without the code under test. */
+static int place(const kins_module_info *module, const char *name)
+{
+    const int i = entry(module, name);
+    if (i < 0) {
+        printf("no entry %s\n", name);
+        failures += 1;
+        return 0;
+    }
+    return i;
+}
+
+/* The distance of the joints of leg i, from the definition, without the code under test. */
 static double leg(const kins_params *p, const kins_module_info *module, const EmcPose *pose, int i)
 {
     const double k = acos(-1.0) / 180;
@@ -110,7 +121,7 @@ int main(void)
     kins_scratch s;
     EmcPose home, lost;
     double joints[EMCMOT_MAX_JOINTS], again[EMCMOT_MAX_JOINTS], size = 0, worst = 0;
-    int i, n, octahedral, screws, length_errors = 0;
+    int i, n, octahedral, screws, drives, poses = 0, rows = 0, length_errors = 0;
     check(rtapi_app_main() == 0 && started, "the module starts");
     check(kinsDescribe("XYZABC", "", &module) == 0 && module.ntypes == 1, "the module describes itself");
     check(module.nparams <= KINS_MAX_PARAMS && module.ops[0]->fwd_iterates, "the table fits");
@@ -130,10 +141,27 @@ int main(void)
     /* lengths of the home pose, whose joint values the module finds again from nothing: the pose of all zeros is no start */
     memset(&home, 0, sizeof home);
     home.tran.z = HOME_Z;
-    for (octahedral = 0; octahedral < 2; octahedral++) {
+    for (;; rows++) {
+        EmcPose pose = home;
+        double own[6];
+        const int got = scanf("%lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", &pose.tran.x, &pose.tran.y, &pose.tran.z, &pose.a, &pose.b, &pose.c, own,
+                              own + 1, own + 2, own + 3, own + 4, own + 5);
+        if (got != 12) {
+            break;
+        }
+        check(module.ops[0]->inverse(&p, &s, &pose, joints, 0, 0) == 0, "joint values of a row");
+        for (i = 0; i < 6; i++) {
+            check(fabs(joints[i] - own[i]) <= 1e-12 * size, "joint values of the library");
+        }
+    }
+    check(rows > 0, "there are rows");
+    drives = entry(&module, "base-joint-offset") >= 0;
+    for (octahedral = 0; octahedral < (drives ? 1 : 2); octahedral++) {
         for (screws = 0; screws < 2; screws++) {
-            p.geometry[place(&module, "octahedral")] = octahedral;
-            p.geometry[place(&module, "screw-lead")] = screws * 0.02 * size;
+            if (!drives) {
+                p.geometry[place(&module, "octahedral")] = octahedral;
+            }
+            p.geometry[place(&module, "screw-lead")] = screws ? 0.02 * size : module.params[place(&module, "screw-lead")].dflt;
             p.tool.tran.z = screws * 0.05 * size;
             memset(&s, 0, sizeof s);
             for (n = 0; n < 100; n++) {
@@ -146,7 +174,21 @@ int main(void)
                     double added;
                     snprintf(name, sizeof name, "correction.%d", i);
                     added = s.out[place(&module, name)];
-                    length_errors += !(fabs(joints[i] - added - leg(&p, &module, &pose, i)) <= 1e-12 * size) || (!screws && added != 0);
+                    length_errors += !(fabs(joints[i] - added - leg(&p, &module, &pose, i)) <= 1e-12 * size) || (!screws && !drives && added != 0);
+                }
+                if (p.tool.tran.z != 0) {
+                    /* a tool moves the pose that is told and nothing else: the machine without it has the same joint values */
+                    const double k = acos(-1.0) / 180, o = p.tool.tran.z, a = pose.a * k, b = pose.b * k, c = pose.c * k;
+                    kins_params bare = p;
+                    EmcPose moved = pose;
+                    bare.tool.tran.z = 0;
+                    moved.tran.x += o * (cos(c) * sin(b) * cos(a) + sin(c) * sin(a));
+                    moved.tran.y += o * (sin(c) * sin(b) * cos(a) - cos(c) * sin(a));
+                    moved.tran.z += o * (cos(b) * cos(a) - 1);
+                    check(module.ops[0]->inverse(&bare, &s, &moved, again, 0, 0) == 0, "joint values without a tool");
+                    for (i = 0; i < 6; i++) {
+                        check(fabs(again[i] - joints[i]) <= 1e-12 * size, "joint values do not depend on the tool");
+                    }
                 }
                 start = pose;
                 if (n % 2) {
@@ -158,6 +200,7 @@ int main(void)
                     check(0, "a pose");
                     continue;
                 }
+                poses += 1;
                 worst = fmax(worst, off(&start, &pose, size));
                 check(!s.failed && s.have_pose_seed && s.pose_seed_ok && s.out[place(&module, "fwd-kins-fail")] == 0, "what the scratch says");
                 check(module.ops[0]->inverse(&p, &s, &start, again, 0, 0) == 0 && fabs(again[3] - joints[3]) < 1e-9 * size, "joint values again");
@@ -176,6 +219,6 @@ int main(void)
     joints[2] = 0.01 * size;
     check(module.ops[0]->forward(&p, &s, joints, &lost, 0, 0) == -1 && s.failed, "lengths that no pose has");
     rtapi_app_exit();
-    printf("through the table of operations: 400 poses, off by %.1e of the size, %d failed\n", worst, failures);
+    printf("through the table of operations: %d poses, off by %.1e of the size, joint values of %d rows, %d failed\n", poses, worst, rows, failures);
     return failures != 0;
 }

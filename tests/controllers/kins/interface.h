@@ -12,7 +12,7 @@
 #define MODULE_DESCRIPTION(text) extern int interface_unused
 #define EXPORT_SYMBOL(name) extern int interface_unused
 
-enum { EMCMOT_MAX_JOINTS = 16, EMCMOT_MAX_AXIS = 9, KINS_MAX_PARAMS = 96, KINS_MAX_TYPES = 8 };
+enum { EMCMOT_MAX_JOINTS = 16, EMCMOT_MAX_AXIS = 9, KINS_MAX_PARAMS = 96, KINS_MAX_TYPES = 9 };
 
 typedef struct { double x, y, z; } PmCartesian;
 typedef struct { PmCartesian x, y, z; } PmRotationMatrix;

@@ -31,7 +31,9 @@ pub(super) fn files(export: &Export, drives: &CoupledLegs) -> Vec<ExportedFile> 
         source: include_str!("equipod_drives.c"),
         selftest: include_str!("equipod_selftest.c"),
     };
-    library.files(header(export), source(export, drives), vectors(export, drives))
+    let mut files = library.files(header(export), source(export, drives), vectors(export, drives));
+    files.extend(super::kinematics_modules());
+    files
 }
 
 fn header(export: &Export) -> String {
@@ -42,6 +44,7 @@ fn header(export: &Export) -> String {
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
          /* The joints of the design, and what makes its drives longer or shorter than their distances. */\n\
          extern const equipod_legs equipod_nominal;\nextern const equipod_drives equipod_design_drives;\n\
+         /* Marks such a design for the kinematics modules. */\n#define EQUIPOD_HAS_DRIVES 1\n\
          /* Limits of lengths, which are those of drives, and of swing. */\nextern const equipod_limits equipod_design_limits;\n\
          /* The home pose, from which turns of the legs count. */\nextern const equipod_pose equipod_home;\n\
          /* Millimetres of a unit of length. */\n#define EQUIPOD_UNIT_MILLIMETRES {}\n",
