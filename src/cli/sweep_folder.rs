@@ -21,7 +21,7 @@ use crate::records::{
 };
 use crate::sweep::part::{PartError, PartReader, PartWriter};
 use crate::sweep::plan::{self, BaseName, BasePlan, PlanFiles, PlanText};
-use crate::sweep::{Digested, Sweep, digest_of};
+use crate::sweep::{Digested, RowChunk, Sweep, SweepCell, digest_of};
 
 /// The file that says what the folder is of.
 const SWEEP: &str = "sweep.json";
@@ -314,7 +314,7 @@ impl SweepFolder {
         sweep: &Sweep,
         shard: u64,
         (first, candidates): (u64, u64),
-        rows: impl Iterator<Item = Result<Option<crate::sweep::SweepRow>, ()>>,
+        rows: impl Iterator<Item = Result<RowChunk, ()>>,
     ) -> Result<Option<SweepManifestRecord>, Failure> {
         let (path, manifest) = (self.part(shard), self.manifest(shard));
         // a manifest never speaks of a part that is not there yet
@@ -329,15 +329,17 @@ impl SweepFolder {
                 Digested::new(to),
                 &sweep.columns,
                 &self.notes(sweep.plan.description.as_deref(), Some(shard)),
+                candidates,
             )
             .map_err(|e| part_failed(&path, &e))?;
             let (mut kept, mut failed) = (0, 0);
-            for row in rows {
-                let Ok(row) = row else { return Ok(None) };
-                let Some(row) = row else { continue };
-                kept += 1;
-                failed += u64::from(row[error_column] != crate::sweep::SweepCell::Empty);
-                writer.push(row).map_err(|e| part_failed(&path, &e))?;
+            for chunk in rows {
+                let Ok(mut chunk) = chunk else { return Ok(None) };
+                for row in chunk.rows() {
+                    kept += 1;
+                    failed += u64::from(row[error_column] != SweepCell::Empty);
+                    writer.push(row).map_err(|e| part_failed(&path, &e))?;
+                }
             }
             let (to, bytes, sha256) = writer.finish().map_err(|e| part_failed(&path, &e))?.finish();
             Ok(Some((to, (kept, failed, bytes, sha256))))

@@ -25,9 +25,12 @@ const SHORTEST: f64 = 1e-4;
 /// What becomes of the length of a step that was refused, and of one that was not.
 const SHORTER: f64 = 0.5;
 const LONGER: f64 = 1.5;
-/// A pair is given up as well when so many steps do not shrink its imaginary part to this share.
-const SPELL: usize = 20;
-const SPELL_SHRINKS: f64 = 0.8;
+/// A pair is given up as well when a spell of steps does not shrink its imaginary part squared to this share.
+const SPELL_SHRINKS: f64 = 0.5;
+/// Steps of a spell: few at first, since from another place a pair that hardly moves here may meet in some steps, and twice as many each time no pair can be led
+/// together, up to the most.
+const SHORTEST_SPELL: usize = 3;
+const LONGEST_SPELL: usize = 40;
 /// Squared distance that real poses are to keep; those that are nearer may not come nearer still.
 const APART: f64 = 0.3;
 /// Pairs of real poses within so many times that distance bound a step.
@@ -345,6 +348,8 @@ struct Search {
     seed: u64,
     here: Stand,
     radius: f64,
+    /// Steps of a spell.
+    spell: usize,
     steps: usize,
     most: usize,
 }
@@ -382,7 +387,7 @@ impl Search {
             else {
                 return false;
             };
-            if step.is_multiple_of(SPELL) {
+            if step.is_multiple_of(self.spell) {
                 if pair.q < SPELL_SHRINKS * milestone {
                     return false;
                 }
@@ -484,9 +489,12 @@ pub(super) fn climb(
     let here = Stand::new(m.clone(), *squares, seed).ok_or("the poses of the start cannot be computed")?;
     let began = here.real;
     let mut rng: Rng = Purpose::SWEPT_AGAIN.item(seed, 2);
-    let mut search = Search { freedoms, seed, here, radius: FIRST, steps: 0, most };
+    let mut search = Search { freedoms, seed, here, radius: FIRST, spell: SHORTEST_SPELL, steps: 0, most };
     while !search.ended() {
-        if !search.follow_nearest() && !search.ended() {
+        if search.follow_nearest() {
+            search.spell = SHORTEST_SPELL;
+        } else if !search.ended() {
+            search.spell = (2 * search.spell).min(LONGEST_SPELL);
             search.wander(&mut rng);
         }
     }

@@ -93,12 +93,18 @@ impl Sweep {
 
     /// The row of candidate `k`; `None` where the plan does not keep it. What cannot be computed is a row with its error.
     pub(crate) fn row(&self, k: u64) -> Option<Vec<SweepCell>> {
+        let mut row = Vec::with_capacity(self.columns.len());
+        self.row_onto(k, &mut row).then_some(row)
+    }
+
+    /// Puts the row of candidate `k` behind others; `false` where the plan does not keep it, and nothing is put there.
+    pub(super) fn row_onto(&self, k: u64, rows: &mut Vec<SweepCell>) -> bool {
         let values = self.plan.values(self.seed, k);
         // a fault of the program in one candidate is no reason to lose the others
         let found = catch_unwind(AssertUnwindSafe(|| self.computed(&values)));
         let (cells, error) = match found {
             Ok(Kept::Row(cells)) => (cells, None),
-            Ok(Kept::Not) => return None,
+            Ok(Kept::Not) => return false,
             Ok(Kept::Failed(cells, error)) => (cells, Some(error)),
             Err(payload) => {
                 let text = payload.downcast_ref::<&str>().map(ToString::to_string);
@@ -106,13 +112,13 @@ impl Sweep {
                 (Vec::new(), Some(format!("the program broke down: {text}")))
             }
         };
-        let mut row = Vec::with_capacity(self.columns.len());
-        row.push(SweepCell::Integer(k as i64));
-        row.extend(values);
-        row.extend(cells);
-        row.resize(self.columns.len() - 1, SweepCell::Empty);
-        row.push(SweepCell::text(error.as_deref()));
-        Some(row)
+        let first = rows.len();
+        rows.push(SweepCell::Integer(k as i64));
+        rows.extend(values);
+        rows.extend(cells);
+        rows.resize(first + self.columns.len() - 1, SweepCell::Empty);
+        rows.push(SweepCell::text(error.as_deref()));
+        true
     }
 
     /// The text of candidate `k` as a design file.

@@ -26,4 +26,4 @@ mod tests;
 pub(crate) use column::{SweepCell, SweepColumn};
 pub(crate) use digest::{Digested, digest_of};
 pub(crate) use evaluate::Sweep;
-pub(crate) use rows::{SweepRow, shard_range};
+pub(crate) use rows::{RowChunk, SweepRow, shard_range};

@@ -99,11 +99,12 @@ enum WaitingValues {
 }
 
 impl WaitingColumn {
-    fn new(kind: ColumnKind) -> Self {
+    /// With room for so many cells, but for texts, which are rarely in every row.
+    fn new(kind: ColumnKind, room: usize) -> Self {
         let values = match kind {
-            ColumnKind::Number => WaitingValues::Numbers(Vec::new()),
-            ColumnKind::Integer => WaitingValues::Integers(Vec::new()),
-            ColumnKind::Truth => WaitingValues::Truths(Vec::new()),
+            ColumnKind::Number => WaitingValues::Numbers(Vec::with_capacity(room)),
+            ColumnKind::Integer => WaitingValues::Integers(Vec::with_capacity(room)),
+            ColumnKind::Truth => WaitingValues::Truths(Vec::with_capacity(room)),
             ColumnKind::Text => WaitingValues::Texts(Vec::new()),
         };
         Self { levels: Vec::new(), values }
@@ -169,11 +170,17 @@ pub(crate) struct PartWriter<W: Write + Send> {
 }
 
 impl<W: Write + Send> PartWriter<W> {
-    /// Begins a file with these columns and, as its metadata, these keys and values.
+    /// Begins a file with these columns and, as its metadata, these keys and values. There is room for so many rows from the start, as
+    /// far as a group has them.
     ///
     /// # Errors
     /// Those of the file.
-    pub(crate) fn new(to: W, columns: &[SweepColumn], notes: &[(String, String)]) -> Result<Self, PartError> {
+    pub(crate) fn new(
+        to: W,
+        columns: &[SweepColumn],
+        notes: &[(String, String)],
+        room: u64,
+    ) -> Result<Self, PartError> {
         let field = |c: &SweepColumn| {
             let (physical, logical) = match c.kind {
                 ColumnKind::Number => (Physical::DOUBLE, None),
@@ -198,20 +205,21 @@ impl<W: Write + Send> PartWriter<W> {
             .set_key_value_metadata(Some(notes))
             .build();
         let writer = SerializedFileWriter::new(to, schema, Arc::new(properties))?;
-        let waiting = columns.iter().map(|c| WaitingColumn::new(c.kind)).collect();
+        let room = ROWS.min(usize::try_from(room).unwrap_or(ROWS));
+        let waiting = columns.iter().map(|c| WaitingColumn::new(c.kind, room)).collect();
         Ok(Self { writer, columns: columns.to_vec(), waiting, rows: 0 })
     }
 
-    /// Adds a row.
+    /// Adds a row, whose texts are taken out of it.
     ///
     /// # Errors
     /// Those of the file; a row that the columns do not fit.
-    pub(crate) fn push(&mut self, mut row: SweepRow) -> Result<(), PartError> {
+    pub(crate) fn push(&mut self, row: &mut [SweepCell]) -> Result<(), PartError> {
         if row.len() != self.columns.len() {
             let message = format!("a row has {} cells for {} columns", row.len(), self.columns.len());
             return Err(PartError::Foreign(message));
         }
-        for (k, (waiting, cell)) in self.waiting.iter_mut().zip(&mut row).enumerate() {
+        for (k, (waiting, cell)) in self.waiting.iter_mut().zip(row).enumerate() {
             if !waiting.push(cell, self.rows) {
                 return Err(other_type(&self.columns[k]));
             }
@@ -379,9 +387,9 @@ mod tests {
 
     fn written(n: i64) -> Vec<u8> {
         let notes = [("equipod.seed".to_owned(), "7".to_owned())];
-        let mut writer = PartWriter::new(Vec::new(), &columns(), &notes).unwrap();
-        for row in rows(n) {
-            writer.push(row).unwrap();
+        let mut writer = PartWriter::new(Vec::new(), &columns(), &notes, n as u64).unwrap();
+        for mut row in rows(n) {
+            writer.push(&mut row).unwrap();
         }
         writer.finish().unwrap()
     }
@@ -410,10 +418,10 @@ mod tests {
     fn columns_of_many_different_numbers_are_written_without_a_table_of_them() {
         let column = [SweepColumn::number("x", None, "")];
         let bytes = |different: i64| {
-            let mut writer = PartWriter::new(Vec::new(), &column, &[]).unwrap();
+            let mut writer = PartWriter::new(Vec::new(), &column, &[], 0).unwrap();
             for k in 0..ROWS as i64 {
                 // digits that do not compress
-                writer.push(vec![SweepCell::Number(1.0 / (1.5 + (k % different) as f64))]).unwrap();
+                writer.push(&mut [SweepCell::Number(1.0 / (1.5 + (k % different) as f64))]).unwrap();
             }
             writer.finish().unwrap()
         };
@@ -429,11 +437,11 @@ mod tests {
 
     #[test]
     fn rows_that_the_columns_do_not_fit_are_refused() {
-        let mut writer = PartWriter::new(Vec::new(), &columns(), &[]).unwrap();
-        assert!(writer.push(vec![SweepCell::Empty]).is_err(), "too few cells");
+        let mut writer = PartWriter::new(Vec::new(), &columns(), &[], 0).unwrap();
+        assert!(writer.push(&mut [SweepCell::Empty]).is_err(), "too few cells");
         let mut row = rows(2).remove(1);
         row[1] = SweepCell::Truth(true);
-        assert!(writer.push(row).is_err(), "a truth value among numbers");
+        assert!(writer.push(&mut row).is_err(), "a truth value among numbers");
     }
 
     #[test]
@@ -447,9 +455,9 @@ mod tests {
     fn numbers_that_are_none_keep_their_bits() {
         let column = [SweepColumn::number("x", None, "")];
         let values = [f64::NAN, f64::INFINITY, -0.0, f64::MIN_POSITIVE / 8.0];
-        let mut writer = PartWriter::new(Vec::new(), &column, &[]).unwrap();
+        let mut writer = PartWriter::new(Vec::new(), &column, &[], 0).unwrap();
         for x in values {
-            writer.push(vec![SweepCell::Number(x)]).unwrap();
+            writer.push(&mut [SweepCell::Number(x)]).unwrap();
         }
         let reader = opened(&writer.finish().unwrap()).unwrap();
         let back = reader.group(0, &[0]).unwrap();

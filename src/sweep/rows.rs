@@ -14,23 +14,45 @@ pub(crate) type SweepRow = Vec<SweepCell>;
 /// Candidates that a thread takes at a time: many are done in some microseconds each.
 const AT_ONCE: u64 = 32;
 
+/// What came of some candidates that follow one another: the rows that are kept, in one piece, which takes less time than rows that
+/// are allocated and freed one by one.
+#[derive(Debug, PartialEq)]
+pub(crate) struct RowChunk {
+    /// How many candidates they are, kept or not.
+    pub(crate) candidates: u64,
+    cells: Vec<SweepCell>,
+    columns: usize,
+}
+
+impl RowChunk {
+    /// The rows that are kept.
+    pub(crate) fn rows(&mut self) -> impl Iterator<Item = &mut [SweepCell]> {
+        self.cells.chunks_exact_mut(self.columns)
+    }
+}
+
 impl Sweep {
-    /// What came of each candidate of a range, in their order: a row, or `None` for one that is not kept. Results do not depend on the number of threads, and
+    /// What came of the candidates of a range, in their order. Results do not depend on the number of threads, and
     /// what waits to be taken is limited, so that memory does not grow with the range. Ends early when it is cancelled.
     pub(crate) fn rows(
         self: &Arc<Self>,
         range: Range<u64>,
         threads: usize,
         cancel: &Cancel,
-    ) -> impl Iterator<Item = Option<SweepRow>> + use<> {
+    ) -> impl Iterator<Item = RowChunk> + use<> {
         let sweep = Arc::clone(self);
         let end = range.end;
         let starts = (0..range.end.saturating_sub(range.start).div_ceil(AT_ONCE))
             .map(move |n| range.start + n * AT_ONCE);
-        let chunk = move |start: u64| -> Vec<Option<SweepRow>> {
-            (start..end.min(start + AT_ONCE)).map(|k| sweep.row(k)).collect()
+        let chunk = move |start: u64| {
+            let (candidates, columns) = (end.min(start + AT_ONCE) - start, sweep.columns.len());
+            let mut cells = Vec::with_capacity(columns * candidates as usize);
+            for k in start..start + candidates {
+                sweep.row_onto(k, &mut cells);
+            }
+            RowChunk { candidates, cells, columns }
         };
-        Stream::new(starts, threads, cancel.clone(), chunk).flatten()
+        Stream::new(starts, threads, cancel.clone(), chunk)
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::Point3;
 
 use super::plan::{BasePlan, PlanText, read};
-use super::{Sweep, SweepCell};
+use super::{Sweep, SweepCell, SweepRow};
 use crate::design::{Format, parse};
 use crate::manipulator::{inverse_condition, jacobian};
 use crate::manufacture::{ErrorBound, PoseSearch, joint_allowance};
@@ -146,13 +146,23 @@ fn rows_do_not_depend_on_threads_nor_on_the_range() {
         OCTAHEDRAL,
         "compute = ['det_a', 'conditioning']\nkeep = ['det_a > 0']\n[vary]\nby = 'sobol'\ncount = 200\nvalues = { offsets = { from = 0.1, to = 0.9 } }\n",
     ));
-    let all = |range, threads| sweep.rows(range, threads, &Cancel::new()).collect::<Vec<_>>();
-    let one = all(0..200, 1);
-    assert_eq!(one.len(), 200);
-    assert!(one.iter().flatten().count() > 50 && one.iter().flatten().count() < 200, "some are kept");
-    assert_eq!(all(0..200, 3), one);
-    assert_eq!([all(0..77, 2), all(77..200, 1)].concat(), one);
-    assert_eq!(all(0..0, 2).len(), 0);
+    // how many candidates there were, and the rows of those that are kept
+    let all = |range, threads| {
+        let mut candidates = 0;
+        let mut rows: Vec<SweepRow> = Vec::new();
+        for mut chunk in sweep.rows(range, threads, &Cancel::new()) {
+            candidates += chunk.candidates;
+            rows.extend(chunk.rows().map(|row| row.to_vec()));
+        }
+        (candidates, rows)
+    };
+    let (candidates, one) = all(0..200, 1);
+    assert_eq!(candidates, 200);
+    assert!(one.len() > 50 && one.len() < 200, "some are kept");
+    assert_eq!(one, (0..200).filter_map(|k| sweep.row(k)).collect::<Vec<_>>());
+    assert_eq!(all(0..200, 3).1, one);
+    assert_eq!([all(0..77, 2).1, all(77..200, 1).1].concat(), one);
+    assert_eq!(all(0..0, 2).0, 0);
 }
 
 #[test]

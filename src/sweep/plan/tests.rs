@@ -46,6 +46,16 @@ fn a_grid_has_all_combinations_with_the_last_axis_fastest_and_ends_that_are_met(
 }
 
 #[test]
+fn numbers_among_texts_are_texts() {
+    let plan = with("[vary]\nby = 'list'\nvalues = { 'base.P1.x' = [1, '4/3', -0.5] }\n").unwrap();
+    let all: Vec<String> = (0..3).map(|k| plan.values(1, k)[0].to_string()).collect();
+    assert_eq!(all, ["1", "4/3", "-0.5"]);
+    assert!((0..3).all(|k| matches!(plan.values(1, k)[0], SweepCell::Text(_))));
+    let refused = with("[vary]\nby = 'list'\nvalues = { 'base.P1.x' = ['4/3', true] }\n").unwrap_err();
+    assert!(refused[0].message.contains("not a number"), "{refused:#?}");
+}
+
+#[test]
 fn blocks_are_multiplied_and_lists_go_side_by_side() {
     let plan = with(
         "[[vary]]\nby = 'list'\n[vary.values]\npattern = ['S123456', 'V123456']\n'home.position.3' = [14, 16]\n[[vary]]\nby = 'uniform'\ncount = 3\n[vary.values]\noffsets = { from = 0.2, to = 0.4 }\n",

@@ -57,15 +57,15 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let failed = |e: PartError| part_failed(path, &e);
     let written = write_whole(path, |to| {
         let mut writer =
-            PartWriter::new(Digested::new(to), &columns, &folder.notes(description.as_deref(), None))
+            PartWriter::new(Digested::new(to), &columns, &folder.notes(description.as_deref(), None), 0)
                 .map_err(failed)?;
         let mut rows = 0;
         for shard in &done {
             let reader = folder.reader(*shard)?;
             for group in 0..reader.groups() {
-                for row in reader.group(group, &wanted).map_err(failed)? {
+                for mut row in reader.group(group, &wanted).map_err(failed)? {
                     rows += 1;
-                    writer.push(row).map_err(failed)?;
+                    writer.push(&mut row).map_err(failed)?;
                 }
             }
         }

@@ -136,10 +136,10 @@ fn compute(
     for shard in open {
         let range = range(shard);
         let cancel = Cancel::new();
-        let rows = sweep.rows(range.clone(), threads, &cancel).map(|row| {
-            done += 1;
+        let rows = sweep.rows(range.clone(), threads, &cancel).map(|chunk| {
+            done += chunk.candidates;
             progress.part("candidates", done as usize, total as usize);
-            if interrupt.flow().is_break() { Err(()) } else { Ok(row) }
+            if interrupt.flow().is_break() { Err(()) } else { Ok(chunk) }
         });
         let written = folder.write_part(sweep, shard, (range.start, range.end - range.start), rows);
         cancel.cancel();

@@ -180,12 +180,17 @@ impl Reader<'_, '_> {
             }
             _ => {
                 let list = self.list(&entry.node, &what, form)?;
-                let words = list.iter().filter(|n| matches!(n.value, Value::Text(_))).count();
-                if words == list.len() && matches!(quantity, FreeQuantity::Number(_)) {
-                    let word = |n: &Node| {
-                        if let Value::Text(word) = &n.value { word.clone() } else { String::new() }
+                let has_texts = list.iter().any(|n| matches!(n.value, Value::Text(_)));
+                if has_texts && matches!(quantity, FreeQuantity::Number(_)) {
+                    // a column has one type: among texts such as "1/3" numbers are texts as well
+                    let mut word = |n: &Node| match &n.value {
+                        Value::Text(word) => Some(word.clone()),
+                        _ => {
+                            number(self.report, n, &format!("a value of {what}")).map(|x: f64| x.to_string())
+                        }
                     };
-                    return Some(AxisValues::Words(list.iter().map(word).collect()));
+                    let words: Vec<Option<String>> = list.iter().map(&mut word).collect();
+                    return words.into_iter().collect::<Option<_>>().map(AxisValues::Words);
                 }
                 let numbers: Vec<Option<f64>> =
                     list.iter().map(|n| number(self.report, n, &format!("a value of {what}"))).collect();
