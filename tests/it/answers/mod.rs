@@ -233,9 +233,9 @@ fn spoilt(document: &Value, path: &[String]) -> Vec<(&'static str, Value)> {
         "wrong kind",
         with(&|v| {
             *v = match v {
-                Value::Object(_) | Value::Array(_) => json!(7.5),
-                // a coordinate may be a text or a number
-                Value::String(_) => json!(true),
+                Value::Object(_) => json!(7.5),
+                // a coordinate may be a text or a number, radii of holes a number or a list
+                Value::String(_) | Value::Array(_) => json!(true),
                 _ => json!({"no": "such"}),
             };
         }),
