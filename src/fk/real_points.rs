@@ -5,7 +5,7 @@
 
 use nalgebra::{Matrix6, Rotation3, SVector, Vector3, Vector6};
 
-use crate::geom::{Pose, nearest_rotation, random_rotation};
+use crate::geom::{Pose, nearest_rotation, random_rotation, turn_between};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::small::bounded_svd;
 use crate::num::{Purpose, Rng};
@@ -79,7 +79,7 @@ impl Equations<'_> {
 
     /// The step from one pose to another.
     fn step(&self, from: &Pose, to: &Pose) -> Vector6<f64> {
-        let turn = (to.rotation * from.rotation.inverse()).scaled_axis();
+        let turn = turn_between(&from.rotation, &to.rotation);
         let shift = (to.position - from.position) / self.size;
         Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
     }
@@ -156,6 +156,8 @@ mod tests {
     use crate::manipulator::{Leg, LegLengths};
     use nalgebra::Point3;
 
+    use crate::geom::rotation_vector;
+
     fn bodies(seed: u64) -> [[Point3<f64>; 6]; 2] {
         let mut rng = Rng::new(seed);
         std::array::from_fn(|_| {
@@ -175,9 +177,9 @@ mod tests {
             let m = design(&[base, base]);
             let s = LegLengths::try_new([3.0; 6]).unwrap().squared();
             let found = real_points(&m, &s, seed);
-            assert!(
-                found.iter().any(|p| p.rotation.angle() < 1e-6 && (p.position.norm() - 3.0).abs() < 1e-6)
-            );
+            assert!(found.iter().any(
+                |p| rotation_vector(&p.rotation).norm() < 1e-6 && (p.position.norm() - 3.0).abs() < 1e-6
+            ));
             let s = LegLengths::try_new([3.0, 3.0, 3.0, 3.0, 3.0, 3.1]).unwrap().squared();
             assert!(real_points(&m, &s, seed).is_empty());
         }

@@ -3,6 +3,7 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::enclosed::{IntervalVector, Rotation, exact_rotation};
+use super::rotation_vector::turn_between;
 use super::turn::radians;
 use super::{Pose, PoseSpace, Region};
 use crate::num::interval::Interval;
@@ -103,7 +104,7 @@ pub(crate) fn combination(columns: &[[Interval; 6]], cell: &ChartCell) -> [Inter
 
 /// Rotation vector that turns one rotation into another.
 fn between(from: &Pose, to: &Pose) -> Vector3<f64> {
-    (to.rotation * from.rotation.inverse()).scaled_axis()
+    turn_between(&from.rotation, &to.rotation)
 }
 
 /// What cutting a chart into cells has shown.
@@ -316,7 +317,7 @@ mod tests {
             for x in s.cube_points(200, &mut rng) {
                 let pose = s.pose(&x);
                 let d = pose.position - s.home.position;
-                let w = (pose.rotation * s.home.rotation.inverse()).scaled_axis().map(f64::to_degrees);
+                let w = turn_between(&s.home.rotation, &pose.rotation).map(f64::to_degrees);
                 let q = [d.x / 2.0, d.z, w.x / 10.0, w.y / 20.0, w.z / 150.0, 0.0];
                 assert!(charts[0].scale_of(&q) < 1.0 + 1e-12);
                 let cell = ChartCell { lo: q.map(|x| x - 1e-9), hi: q.map(|x| x + 1e-9) };

@@ -1,9 +1,9 @@
 //! What an error of a joint does to the pose, to first order.
 
-use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::joint::joints;
-use crate::geom::Pose;
+use crate::geom::{Pose, turn_between};
 use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 
 /// Below this inverse condition number (platform radius as characteristic length) a pose counts as singular.
@@ -83,18 +83,7 @@ impl Sensitivity {
     }
 }
 
-/// The rotation vector, with all its digits near zero.
-pub(crate) fn rotation_vector(r: &Rotation3<f64>) -> Vector3<f64> {
-    let m = r.matrix();
-    let w = Vector3::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)]) * 0.5;
-    let sine = w.norm();
-    if sine > 0.0 { w * (sine.atan2((m.trace() - 1.0) * 0.5) / sine) } else { w }
-}
-
 /// How the pose `found` differs from `truth`: of the tool point, and as rotation vector, both in the base frame.
 pub(crate) fn pose_error(found: &Pose, truth: &Pose, tool: &Point3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-    (
-        found.transform(tool) - truth.transform(tool),
-        rotation_vector(&(found.rotation * truth.rotation.inverse())),
-    )
+    (found.transform(tool) - truth.transform(tool), turn_between(&truth.rotation, &found.rotation))
 }

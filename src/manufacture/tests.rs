@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::*;
 use crate::fk::NearSolver;
-use crate::geom::{Pose, random_rotation};
+use crate::geom::{Pose, random_rotation, turn_between};
 use crate::manipulator::{Leg, LegLengths, Manipulator, Octahedral, default_home};
 use crate::num::Rng;
 use crate::requirements::PoseSpace;
@@ -321,7 +321,7 @@ fn corrected_poses_have_the_covariance_that_is_stated() {
         let shown = LegLengths::try_new(shown).unwrap().squared();
         let pose = controller.corrected(&shown, &controller.formula(&shown, &truth).unwrap(), 2).unwrap();
         let shift = pose.transform(&TOOL) - truth.transform(&TOOL);
-        let turn = (pose.rotation * truth.rotation.inverse()).scaled_axis();
+        let turn = turn_between(&truth.rotation, &pose.rotation);
         let off = Vector6::from_iterator(shift.iter().chain(turn.iter()).copied());
         found += off * off.transpose() / f64::from(count);
     }

@@ -1,6 +1,5 @@
 //! Assembly modes: all real poses with given leg lengths.
 
-use nalgebra::UnitQuaternion;
 use serde::Serialize;
 
 use super::request::Refusal;
@@ -9,7 +8,7 @@ use super::session::Session;
 use crate::design::Design;
 use crate::equivalence::match_poses;
 use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
-use crate::geom::{ComplexPose, Pose};
+use crate::geom::{ComplexPose, Pose, turn_between};
 use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
 use crate::records::PoseRecord;
 use crate::rotary::RotaryPlatform;
@@ -164,8 +163,7 @@ fn mode(asked: &Asked, design: &Design, home: &Pose, root: &FkRoot) -> ModeRecor
     let kept = |(platform, angles): &(RotaryPlatform, [f64; 6])| {
         platform.elbows_kept(&real, angles).iter().all(|kept| *kept)
     };
-    // by the quaternion: the arc cosine of the trace loses half of the digits at 0 and may be of more than 1
-    let turn = UnitQuaternion::from_rotation_matrix(&(home.rotation.inverse() * real.rotation)).angle();
+    let turn = turn_between(&home.rotation, &real.rotation).norm();
     ModeRecord {
         pose: (&real).into(),
         turn_deg: turn.to_degrees(),

@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use crate::geom::Pose;
+use crate::geom::{Pose, turn_between};
 
 /// The six numbers of a pose that a machine is moved by: position, and `R = Rz(yaw) Ry(pitch) Rx(roll)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +88,7 @@ impl StraightWay {
     /// The straight way between two poses, which ends at `t = 1`: the origin moves on a line, the platform turns about one axis by at most half a turn.
     #[must_use]
     pub fn between(from: &Pose, to: &Pose) -> Self {
-        let turn = (to.rotation * from.rotation.inverse()).scaled_axis();
+        let turn = turn_between(&from.rotation, &to.rotation);
         Self { start: *from, velocity: to.position - from.position, turn }
     }
 
@@ -104,6 +104,33 @@ impl StraightWay {
         Pose {
             rotation: Rotation3::new(self.turn * t) * self.start.rotation,
             position: self.start.position + self.velocity * t,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::random_rotation;
+    use crate::num::Rng;
+
+    #[test]
+    fn a_way_ends_at_its_last_pose_after_half_a_turn_and_after_no_turn_but_rounding() {
+        let rng = &mut Rng::new(5);
+        for k in 0..60 {
+            let from = Pose { rotation: random_rotation(rng), position: Vector3::zeros() };
+            let turn = match k % 3 {
+                0 => Vector3::z() * std::f64::consts::PI,
+                1 => Vector3::x() * 1e-16,
+                _ => Vector3::new(0.3, -0.2, 1.0),
+            };
+            let to = Pose {
+                rotation: Rotation3::new(turn) * from.rotation,
+                position: Vector3::new(1.0, 2.0, 3.0),
+            };
+            let end = StraightWay::between(&from, &to).at(1.0);
+            assert!((end.rotation.matrix() - to.rotation.matrix()).amax() < 1e-14, "{k}");
+            assert!((end.position - to.position).amax() < 1e-15);
         }
     }
 }

@@ -2,7 +2,7 @@ use nalgebra::{Point3, Rotation3, Unit, Vector3, Vector6};
 
 use super::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform, RotaryTracker};
 use crate::fk::{FkOptions, NearOutcome, NearSolver, Reality};
-use crate::geom::{Angles, Pose};
+use crate::geom::{Angles, Pose, rotation_vector, turn_between};
 use crate::num::Rng;
 
 /// Reachy Mini by Pollen Robotics in millimetres: `motor_arm_length`, `rod_length`, `head_z_offset`, the poses of the motors and `branch_position` of
@@ -139,7 +139,7 @@ fn reachy_mini_has_sixteen_real_poses_at_home_and_the_nearest_wrong_one_is_turne
     let real: Vec<Pose> = found.real_poses().collect();
     assert_eq!(real.len(), 16);
     assert!(found.roots.iter().filter(|r| r.reality == Reality::Real).all(|r| r.residual < 1e-12));
-    let apart = |p: &Pose| (p.position - home().position, p.rotation.angle().to_degrees());
+    let apart = |p: &Pose| (p.position - home().position, rotation_vector(&p.rotation).norm().to_degrees());
     let mut others: Vec<(Vector3<f64>, f64)> = real.iter().map(apart).collect();
     others.sort_by(|a, b| a.0.norm().total_cmp(&b.0.norm()));
     assert!(others[0].0.norm() < 1e-6 && others[0].1 < 1e-6, "home is one of them");
@@ -171,7 +171,7 @@ fn the_tracker_keeps_the_head_upright_where_newtons_method_flips_it() {
         let squares = m.rods().squared();
         if let Some(end) = solver.newton_steps(&squares, &guess, 30) {
             let solved = NearSolver::new(&m.at(&angles).unwrap()).solve(&squares, &end);
-            let flipped = end.rotation.angle_to(&truth.rotation) > 0.5;
+            let flipped = turn_between(&truth.rotation, &end.rotation).norm() > 0.5;
             flips += usize::from(flipped && solved.evidence().residual < 1e-10);
         }
     }

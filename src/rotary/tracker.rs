@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::RotaryPlatform;
 use crate::fk::{NearEvidence, NearOutcome, NearSolver};
-use crate::geom::Pose;
+use crate::geom::{Pose, turn_between};
 use crate::manipulator::InvalidManipulator;
 
 /// Angles move by at most this much at once, radians.
@@ -87,6 +87,6 @@ impl RotaryTracker {
         let joints = self.platform.legs().iter().map(|leg| leg.platform.coords);
         let centroid = Point3::from(joints.sum::<Vector3<f64>>() / 6.0);
         part.distance = (reached.transform(&centroid) - self.pose.transform(&centroid)).norm();
-        part.angle = reached.rotation.angle_to(&self.pose.rotation);
+        part.angle = turn_between(&self.pose.rotation, &reached.rotation).norm();
     }
 }

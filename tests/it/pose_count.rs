@@ -7,7 +7,7 @@ use equipod::methods::geom::{Pose, random_rotation};
 use equipod::methods::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
 use equipod::methods::num::Rng;
 use equipod::methods::solve::pose_count::{PoseCount, PoseSet};
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::cli_frame::{document, equipod};
 
@@ -122,7 +122,10 @@ fn congruent_bodies_with_equal_lengths_have_a_real_sphere() {
         let (dimension, real) = motion(&found);
         assert_eq!(dimension, 2, "seed {seed}");
         assert!(!found.is_complete());
-        let on_sphere = |p: &Pose| p.rotation.angle() < 1e-5 && (p.position.norm() - l).abs() < 1e-5;
+        let on_sphere = |p: &Pose| {
+            UnitQuaternion::from_rotation_matrix(&p.rotation).angle() < 1e-5
+                && (p.position.norm() - l).abs() < 1e-5
+        };
         assert!(real.iter().any(on_sphere), "seed {seed}: {real:?}");
         assert_on(&m, &lengths([l; 6]), &real);
         // other lengths: isolated poses

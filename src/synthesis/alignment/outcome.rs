@@ -2,7 +2,7 @@
 
 use super::leg_space::Canonical;
 use super::{CLEAR, RoundingBounds, SAME};
-use crate::geom::Pose;
+use crate::geom::{Pose, rotation_vector};
 use crate::synthesis::leg_map::LegMapOutcome;
 
 /// A pair of rigid motions that makes B equivalent to A.
@@ -24,7 +24,10 @@ impl Motion {
 
     /// Angles of rotation and translations over `size`, added up.
     pub(super) fn extent(&self, size: f64) -> f64 {
-        [&self.base, &self.platform].iter().map(|m| m.rotation.angle() + m.position.norm() / size).sum()
+        [&self.base, &self.platform]
+            .iter()
+            .map(|m| rotation_vector(&m.rotation).norm() + m.position.norm() / size)
+            .sum()
     }
 }
 

@@ -6,6 +6,7 @@ use equipod::methods::design::{Design, Format, parse};
 use equipod::methods::fk::{FkOptions, FkSolutions, ForwardKinematics, Homotopy, Reality, SolutionSet};
 use equipod::methods::manipulator::{Manipulator, SquaredLegLengths};
 use family::{KINDS, Kind, Member, member};
+use nalgebra::UnitQuaternion;
 
 /// Members of a family in the default run, fewer where one takes seconds.
 fn members(kind: Kind) -> u64 {
@@ -44,7 +45,10 @@ fn lists_planted(x: &Member, found: &FkSolutions) -> bool {
     let size = x.m.size();
     found.roots.iter().filter(|r| r.reality != Reality::NonReal).any(|r| {
         let shift = r.pose.real_part().position - x.pose.position;
-        let turn = r.pose.real_part().rotation.rotation_to(&x.pose.rotation).angle();
+        // by the quaternion: rounding makes the trace of no turn larger than 3, and its arc cosine no number
+        let turn =
+            UnitQuaternion::from_rotation_matrix(&r.pose.real_part().rotation.rotation_to(&x.pose.rotation))
+                .angle();
         shift.norm() < 1e-2 * size && turn < 1e-2
     })
 }

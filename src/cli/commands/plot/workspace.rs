@@ -8,7 +8,7 @@ use crate::cli::freedoms::{Freedoms, PoseGrid};
 use crate::cli::numbers;
 use crate::cli::poses;
 use crate::design::Design;
-use crate::geom::Pose;
+use crate::geom::{Pose, turn_between};
 use crate::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};
 use crate::requirements::{Limit, Limits, Region};
 
@@ -112,7 +112,7 @@ const ELLIPSE: usize = 96;
 /// Translation and rotation vector (radians) from home to a pose, base frame.
 fn from_home(home: &Pose, pose: &Pose) -> [f64; 6] {
     let d = pose.position - home.position;
-    let w = (pose.rotation * home.rotation.inverse()).scaled_axis();
+    let w = turn_between(&home.rotation, &pose.rotation);
     [d.x, d.y, d.z, w.x, w.y, w.z]
 }
 
