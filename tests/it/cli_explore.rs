@@ -63,7 +63,8 @@ fn assert_well_formed(xml: &str) {
 }
 
 #[test]
-fn the_folder_holds_designs_records_pictures_and_report_and_the_same_bytes_again() {
+#[ignore = "slow evidence"]
+fn the_folder_has_the_same_bytes_again_and_its_paths_are_printed() {
     let temp = tempfile::tempdir().unwrap();
     let (first, second) = (temp.path().join("a/b"), temp.path().join("c"));
     let out = explore(&shipped("rbt-octahedral"), &first, &[]);
@@ -73,15 +74,25 @@ fn the_folder_holds_designs_records_pictures_and_report_and_the_same_bytes_again
     let expected: Vec<String> = FILES.iter().map(|f| first.join(f).display().to_string()).collect();
     assert_eq!(paths, expected, "just the paths when piped");
 
-    // again: one JSON document, the same bytes in the files
-    let out = explore(&shipped("rbt-octahedral"), &second, &["--json"]);
+    explore(&shipped("rbt-octahedral"), &second, &["--json"]);
+    for file in FILES {
+        assert_eq!(read(&first, file), read(&second, file), "{file}");
+    }
+}
+
+#[test]
+fn the_folder_holds_designs_records_pictures_and_report() {
+    let temp = tempfile::tempdir().unwrap();
+    let first = temp.path().join("a/b");
+    let out = explore(&shipped("rbt-octahedral"), &first, &["--json"]);
+    assert!(out.stderr.is_empty(), "no progress when nobody watches");
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
     assert_eq!((&d["verdict"], &d["schema_version"]), (&Value::from("equivalent"), &Value::from(1)));
     assert_eq!(d["paths"].as_array().unwrap().len(), FILES.len());
     assert_eq!((&d["fk"]["finite_count"], &d["fk"]["real_count"]), (&Value::from(16), &Value::from(12)));
     assert_eq!(d["verify"]["sample_count"], 2);
     for file in FILES {
-        assert_eq!(read(&first, file), read(&second, file), "{file}");
+        assert!(first.join(file).is_file(), "{file}");
     }
 
     for (file, field) in
@@ -414,6 +425,7 @@ fn a_design_with_holes_becomes_a_machine_whose_joints_are_on_them() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn holes_that_no_platform_fits_are_answered_with_no_and_why() {
     let temp = tempfile::tempdir().unwrap();
     let holes = "[holes]\nbase = { pitch = 30 }\nplatform = { pitch = 30 }\n";

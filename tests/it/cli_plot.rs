@@ -67,7 +67,7 @@ fn the_other_figures_are_those_of_their_commands() {
         assert!(equipod(&[args, &["--svg", path]].concat()).status.success());
         std::fs::read_to_string(&file).unwrap()
     };
-    let locus = ["plot", "locus", OCTAHEDRAL, "--leg", "1", "--from", "10", "--to", "14", "--steps", "5"];
+    let locus = ["plot", "locus", OCTAHEDRAL, "--leg", "1", "--from", "10", "--to", "14", "--steps", "2"];
     let out = equipod(&[&locus[..], &["-o", path]].concat());
     assert_eq!(svg(&locus[1..]), std::fs::read_to_string(&file).unwrap());
     assert!(String::from_utf8(out.stdout).unwrap().starts_with(path), "and the values as text");

@@ -87,7 +87,7 @@ fn equivalent_platforms_have_the_same_regular_box() {
     let run = |design: &str| {
         let pose = "0,0,9,0,0,25";
         let shape = "2,2,2,10,10,10";
-        let args = ["singular", "poses", design, "--pose", pose, "--box", shape, "--cells", "4000", "--json"];
+        let args = ["singular", "poses", design, "--pose", pose, "--box", shape, "--cells", "1000", "--json"];
         let out = equipod(&[&args[..], &["--svg", svg.to_str().unwrap()]].concat());
         let doc = document(&out);
         assert_eq!(out.status.code(), Some(0), "{doc}");

@@ -214,6 +214,7 @@ fn poses_of_exact_designs_are_certified_and_counted_and_rounded_joints_are_anoth
 
 /// A corner at an angle whose cosine is no sum of square roots: joints on its sides are known between bounds, poses are certified for all of them, and none are counted.
 #[test]
+#[ignore = "slow evidence"]
 fn joints_known_between_bounds_are_certified_and_not_complete_by_counting() {
     let folder = folder();
     let args = ["equivalents", "family", "octahedral.toml", "--pattern", "S123456"];

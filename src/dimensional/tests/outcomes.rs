@@ -71,6 +71,7 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn no_member_of_a_front_is_better_in_every_objective() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;
@@ -113,6 +114,7 @@ fn an_interrupted_front_says_so_and_has_what_was_found() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn later_levels_keep_the_earlier_ones() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;

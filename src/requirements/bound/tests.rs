@@ -562,6 +562,7 @@ fn angles_of(m: &Manipulator, space: &PoseSpace, hardware: Hardware, cells: usiz
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn angles_of_upright_legs_in_universal_joints_are_those_by_hand() {
     let ring = || -> Vec<Point3<f64>> {
         let at = |i: usize| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();

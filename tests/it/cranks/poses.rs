@@ -68,6 +68,7 @@ fn angles_of_a_pose_and_poses_of_angles_belong_together() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_reported_flip_of_the_head_is_seen_among_all_poses_and_avoided_by_following() {
     let home = document(&equipod(&["ik", HEAD, "--json"]));
     let angles = numbers(&home["angles_deg"]).iter().map(f64::to_string).collect::<Vec<_>>().join(",");
