@@ -127,6 +127,8 @@ struct LegRecord<'a> {
     cylinder_diameter: f64,
     rod_diameter: f64,
     cylinder_length: f64,
+    /// Null where the cylinder leaves it no room at home.
+    rod_length: Option<f64>,
 }
 
 /// How uncertain calibrated joints and leg offsets are. Two numbers with deviations `d`, `e` and correlation `r` have the covariance `r d e`.
@@ -163,6 +165,11 @@ struct ChoiceRecord<'a> {
 impl<'a> ExportedDocument<'a> {
     fn of(export: &'a Export) -> Self {
         let mm = export.unit.millimetres;
+        let kinds = export.leg_kinds();
+        let rod = |leg: &ExportLeg| {
+            let kind = kinds.iter().find(|kind| kind.legs.contains(&(leg.number - 1)))?;
+            Some(export.telescope(kind).ok()?.rod * mm)
+        };
         let leg = |leg: &'a ExportLeg| {
             let (a, b) = export.ends_of(leg);
             LegRecord {
@@ -174,6 +181,7 @@ impl<'a> ExportedDocument<'a> {
                 cylinder_diameter: leg.diameters.0 * mm,
                 rod_diameter: leg.diameters.1 * mm,
                 cylinder_length: leg.cylinder * mm,
+                rod_length: rod(leg),
             }
         };
         let choice =

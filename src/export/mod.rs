@@ -25,6 +25,7 @@ mod round_trip;
 mod sizes;
 mod step;
 mod stl;
+mod telescope;
 #[cfg(test)]
 mod tests;
 mod text;

@@ -308,7 +308,7 @@ impl Export {
         let (base_ball, base_plate) = seated(Body::Base, &base, &towards)?;
         let (platform_ball, platform_plate) =
             seated(Body::Platform, &platform, &-(home.rotation.inverse() * towards))?;
-        let sizes = LegSizes::of(hardware, base_ball.min(platform_ball), shortest, &mut choices);
+        let sizes = LegSizes::of(hardware, [base_ball, platform_ball], shortest, &mut choices);
         let in_kilograms = design.mass_units.unwrap_or(MassUnit::Kilogram).kilograms();
         let carried = design.moving_payload();
         let table = if design.payload.is_some() { "[payload]" } else { "[plates.platform]" };

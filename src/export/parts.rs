@@ -2,25 +2,41 @@
 
 use std::fmt::Write as _;
 
-use super::text::{commented, csv_field, real};
+use super::telescope::LegKind;
+use super::text::{commented, csv_field, real, rounded};
 use super::{Export, ExportBody, Plate};
 use crate::manipulator::Body;
 use crate::requirements::Housing;
 
 /// Legs whose lengths differ by less than this share of the size are of one kind.
-const SAME_LENGTH: f64 = 1e-6;
+pub(super) const SAME_LENGTH: f64 = 1e-6;
 /// Kinds of joint by body.
 const JOINTS: [&str; 2] = ["base joint", "platform joint"];
 
 /// What a joint is, for the list of parts.
 #[derive(Debug, Clone, PartialEq)]
-struct JointSort {
+pub(super) struct JointSort {
     /// The word of the model, or the words of those about one centre.
-    models: String,
+    pub(super) models: String,
     /// Greatest swing, degrees; `None` where there is none, or where those about one centre differ.
-    swing_deg: Option<f64>,
+    pub(super) swing_deg: Option<f64>,
     /// Its housing; the widest of those about one centre, `None` where the design says none.
-    housing: Option<Housing>,
+    pub(super) housing: Option<Housing>,
+}
+
+impl JointSort {
+    /// Housing and swing in words, where the design says them.
+    pub(super) fn description(&self, mm: f64) -> String {
+        let housing = self.housing.map(|housing| match housing {
+            Housing::Sphere(diameter) => format!("housing: ball of {} mm", rounded(diameter * mm)),
+            Housing::Box(edges) => {
+                let edges: Vec<String> = edges.iter().map(|x| rounded(x * mm)).collect();
+                format!("housing: box of {} mm", edges.join(" x "))
+            }
+        });
+        let swing = self.swing_deg.map(|deg| format!("swings by {} deg", real(deg)));
+        [housing, swing].into_iter().flatten().collect::<Vec<_>>().join("; ")
+    }
 }
 
 /// A line of the bill of materials; millimetres and kilograms.
@@ -32,7 +48,7 @@ pub struct PartLine {
     pub count: usize,
     /// Mass of one, kilograms, where the design says it.
     pub mass: Option<f64>,
-    /// Length at home of a leg, or of a cylinder, millimetres.
+    /// Length at home of a leg, or that of a cylinder or rod, millimetres.
     pub length: Option<f64>,
     /// Least and greatest length over the poses of the workspace, millimetres.
     pub lengths: Option<[f64; 2]>,
@@ -86,11 +102,6 @@ impl PartLine {
     }
 }
 
-/// To a thousandth, which is what is meant in millimetres and kilograms.
-fn rounded(x: f64) -> String {
-    real((x * 1e3).round() / 1e3)
-}
-
 impl Export {
     /// The bill of materials: plates, joints, drives by kind, payload.
     ///
@@ -129,17 +140,37 @@ impl Export {
             thickness: Some(thick * mm),
             ..PartLine::new("cylinder", 6, "one a leg")
         });
-        out.push(PartLine {
-            mass: known(rod),
-            thickness: Some(thin * mm),
-            ..PartLine::new("rod", 6, "one a leg")
-        });
+        for (length, count) in self.rods() {
+            out.push(PartLine {
+                mass: known(rod),
+                length: length.map(|l| l * mm),
+                thickness: Some(thin * mm),
+                ..PartLine::new("rod", count, "one a leg")
+            });
+        }
         if self.payload {
             // the plate of the platform has a line and a mass of its own
             let plate = self.bodies[1].plate().ok().and_then(|plate| plate.mass(self.unit.metres));
             let what = if plate.is_some() { "payload" } else { "payload with platform" };
             let mass = (self.mass - plate.unwrap_or(0.0)).max(0.0);
             out.push(PartLine { mass: Some(mass), ..PartLine::new(what, 1, "carried, not bought") });
+        }
+        out
+    }
+
+    /// Rods by length, and how many of each; without a length where cylinders leave them no room at home, or legs are rods on cranks.
+    fn rods(&self) -> Vec<(Option<f64>, usize)> {
+        let mut out: Vec<(Option<f64>, usize)> = Vec::new();
+        for kind in self.leg_kinds() {
+            let length = self.telescope(&kind).ok().filter(|_| self.cranks.is_none()).map(|t| t.rod);
+            let alike = |other: Option<f64>| match (other, length) {
+                (Some(a), Some(b)) => (a - b).abs() <= SAME_LENGTH * self.size,
+                (a, b) => a.is_none() && b.is_none(),
+            };
+            match out.iter_mut().find(|(other, _)| alike(*other)) {
+                Some((_, count)) => *count += kind.legs.len(),
+                None => out.push((length, kind.legs.len())),
+            }
         }
         out
     }
@@ -155,8 +186,13 @@ impl Export {
         }
     }
 
+    /// The joints of a leg at base and platform.
+    pub(super) fn joint_sorts(&self, leg: usize) -> [JointSort; 2] {
+        Body::BOTH.map(|body| self.joint_of(body, leg))
+    }
+
     /// The joints of a body by what they are, with their names; legs that share a joint may have different ones about one centre.
-    fn joint_kinds<'b>(&self, body: &'b ExportBody) -> Vec<(JointSort, Vec<&'b str>)> {
+    pub(super) fn joint_kinds<'b>(&self, body: &'b ExportBody) -> Vec<(JointSort, Vec<&'b str>)> {
         let mut kinds: Vec<(JointSort, Vec<&'b str>)> = Vec::new();
         for (k, joint) in body.joints.iter().enumerate() {
             let ends = self.legs.iter().enumerate();
@@ -184,29 +220,15 @@ impl Export {
 
     fn legs_by_kind(&self, out: &mut Vec<PartLine>) {
         let mm = self.unit.millimetres;
-        let joints = |leg: usize| Body::BOTH.map(|body| self.joint_of(body, leg));
-        let mixed = (1..6).any(|leg| joints(leg) != joints(0));
-        let mut kinds: Vec<(f64, Vec<usize>)> = Vec::new();
-        for (i, leg) in self.legs.iter().enumerate() {
-            let length = leg.length();
-            let is_alike = |l: f64, first: usize| {
-                (l - length).abs() <= SAME_LENGTH * self.size && joints(first) == joints(i)
-            };
-            match kinds.iter_mut().find(|(l, legs)| is_alike(*l, legs[0])) {
-                Some((_, legs)) => legs.push(i),
-                None => kinds.push((length, vec![i])),
-            }
-        }
-        let poses: Vec<[f64; 6]> =
-            self.workspace.iter().chain(&self.trajectory).map(|pose| self.lengths_at(pose)).collect();
+        let mixed = (1..6).any(|leg| self.joint_sorts(leg) != self.joint_sorts(0));
+        let kinds = self.leg_kinds();
         let name =
             |k: usize| if kinds.len() == 1 { "leg".to_owned() } else { format!("leg, kind {}", k + 1) };
-        for (k, (length, legs)) in kinds.iter().enumerate() {
-            let all = || poses.iter().flat_map(|l| legs.iter().map(|i| l[*i]));
+        for (k, LegKind { length, legs, lengths }) in kinds.iter().enumerate() {
             let numbers: Vec<String> = legs.iter().map(|i| (i + 1).to_string()).collect();
             let mut remark = format!("legs {}", numbers.join(" "));
             if mixed {
-                let [base, platform] = joints(legs[0]);
+                let [base, platform] = self.joint_sorts(legs[0]);
                 let _ = write!(remark, "; {} at the base, {} at the platform", base.models, platform.models);
             }
             if let Some((least, greatest)) = self.leg_range {
@@ -218,7 +240,7 @@ impl Export {
             }
             out.push(PartLine {
                 length: Some(length * mm),
-                lengths: Some([all().fold(*length, f64::min) * mm, all().fold(*length, f64::max) * mm]),
+                lengths: Some(lengths.map(|l| l * mm)),
                 ..PartLine::new(name(k), legs.len(), remark)
             });
         }

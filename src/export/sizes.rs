@@ -145,6 +145,10 @@ pub enum NoExport {
 /// Where sizes of plates are stated.
 const PLATES: &str = "[plates]";
 
+const RULE_CYLINDER: &str = "rule: half the shortest leg at home";
+const RULE_STROKE: &str =
+    "rule: what holds a rod over the stroke and leaves room for the joint at the least length";
+
 const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
 
 /// Edge of the housing that a ball can have; where joints have different ones, the ball that fits into each.
@@ -245,11 +249,12 @@ impl Sizes {
 impl LegSizes {
     pub(super) fn of(
         hardware: &Hardware,
-        smaller_ball: f64,
+        [base_ball, platform_ball]: [f64; 2],
         shortest: f64,
         choices: &mut Vec<SizeChoice>,
     ) -> Self {
         let body = hardware.leg_body;
+        let smaller_ball = base_ball.min(platform_ball);
         let cylinder_diameter = choose(
             choices,
             "cylinder diameter",
@@ -262,11 +267,21 @@ impl LegSizes {
             [(body.and_then(|b| b.rod.map(|r| r.1)), "[hardware]")],
             (0.6 * cylinder_diameter, "rule: 0.6 of the cylinder"),
         );
+        let half = 0.5 * shortest;
+        let by_rule = hardware.leg_length.map_or(half, |limits| {
+            let (least, greatest) = limits.range();
+            let (foot, tip) = (0.5 * base_ball, 0.5 * platform_ball);
+            // floor, stroke and a guide of two rods; the platform joint has to stay outside at the least length
+            let deep =
+                foot + 0.5 * (cylinder_diameter - rod_diameter) + (greatest - least) + 2.0 * rod_diameter;
+            half.max(deep).min(least - tip)
+        });
+        let by_rule = if by_rule > 0.0 { by_rule } else { half };
         let cylinder_length = choose(
             choices,
             "cylinder length from the base joint",
             [(body.and_then(|b| b.rod.map(|r| r.0)), "[hardware]")],
-            (0.5 * shortest, "rule: half the shortest leg at home"),
+            (by_rule, if by_rule < half || by_rule > half { RULE_STROKE } else { RULE_CYLINDER }),
         );
         Self { cylinder_diameter, rod_diameter, cylinder_length }
     }

@@ -9,7 +9,9 @@ use super::*;
 use crate::design::{Design, Format, parse};
 use crate::geom::Pose;
 use crate::manipulator::Body;
+use crate::requirements::{JointAxes, LegBody, LengthLimits, Swing};
 
+const SYMMETRIC: &str = include_str!("../../designs/symmetric-hexapod.toml");
 const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
 const GENERAL: &str = include_str!("../../designs/general-6-6.toml");
 const MIDLINE: &str = include_str!("../../designs/rbt-midline.toml");
@@ -290,14 +292,150 @@ fn exchange_files_name_only_entities_they_hold() {
             assert!(number.parse::<usize>().unwrap() < defined, "{line}");
         }
     }
-    // two plates, six balls on each, cylinder and rod of six legs, posts
-    let posts: usize = export(GENERAL)
-        .bodies
-        .iter()
-        .map(|b| b.plate().unwrap().holes.iter().filter(|h| h.post > 0.0).count())
-        .sum();
-    assert_eq!(text.matches("NEXT_ASSEMBLY_USAGE_OCCURRENCE").count(), 2 + 12 + 12 + posts);
+    let export = export(GENERAL);
+    let posts: usize =
+        export.bodies.iter().map(|b| b.plate().unwrap().holes.iter().filter(|h| h.post > 0.0).count()).sum();
+    let kinds = export.leg_kinds().len();
+    // base, platform and six legs in the whole; two plates, six joints on each, posts; cylinder and rod of each kind of leg
+    assert_eq!(text.matches("NEXT_ASSEMBLY_USAGE_OCCURRENCE").count(), 2 + 6 + 2 + 12 + posts + 2 * kinds);
     assert!(text.contains("AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"));
+}
+
+#[test]
+fn legs_that_are_equal_are_places_of_one_part_and_joints_say_what_they_are() {
+    let export = export(include_str!("../../designs/worked/simulator-300kg-built.toml"));
+    let text = text_of(&export, "step", "platform.step");
+    let occurrences = |name: &str| text.matches(&format!(",'{name}','',#")).count();
+    let kinds = export.leg_kinds();
+    assert_eq!(kinds.iter().map(|kind| kind.legs.len()).sum::<usize>(), 6);
+    // joints on a grid of 25 mm: no two legs have the same length
+    assert_eq!(kinds.len(), 6, "{kinds:?}");
+    for number in 1..=6 {
+        assert_eq!(occurrences(&format!("leg {number}")), 1, "leg {number}");
+    }
+    assert_eq!((occurrences("cylinder"), occurrences("rod")), (kinds.len(), kinds.len()));
+    assert!(text.contains("PRODUCT('ball joint of the base','ball joint of the base','housing: ball of 40.0 mm; swings by 30.0 deg',"), "{text}");
+    // the legs of an octahedral platform above the middle of its base have one length
+    let equal = self::export(include_str!("../../designs/worked/simulator-300kg.toml"));
+    assert_eq!(equal.leg_kinds().len(), 1, "{:?}", equal.leg_kinds());
+    let step = text_of(&equal, "step", "platform.step");
+    assert_eq!((step.matches("PRODUCT('leg'").count(), step.matches("PRODUCT('rod'").count()), (1, 1));
+    // other joints at one leg: two parts at that body
+    let mut mixed = design(SYMMETRIC);
+    mixed.hardware.base_swing = Some(Swing::of_all(20.0, JointAxes::Home));
+    if let Some(swing) = &mut mixed.hardware.base_swing {
+        swing.limits_deg[2] = 25.0;
+    }
+    let text = text_of(&export_with(&mixed, &ExportOptions::default()), "step", "platform.step");
+    assert!(text.contains("'ball joint of the base, kind 2'") && text.contains("'leg, kind 2'"), "{text}");
+    assert!(!text.contains("'ball joint of the platform, kind"));
+}
+
+#[test]
+fn rods_stay_in_their_cylinders_over_the_stroke() {
+    let files = [
+        "bench-joint-free",
+        "simulator-300kg-built",
+        "chair-hung",
+        "isolator-3",
+        "linuxcnc-griffis-duffy",
+        "positioner-joint-free",
+    ];
+    for file in files {
+        let text = std::fs::read_to_string(format!("designs/worked/{file}.toml")).unwrap();
+        let export = Export::of(&design(&text), &ExportOptions::default()).unwrap();
+        let (least, greatest) = export.leg_range.unwrap();
+        for kind in export.leg_kinds() {
+            let t = export.telescope(&kind).unwrap();
+            let near = 1e-12 * export.size;
+            assert!(t.range[0] <= least && t.range[1] >= greatest, "{file}: {t:?}");
+            assert!(t.foot < t.floor && t.floor < t.mouth && t.rod > 0.0, "{file}: {t:?}");
+            for k in 0..=20 {
+                let length = least + (greatest - least) * f64::from(k) / 20.0;
+                let tail = t.tail(length);
+                assert!(tail >= t.floor - near, "{file}: through the floor at {length}: {t:?}");
+                assert!(tail < t.mouth, "{file}: out of the cylinder at {length}: {t:?}");
+                // what is seen of the rod, and all of the leg
+                assert!((tail + t.rod + t.tip - length).abs() < near);
+            }
+            assert!(t.room() >= -near, "{file}: {t:?}");
+        }
+    }
+    // a stroke that no rod in one piece has, and a rod as wide as its cylinder: both are said, and the files are written
+    let mut long = design(SYMMETRIC);
+    long.hardware.leg_length = Some(LengthLimits::Range(200.0, 900.0));
+    let export = export_with(&long, &ExportOptions::default());
+    let t = export.telescope(&export.leg_kinds()[0]).unwrap();
+    assert!(t.held() < 0.0);
+    assert!(text_of(&export, "step", "platform.step").contains("out of its cylinder by up to"));
+    let mut wide = design(SYMMETRIC);
+    wide.hardware.leg_body = Some(LegBody { diameter: 10.0, rod: Some((200.0, 10.0)) });
+    let export = export_with(&wide, &ExportOptions::default());
+    let kind = &export.leg_kinds()[0];
+    let t = export.telescope(kind).unwrap();
+    assert!((t.tail(kind.length) - t.mouth).abs() < 1e-9 && t.floor >= t.mouth, "{t:?}");
+    assert!(text_of(&export, "step", "platform.step").contains("'rod'"));
+}
+
+/// Texts of a drawing that are read (not their outlines) with their places, of a class that holds `class`.
+fn labels(svg: &str, class: &str) -> Vec<(f64, f64, String)> {
+    let field = |line: &str, name: &str| -> String {
+        line.split(&format!(" {name}=\"")).nth(1).unwrap().split('"').next().unwrap().to_string()
+    };
+    let texts = svg.lines().filter(|l| l.starts_with("<text") && !l.contains("aria-hidden"));
+    texts
+        .filter(|l| field(l, "class").split(' ').any(|c| c == class))
+        .map(|l| {
+            let text = l.split('>').nth(1).unwrap().split('<').next().unwrap().to_string();
+            (field(l, "x").parse().unwrap(), field(l, "y").parse().unwrap(), text)
+        })
+        .collect()
+}
+
+/// Two labels that meet, by the mean width of the fonts: 0.6 of the size of nine pixels, from 0.72 of it above the line to 0.22 below.
+fn meeting(labels: &[(f64, f64, String)]) -> Option<(String, String)> {
+    let span = |l: &(f64, f64, String)| {
+        [l.0, l.0 + 0.6 * 9.0 * l.2.chars().count() as f64, l.1 - 0.72 * 9.0, l.1 + 0.22 * 9.0]
+    };
+    let pairs = labels.iter().enumerate().flat_map(|(i, a)| labels[i + 1..].iter().map(move |b| (a, b)));
+    pairs
+        .filter(|(a, b)| {
+            let (a, b) = (span(a), span(b));
+            a[0] < b[1] && b[0] < a[1] && a[2] < b[3] && b[2] < a[3]
+        })
+        .map(|(a, b)| (a.2.clone(), b.2.clone()))
+        .next()
+}
+
+#[test]
+#[ignore = "slow evidence"]
+fn no_label_of_a_drawing_covers_another() {
+    let mut drawn = 0;
+    for folder in ["designs", "designs/presets", "designs/worked"] {
+        let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+        paths.sort();
+        for path in paths.iter().filter(|p| p.extension().is_some_and(|e| e == "toml")) {
+            let text = std::fs::read_to_string(path).unwrap();
+            let Ok((design, _)) = crate::design::parse_with_cranks(&text, Format::Toml) else { continue };
+            let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("mm")).unwrap();
+            let options = ExportOptions::new().unit(unit);
+            let Ok(export) = Export::new(&design, design.home_or_default(), (vec![], vec![]), &options)
+            else {
+                continue;
+            };
+            let Ok(files) = export.files(ExportFormat::Drawing.writer()) else { continue };
+            let mut labels = labels(&files[0].text, "small");
+            let joints: usize = export.bodies.iter().map(|b| b.joints.len()).sum();
+            // joints, two origins and six legs in each of three views
+            assert_eq!(labels.len(), 3 * (joints + 2 + 6), "{}", path.display());
+            assert_eq!(meeting(&labels), None, "{}", path.display());
+            drawn += 1;
+            // a label on another is found
+            (labels[0].0, labels[0].1) = (labels[7].0 + 3.0, labels[7].1 - 2.0);
+            assert!(meeting(&labels).is_some());
+        }
+    }
+    assert!(drawn > 25, "{drawn}");
 }
 
 #[test]

@@ -37,6 +37,11 @@ pub(super) fn ascii(text: &str, write: impl Fn(char) -> String) -> String {
     one_line(text).chars().map(|c| if c.is_ascii() { c.to_string() } else { write(c) }).collect()
 }
 
+/// To a thousandth, which is what is meant in millimetres and kilograms.
+pub(super) fn rounded(x: f64) -> String {
+    real((x * 1e3).round() / 1e3)
+}
+
 /// Lines that each begin with `mark` and a space.
 pub(super) fn commented(mark: &str, lines: impl IntoIterator<Item = String>) -> String {
     let mut out = String::new();

@@ -9,6 +9,7 @@ mod contour;
 mod convergence;
 mod determinant;
 mod front;
+mod labels;
 mod locus;
 mod modes;
 mod motion;

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point2, Point3};
 
+use super::labels::{Labels, PageBox, text_box};
 use super::style::Svg;
 use crate::geom::convex_hull;
 
@@ -47,7 +48,13 @@ const CSS: &str = "\
 .hole{fill:#fff;stroke:#555;stroke-width:.7}\
 .bar{fill:#e8e4da;fill-opacity:.7;stroke:#6b6350;stroke-width:.7}\
 .ball{fill:#fff;fill-opacity:.6;stroke:#1a1a1a;stroke-width:.8}\
-.axis{stroke:#1a1a1a;stroke-width:.5;stroke-dasharray:7 2 1.5 2}";
+.axis{stroke:#1a1a1a;stroke-width:.5;stroke-dasharray:7 2 1.5 2}\
+.leader{stroke:#444;stroke-width:.5}";
+/// Sizes of the fonts of labels and notes, as in the style.
+const SMALL: f64 = 9.0;
+const NOTE: f64 = 11.0;
+/// Places along a leg at which its number may stand: on the rod, on the cylinder, towards the ends.
+const ALONG: [f64; 9] = [0.5, 0.6, 0.4, 0.7, 0.3, 0.8, 0.2, 0.55, 0.45];
 
 /// Axes of the three views: right and up. The top view stands above the front view, the view from the right beside it.
 const VIEWS: [(&str, usize, usize); 3] =
@@ -68,6 +75,7 @@ fn bounds(figure: &ThreeViewFigure) -> [(f64, f64); 3] {
 }
 
 /// The drawing: silhouettes of all parts, one over the other. All views have the same scale; the overall dimensions stand at each view.
+/// Joints, origins and legs have their names and numbers beside them, none over another.
 #[must_use]
 pub fn three_views(figure: &ThreeViewFigure) -> String {
     let bounds = bounds(figure);
@@ -76,16 +84,21 @@ pub fn three_views(figure: &ThreeViewFigure) -> String {
     let [wide, deep, high] = extent.map(|x| x * scale);
     let (second_column, second_row) = (MARGIN + wide + MARGIN, TOP + deep + MARGIN + 20.0);
     let (width, height) = (second_column + deep + MARGIN, second_row + high + MARGIN + 20.0);
-    let mut svg = Svg::new(width.max(420.0), height, &figure.title, &figure.note);
+    let width = width.max(420.0);
+    let mut svg = Svg::new(width, height, &figure.title, &figure.note);
+    let mut labels = Labels::on((width, height), SMALL);
     svg.style(CSS);
     svg.text("title", (MARGIN, 28.0), &figure.title);
     let corners = [(MARGIN, TOP), (MARGIN, second_row), (second_column, second_row)];
+    let mut named: Vec<((f64, f64), f64, &str)> = Vec::new();
+    let mut numbered: Vec<Vec<(f64, f64)>> = Vec::new();
     for ((name, across, up), corner) in VIEWS.into_iter().zip(corners) {
         let place = |p: &Point3<f64>| {
             let (right, rise) = (p[across] - bounds[across].0, bounds[up].1 - p[up]);
             (corner.0 + right * scale, corner.1 + rise * scale)
         };
         svg.text("note", (corner.0, corner.1 - 10.0), name);
+        labels.keep(text_box((corner.0, corner.1 - 10.0), name, NOTE));
         let silhouette = |points: &[Point3<f64>]| -> Vec<(f64, f64)> {
             let on_page: Vec<Point2<f64>> =
                 points.iter().map(|p| Point2::from(<[f64; 2]>::from(place(p)))).collect();
@@ -103,30 +116,58 @@ pub fn three_views(figure: &ThreeViewFigure) -> String {
             svg.polygon("bar", &silhouette(bar));
         }
         for [a, b] in &figure.legs {
-            svg.line("axis", place(a), place(b));
+            let (from, to) = (place(a), place(b));
+            svg.line("axis", from, to);
+            let at = |share: f64| (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
+            numbered.push(ALONG.map(at).to_vec());
         }
         for body in [&figure.base, &figure.platform] {
             for (label, p) in &body.joints {
                 let at = place(p);
                 let radius = 0.5 * body.ball * scale;
                 svg.circle("ball", at, radius);
-                svg.text("small halo", (at.0 + radius + 1.0, at.1 - radius), label);
+                labels.mark(at, radius);
+                named.push((at, radius, label));
             }
         }
-        for (label, origin) in ["O base", "O platform"].iter().zip(&figure.origins) {
+        for (label, origin) in ["O base", "O platform"].into_iter().zip(&figure.origins) {
             let (x, y) = place(origin);
             svg.line("tick", (x - 6.0, y), (x + 6.0, y));
             svg.line("tick", (x, y - 6.0), (x, y + 6.0));
-            svg.text("small halo", (x + 5.0, y + 12.0), label);
+            labels.mark((x, y), 6.0);
+            named.push(((x, y), 6.0, label));
         }
         let (w, h) = (extent[across] * scale, extent[up] * scale);
         let below = corner.1 + h + 14.0;
         svg.line("tick", (corner.0, below), (corner.0 + w, below));
-        svg.text("note mid", (corner.0 + 0.5 * w, below + 13.0), &format!("{:.3}", extent[across]));
+        let dimension = format!("{:.3}", extent[across]);
+        svg.text("note mid", (corner.0 + 0.5 * w, below + 13.0), &dimension);
+        let its = text_box((corner.0, below + 13.0), &dimension, NOTE);
+        let shift = 0.5 * (w - (its.right - its.left));
+        labels.keep(PageBox { left: its.left + shift, right: its.right + shift, ..its });
         let left = corner.0 - 14.0;
         svg.line("tick", (left, corner.1), (left, corner.1 + h));
-        svg.turned_text("note mid", (left - 5.0, corner.1 + 0.5 * h), -90.0, &format!("{:.3}", extent[up]));
+        let dimension = format!("{:.3}", extent[up]);
+        svg.turned_text("note mid", (left - 5.0, corner.1 + 0.5 * h), -90.0, &dimension);
+        let its = text_box((0.0, left - 5.0), &dimension, NOTE);
+        let (middle, half) = (corner.1 + 0.5 * h, 0.5 * (its.right - its.left));
+        labels.keep(PageBox { left: its.top, right: its.bottom, top: middle - half, bottom: middle + half });
     }
-    svg.text("note", (MARGIN, height - 12.0), &figure.note);
+    let note = (MARGIN, height - 12.0);
+    svg.text("note", note, &figure.note);
+    labels.keep(text_box(note, &figure.note, NOTE));
+    // over everything that is drawn
+    for (at, radius, label) in named {
+        labels.put_beside(at, radius, label);
+    }
+    for (k, points) in numbered.iter().enumerate() {
+        labels.put_on(points, &(k % figure.legs.len() + 1).to_string());
+    }
+    for label in labels.finish() {
+        if let Some([from, to]) = label.leader {
+            svg.line("leader", from, to);
+        }
+        svg.text("small halo", label.at, &label.text);
+    }
     svg.finish()
 }

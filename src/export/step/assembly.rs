@@ -23,6 +23,10 @@ struct Occurrence {
     name: String,
 }
 
+/// Parts that are placed together.
+#[derive(Debug, Default)]
+pub(super) struct Group(Vec<Occurrence>);
+
 /// An assembly under construction.
 #[derive(Debug)]
 pub(super) struct StepAssembly {
@@ -32,13 +36,12 @@ pub(super) struct StepAssembly {
     mm: f64,
     context: Id,
     geometry: Id,
-    occurrences: Vec<Occurrence>,
 }
 
 const HEADER_END: &str = "FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF { 1 0 10303 442 1 1 4 }'));\nENDSEC;\nDATA;\n";
 
 impl StepAssembly {
-    pub(super) fn new(export: &Export) -> Self {
+    pub(super) fn new(export: &Export, legs: Vec<String>) -> Self {
         let mut lines = export.heading("mm");
         lines.push("Assembly frame: the base frame; the platform is at home".to_string());
         // what no shape of the assembly says: the plate is where its joints are
@@ -48,6 +51,7 @@ impl StepAssembly {
             reals(place, " "),
             reals(export.home.quaternion(), " ")
         ));
+        lines.extend(legs);
         let description: Vec<String> = lines.iter().map(|l| string(l)).collect();
         // a time would make two runs differ
         let header = format!(
@@ -72,15 +76,15 @@ impl StepAssembly {
              GLOBAL_UNIT_ASSIGNED_CONTEXT(({length},{angle},{solid_angle}))REPRESENTATION_CONTEXT('','3D'))"
         ));
         let (name, mm) = (export.name.clone(), export.unit.millimetres);
-        Self { b, header, name, mm, context, geometry, occurrences: Vec::new() }
+        Self { b, header, name, mm, context, geometry }
     }
 
     /// A product with an empty place for its shape: its definition.
-    fn product(&mut self, name: &str) -> Id {
+    fn product(&mut self, name: &str, description: &str) -> Id {
         let (b, context) = (&mut self.b, self.context);
-        let name = string(name);
+        let (name, description) = (string(name), string(description));
         let kind = b.add(&format!("PRODUCT_CONTEXT('',{context},'mechanical')"));
-        let product = b.add(&format!("PRODUCT({name},{name},'',({kind}))"));
+        let product = b.add(&format!("PRODUCT({name},{name},{description},({kind}))"));
         b.add(&format!("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({product}))"));
         let formation = b.add(&format!("PRODUCT_DEFINITION_FORMATION('','',{product})"));
         let kind = b.add(&format!("PRODUCT_DEFINITION_CONTEXT('part definition',{context},'design')"));
@@ -96,9 +100,13 @@ impl StepAssembly {
         self.b.frame(&Point3::origin(), &Vector3::z(), &Vector3::x())
     }
 
-    /// A part with one solid.
-    pub(super) fn part(&mut self, name: &str, solid: impl FnOnce(&mut Builder) -> Id) -> Part {
-        let definition = self.product(name);
+    /// A part with one solid, and what there is to say about it.
+    pub(super) fn part(
+        &mut self,
+        (name, description): (&str, &str),
+        solid: impl FnOnce(&mut Builder) -> Id,
+    ) -> Part {
+        let definition = self.product(name, description);
         let (frame, solid) = (self.own_frame(), solid(&mut self.b));
         let shape = self.b.add(&format!(
             "ADVANCED_BREP_SHAPE_REPRESENTATION({},{},{})",
@@ -110,35 +118,35 @@ impl StepAssembly {
         Part { definition, shape, frame }
     }
 
-    /// Puts a part into the assembly at a frame in design units.
-    pub(super) fn place(&mut self, part: Part, name: &str, at: &Pose) {
+    /// Puts a part into a group at a frame in design units.
+    pub(super) fn place(&mut self, group: &mut Group, part: Part, name: &str, at: &Pose) {
         let axes = at.rotation.matrix();
         let frame = self.b.frame(
             &Point3::from(at.position * self.mm),
             &axes.column(2).into(),
             &axes.column(0).into(),
         );
-        self.occurrences.push(Occurrence { part, frame, name: name.to_string() });
+        group.0.push(Occurrence { part, frame, name: name.to_string() });
     }
 
-    /// The file.
-    pub(super) fn finish(mut self) -> String {
-        let name = self.name.clone();
-        let whole = self.product(&name);
-        let mut frames = vec![self.own_frame()];
-        frames.extend(self.occurrences.iter().map(|o| o.frame));
+    /// A part made of those of a group.
+    pub(super) fn assembled(&mut self, name: &str, description: &str, group: &Group) -> Part {
+        let definition = self.product(name, description);
+        let own = self.own_frame();
+        let mut frames = vec![own];
+        frames.extend(group.0.iter().map(|o| o.frame));
         let shape = self.b.add(&format!(
             "SHAPE_REPRESENTATION({},{},{})",
-            string(&name),
+            string(name),
             list(&frames),
             self.geometry
         ));
-        self.has_shape(whole, shape);
+        self.has_shape(definition, shape);
         let b = &mut self.b;
-        for (k, Occurrence { part, frame, name }) in self.occurrences.iter().enumerate() {
+        for (k, Occurrence { part, frame, name }) in group.0.iter().enumerate() {
             let name = string(name);
             let used = b.add(&format!(
-                "NEXT_ASSEMBLY_USAGE_OCCURRENCE('{}',{name},'',{whole},{},$)",
+                "NEXT_ASSEMBLY_USAGE_OCCURRENCE('{}',{name},'',{definition},{},$)",
                 k + 1,
                 part.definition
             ));
@@ -151,6 +159,13 @@ impl StepAssembly {
             ));
             b.add(&format!("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION({related},{property})"));
         }
+        Part { definition, shape, frame: own }
+    }
+
+    /// The file, whose whole is made of the parts of a group.
+    pub(super) fn finish(mut self, group: &Group) -> String {
+        let name = self.name.clone();
+        self.assembled(&name, "", group);
         format!("{}{}ENDSEC;\nEND-ISO-10303-21;\n", self.header, self.b.finish())
     }
 }

@@ -1,4 +1,6 @@
-//! STEP AP242 (ISO 10303-242) assembly: plates, balls, cylinders and rods as exact solids.
+//! STEP AP242 (ISO 10303-242) assembly: base and platform with plate and joints, and legs with cylinder and rod, as exact solids.
+//!
+//! Legs of a kind are places of one part. Its rod stands in the bore of its cylinder as it does at home; both fit over the whole stroke ([`Telescope`]).
 
 mod assembly;
 mod builder;
@@ -6,8 +8,10 @@ mod solids;
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use self::assembly::StepAssembly;
-use super::{Export, ExportedFile, Plate, Unsupported, Writer};
+use self::assembly::{Group, Part, StepAssembly};
+use super::telescope::{LegKind, Telescope};
+use super::text::rounded;
+use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
 use crate::geom::{Pose, any_across};
 
 /// The format `step`.
@@ -20,11 +24,11 @@ impl Writer for StepFile {
     }
 
     fn purpose(&self) -> &'static str {
-        "AP242 assembly at home (millimetres): plates with holes, balls, cylinders and rods as exact solids, for CAD"
+        "AP242 assembly at home (millimetres): plates with holes, joints, and legs with rods that run in their cylinders, as exact solids, for CAD"
     }
 
     fn leaves_out(&self) -> &'static str {
-        "joints as constraints: the parts stand at home; legs that share a ball run into each other near it"
+        "joints as constraints: the parts stand at home; a joint is drawn as a ball whatever its kind and housing, which its part names; legs that share a ball run into each other near it"
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
@@ -51,46 +55,103 @@ fn plate_frame(plate: &Plate) -> Pose {
     Pose { rotation: Rotation3::from_matrix_unchecked(plate.axes), position: plate.origin.coords }
 }
 
+/// Plate, joints and posts of a body in its own frame.
+fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Part, Unsupported> {
+    let mm = export.unit.millimetres;
+    let plate = body.plate()?;
+    let frame = plate_frame(plate);
+    let mut group = Group::default();
+    let name = format!("{} plate", body.body);
+    let material = plate.material.as_deref().unwrap_or_default();
+    let part = a.part((&name, material), |b| solids::plate(b, &name, plate, mm));
+    a.place(&mut group, part, &name, &frame);
+    let kinds = export.joint_kinds(body);
+    for (k, (sort, joints)) in kinds.iter().enumerate() {
+        let kind = if kinds.len() == 1 { String::new() } else { format!(", kind {}", k + 1) };
+        let name = format!("{} joint of the {}{kind}", sort.models, body.body);
+        let ball =
+            a.part((&name, &sort.description(mm)), |b| solids::ball(b, &name, body.ball_diameter * mm));
+        for joint in body.joints.iter().filter(|j| joints.contains(&j.name.as_str())) {
+            let at = Pose { rotation: Rotation3::identity(), position: joint.at.coords };
+            a.place(&mut group, ball, &joint.name, &at);
+        }
+    }
+    for hole in plate.holes.iter().filter(|h| h.post > 0.0) {
+        let name = format!("post of {}", hole.joints.join("/"));
+        let (diameter, height) = (plate.post_diameter * mm, hole.post * mm);
+        let part = a.part((&name, material), |b| solids::cylinder(b, &name, diameter, height));
+        let foot = Vector3::new(hole.at.x, hole.at.y, plate.post_span(hole).0);
+        let local = Pose { rotation: Rotation3::identity(), position: foot };
+        a.place(&mut group, part, &name, &within(&frame, &local));
+    }
+    Ok(a.assembled(body.body.name(), "", &group))
+}
+
+/// What a leg of a kind does over its stroke, for the header.
+fn stroke(name: &str, kind: &LegKind, t: &Telescope, mm: f64) -> String {
+    let numbers: Vec<String> = kind.legs.iter().map(|i| (i + 1).to_string()).collect();
+    let [least, greatest] = t.range.map(|l| rounded(l * mm));
+    let mut out = format!(
+        "Part {name} (legs {}), {least} to {greatest} long: the rod of {} is ",
+        numbers.join(" "),
+        rounded(t.rod * mm)
+    );
+    if t.held() > 0.0 {
+        out += &format!("in its cylinder by {} or more", rounded(t.held() * mm));
+    } else {
+        out += &format!("out of its cylinder by up to {}", rounded(-t.held() * mm));
+    }
+    if t.room() < 0.0 {
+        out += &format!("; the cylinder meets the platform joint by up to {}", rounded(-t.room() * mm));
+    }
+    out
+}
+
+/// A leg of a kind from the origin along the third axis.
+fn leg(a: &mut StepAssembly, export: &Export, name: &str, kind: &LegKind, t: &Telescope) -> Part {
+    let mm = export.unit.millimetres;
+    let (thick, thin) = export.legs[kind.legs[0]].diameters;
+    let mut group = Group::default();
+    let up = |z: f64| Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, z) };
+    let height = (t.mouth - t.foot) * mm;
+    let part = a.part(("cylinder", ""), |b| {
+        if t.floor < t.mouth {
+            solids::sleeve(b, "cylinder", (thick * mm, thin * mm), ((t.floor - t.foot) * mm, height))
+        } else {
+            solids::cylinder(b, "cylinder", thick * mm, height)
+        }
+    });
+    a.place(&mut group, part, "cylinder", &up(t.foot));
+    let part = a.part(("rod", ""), |b| solids::cylinder(b, "rod", thin * mm, t.rod * mm));
+    a.place(&mut group, part, "rod", &up(t.tail(kind.length)));
+    a.assembled(name, "", &group)
+}
+
 fn assembly(export: &Export) -> Result<String, Unsupported> {
     let mm = export.unit.millimetres;
-    let mut a = StepAssembly::new(export);
+    let kinds = export.leg_kinds();
+    let named = |k: usize| if kinds.len() == 1 { "leg".to_owned() } else { format!("leg, kind {}", k + 1) };
+    let kinds: Vec<(String, &LegKind, Telescope)> = (kinds.iter().enumerate())
+        .map(|(k, kind)| Ok((named(k), kind, export.telescope(kind)?)))
+        .collect::<Result<_, _>>()?;
+    let lines = kinds.iter().map(|(name, kind, t)| stroke(name, kind, t, mm)).collect();
+    let mut a = StepAssembly::new(export, lines);
+    let mut whole = Group::default();
     let base_frame = Pose { rotation: Rotation3::identity(), position: Vector3::zeros() };
-    for (body, placed) in export.bodies.iter().zip([base_frame, export.home]) {
-        let plate = body.plate()?;
-        let frame = within(&placed, &plate_frame(plate));
-        let name = format!("{} plate", body.body);
-        let part = a.part(&name, |b| solids::plate(b, &name, plate, mm));
-        a.place(part, &name, &frame);
-        let name = format!("ball of the {}", body.body);
-        let ball = a.part(&name, |b| solids::ball(b, &name, body.ball_diameter * mm));
-        for joint in &body.joints {
-            let at = Pose { rotation: placed.rotation, position: placed.transform(&joint.at).coords };
-            a.place(ball, &joint.name, &at);
-        }
-        for hole in plate.holes.iter().filter(|h| h.post > 0.0) {
-            let name = format!("post of {}", hole.joints.join("/"));
-            let part =
-                a.part(&name, |b| solids::cylinder(b, &name, plate.post_diameter * mm, hole.post * mm));
-            let foot = Vector3::new(hole.at.x, hole.at.y, plate.post_span(hole).0);
-            let local = Pose { rotation: Rotation3::identity(), position: foot };
-            a.place(part, &name, &within(&frame, &local));
+    for (of, placed) in export.bodies.iter().zip([base_frame, export.home]) {
+        let part = body(&mut a, export, of)?;
+        a.place(&mut whole, part, of.body.name(), &placed);
+    }
+    let mut parts: [Option<Part>; 6] = [None; 6];
+    for (name, kind, t) in &kinds {
+        let part = leg(&mut a, export, name, kind, t);
+        for i in &kind.legs {
+            parts[*i] = Some(part);
         }
     }
-    let radii = [0, 1].map(|k: usize| 0.5 * export.bodies[k].ball_diameter);
-    for leg in &export.legs {
-        let (d, length) = (leg.direction()?, leg.length());
-        let (foot, head) = (radii[0], length - radii[1]);
-        if !(foot < leg.cylinder && leg.cylinder < head) {
-            let taken = foot.max(leg.cylinder) + radii[1];
-            return Err(Unsupported::LegTooShort { leg: leg.number, length, taken });
-        }
-        let pieces =
-            [("cylinder", foot, leg.cylinder, leg.diameters.0), ("rod", leg.cylinder, head, leg.diameters.1)];
-        for (what, from, to, diameter) in pieces {
-            let name = format!("{what} {}", leg.number);
-            let part = a.part(&name, |b| solids::cylinder(b, &name, diameter * mm, (to - from) * mm));
-            a.place(part, &name, &along(&(leg.foot + d * from), &d));
-        }
+    for (of, part) in export.legs.iter().zip(parts) {
+        let Some(part) = part else { continue };
+        a.place(&mut whole, part, &format!("leg {}", of.number), &along(&of.foot, &of.direction()?));
     }
-    Ok(a.finish())
+    Ok(a.finish(&whole))
 }

@@ -21,15 +21,15 @@ struct Tube {
 }
 
 impl Tube {
-    fn new(b: &mut Builder, centre: &Point2<f64>, radius: f64, height: f64) -> Self {
+    fn new(b: &mut Builder, centre: &Point2<f64>, radius: f64, (from, to): (f64, f64)) -> Self {
         let start = on_circle(centre, radius, 0.0);
-        let (low, high) = (at(&start, 0.0), at(&start, height));
+        let (low, high) = (at(&start, from), at(&start, to));
         let (v, w) = (b.vertex(&low), b.vertex(&high));
         Self {
-            below: b.round((v, v), &at(centre, 0.0), radius),
-            above: b.round((w, w), &at(centre, height), radius),
+            below: b.round((v, v), &at(centre, from), radius),
+            above: b.round((w, w), &at(centre, to), radius),
             seam: b.straight((v, w), &low, &high),
-            surface: b.cylinder(&at(centre, 0.0), radius),
+            surface: b.cylinder(&at(centre, from), radius),
         }
     }
 
@@ -86,7 +86,7 @@ pub(super) fn plate(b: &mut Builder, name: &str, plate: &Plate, mm: f64) -> Id {
     }
     let holes: Vec<Tube> = plate
         .all_holes()
-        .map(|(at, diameter)| Tube::new(b, &scaled(&at), 0.5 * diameter * mm, height))
+        .map(|(at, diameter)| Tube::new(b, &scaled(&at), 0.5 * diameter * mm, (0.0, height)))
         .collect();
     faces.extend(holes.iter().map(|h| h.face(b, true)).collect::<Vec<_>>());
     let up: Vec<(Id, bool)> = above.iter().map(|e| (*e, true)).collect();
@@ -105,7 +105,7 @@ pub(super) fn plate(b: &mut Builder, name: &str, plate: &Plate, mm: f64) -> Id {
 
 /// A cylinder on the origin along z, millimetres.
 pub(super) fn cylinder(b: &mut Builder, name: &str, diameter: f64, height: f64) -> Id {
-    let tube = Tube::new(b, &Point2::origin(), 0.5 * diameter, height);
+    let tube = Tube::new(b, &Point2::origin(), 0.5 * diameter, (0.0, height));
     let side = tube.face(b, false);
     let top = b.edge_loop(&[(tube.above, true)]);
     let surface = b.plane(&Point3::new(0.0, 0.0, height), &Vector3::z(), &Vector3::x());
@@ -114,6 +114,31 @@ pub(super) fn cylinder(b: &mut Builder, name: &str, diameter: f64, height: f64) 
     let surface = b.plane(&Point3::origin(), &-Vector3::z(), &Vector3::x());
     let bottom = b.face(bottom, &[], surface, true);
     b.solid(name, &[side, top, bottom])
+}
+
+/// A cylinder on the origin along z with a bore of another diameter that begins at `floor` and is open above, millimetres.
+pub(super) fn sleeve(
+    b: &mut Builder,
+    name: &str,
+    (diameter, bore): (f64, f64),
+    (floor, height): (f64, f64),
+) -> Id {
+    let centre = Point2::origin();
+    let (outer, inner) = (
+        Tube::new(b, &centre, 0.5 * diameter, (0.0, height)),
+        Tube::new(b, &centre, 0.5 * bore, (floor, height)),
+    );
+    let sides = [outer.face(b, false), inner.face(b, true)];
+    let (rim, opening) = (b.edge_loop(&[(outer.above, true)]), b.edge_loop(&[(inner.above, false)]));
+    let surface = b.plane(&Point3::new(0.0, 0.0, height), &Vector3::z(), &Vector3::x());
+    let top = b.face(rim, &[opening], surface, true);
+    let around = b.edge_loop(&[(inner.below, true)]);
+    let surface = b.plane(&Point3::new(0.0, 0.0, floor), &Vector3::z(), &Vector3::x());
+    let ground = b.face(around, &[], surface, true);
+    let around = b.edge_loop(&[(outer.below, false)]);
+    let surface = b.plane(&Point3::origin(), &-Vector3::z(), &Vector3::x());
+    let bottom = b.face(around, &[], surface, true);
+    b.solid(name, &[sides[0], sides[1], top, ground, bottom])
 }
 
 /// A ball about the origin, two half spheres, millimetres.

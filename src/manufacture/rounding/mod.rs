@@ -143,6 +143,18 @@ impl Rounding {
         let kept = exact.filter(|e| e.judgement.objective >= keep * self.wanted.objective);
         kept.map(|e| &e.manipulator).or(nearest.map(|n| &n.manipulator)).or(exact.map(|e| &e.manipulator))
     }
+
+    /// Where the rule chooses none: of the roundings the one that misses the requirements least, the exact one of equals.
+    ///
+    /// What a rounding misses is the greatest share by which a margin is below 0: of what is limited, or of the size of the design.
+    pub(crate) fn least_missed(&self, required: &Requirements, size: f64) -> Option<&Manipulator> {
+        let exact =
+            self.exact.as_ref().ok().map(|e| (&e.manipulator, e.judgement.missed_share(required, size)));
+        let nearest =
+            self.nearest.as_ref().ok().map(|n| (&n.manipulator, n.judgement.missed_share(required, size)));
+        let better = |a: (_, f64), b: (_, f64)| if b.1 < a.1 { b } else { a };
+        exact.into_iter().chain(nearest).reduce(better).map(|(m, _)| m)
+    }
 }
 
 /// Puts the joints of a design with planar bodies on grids, in two ways.
@@ -295,6 +307,17 @@ pub struct Judgement {
     pub met: bool,
     /// No margin is below the reserve on it either.
     pub reserve_kept: bool,
+}
+
+impl Judgement {
+    /// By how much a requirement is missed at most, as a share of what is limited, or of the size of the design; 0 where none is.
+    fn missed_share(&self, required: &Requirements, size: f64) -> f64 {
+        let share = |(kind, margin): &(TermKind, f64)| {
+            let whole = required.whole(*kind);
+            -margin / if whole > 0.0 { whole } else { size }
+        };
+        self.margins.iter().map(share).fold(0.0, f64::max)
+    }
 }
 
 /// What a rounding keeps of the requirements at the poses looked at, least first.

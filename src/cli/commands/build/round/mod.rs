@@ -17,9 +17,9 @@ use crate::design::Design;
 use crate::entrance::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use crate::equivalence::{Verdict, Verification};
 use crate::manipulator::{Body, Manipulator};
-use crate::manufacture::{Judgement, NoRounding, Rounding};
+use crate::manufacture::{NoRounding, Rounding};
 use crate::records::{AssessAnswer, VariantWord};
-use crate::requirements::{Grid, HoleCircles, HolePattern, Requirements, TermKind};
+use crate::requirements::{Grid, HoleCircles, HolePattern};
 
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
@@ -110,42 +110,29 @@ struct Choice<'a> {
     grids: &'a [Option<Grid>; 2],
 }
 
-fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
+/// The two roundings, the exact one first, where there are.
+fn choices(found: &Rounding) -> [Option<Choice<'_>>; 2] {
     let exact = found.exact.as_ref().ok();
     let exact =
         exact.map(|e| Choice { way: RoundingWay::Exact, manipulator: &e.manipulator, grids: &e.grids });
     let nearest = found.nearest.as_ref().ok();
     let nearest =
         nearest.map(|n| Choice { way: RoundingWay::Nearest, manipulator: &n.manipulator, grids: &n.grids });
+    [exact, nearest]
+}
+
+fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
+    let [exact, nearest] = choices(found);
     match variant {
         Variant::Exact => exact,
         Variant::Nearest => nearest,
-        Variant::Rule => {
-            let choice = found.choice(keep)?;
-            [exact, nearest].into_iter().flatten().find(|c| std::ptr::eq(c.manipulator, choice))
-        }
+        Variant::Rule => with(found, found.choice(keep)?),
     }
 }
 
-/// By how much a rounding misses a requirement at most, as a share of what is limited, or of the size of the design; 0 where it misses none.
-fn missed_share(judgement: &Judgement, required: &Requirements, size: f64) -> f64 {
-    let share = |(kind, margin): &(TermKind, f64)| {
-        let whole = required.whole(*kind);
-        -margin / if whole > 0.0 { whole } else { size }
-    };
-    judgement.margins.iter().map(share).fold(0.0, f64::max)
-}
-
-/// Of roundings that all miss requirements the one that misses them least, the exact one of equals.
-fn least_missed<'a>(found: &'a Rounding, design: &Design) -> Option<Choice<'a>> {
-    let (required, size) = (design.requirements(), design.manipulator().size());
-    let missed = |judgement: &Judgement| missed_share(judgement, &required, size);
-    let exact =
-        chosen(found, Variant::Exact, 0.0).zip(found.exact.as_ref().ok().map(|e| missed(&e.judgement)));
-    let nearest =
-        chosen(found, Variant::Nearest, 0.0).zip(found.nearest.as_ref().ok().map(|n| missed(&n.judgement)));
-    let better = |a: (Choice<'a>, f64), b: (Choice<'a>, f64)| if b.1 < a.1 { b } else { a };
-    exact.into_iter().chain(nearest).reduce(better).map(|(choice, _)| choice)
+/// The choice of one of the two manipulators.
+fn with<'a>(found: &'a Rounding, m: &Manipulator) -> Option<Choice<'a>> {
+    choices(found).into_iter().flatten().find(|c| std::ptr::eq(c.manipulator, m))
 }
 
 /// The grids of the design, or of `--grid`, with what other options say of them.
@@ -228,7 +215,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Failure::refused(code, why.to_string())
     })?;
     let taken = chosen(&found, args.variant, args.keep);
-    let choice = taken.or_else(|| least_missed(&found, &design).filter(|_| args.variant == Variant::Rule));
+    let missing = || found.least_missed(&design.requirements(), design.manipulator().size());
+    let choice = match args.variant {
+        Variant::Rule => taken.or_else(|| with(&found, missing()?)),
+        _ => taken,
+    };
     let rounded = choice.map(|c| (VariantWord::from(c.way), design.on_holes(c.way, c.manipulator, c.grids)));
     let mut written = None;
     if let (Some(path), Some((_, rounded))) = (&args.output, &rounded) {

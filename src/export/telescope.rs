@@ -1,0 +1,108 @@
+//! Rods that run in their cylinders, and legs by kind.
+
+use super::parts::SAME_LENGTH;
+use super::{Export, ExportLeg, Unsupported};
+
+/// Cylinder and rod along the line of a leg, from the centre of its base joint, design units.
+///
+/// The cylinder begins at the ball of the base joint, is hollow from `floor` to its end, the `mouth`, and its bore is as wide as the rod, which ends at the ball of the platform joint.
+/// The rod is the longest one that fits when the leg is in: it reaches the floor at the least length, or fills the bore where the leg may be shorter than cylinder and joint are.
+/// A rod that is not thinner than its cylinder cannot run in it: there is no bore, and the rod begins at the mouth at home.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Telescope {
+    /// Where the cylinder begins.
+    pub(super) foot: f64,
+    /// Where its bore begins.
+    pub(super) floor: f64,
+    /// Where the cylinder ends.
+    pub(super) mouth: f64,
+    /// Length of the rod.
+    pub(super) rod: f64,
+    /// From the end of the rod to the centre of the platform joint.
+    pub(super) tip: f64,
+    /// Least and greatest length of the leg: the limits of the design, else those over the poses of workspace and trajectory that are listed; home is among them.
+    pub(super) range: [f64; 2],
+}
+
+impl Telescope {
+    /// Where the rod begins when the leg has a length.
+    pub(super) fn tail(&self, length: f64) -> f64 {
+        length - self.tip - self.rod
+    }
+
+    /// How much of the rod is inside the cylinder at the greatest length; negative where the rod would leave it.
+    pub(super) fn held(&self) -> f64 {
+        self.mouth - self.tail(self.range[1])
+    }
+
+    /// Room between the cylinder and the ball of the platform joint at the least length; negative where they would meet.
+    pub(super) fn room(&self) -> f64 {
+        self.range[0] - self.tip - self.mouth
+    }
+}
+
+/// Legs with the same joints and the same length at home.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct LegKind {
+    /// Length at home, design units.
+    pub(super) length: f64,
+    /// Indices of the legs.
+    pub(super) legs: Vec<usize>,
+    /// Least and greatest length over the listed poses, home among them, design units.
+    pub(super) lengths: [f64; 2],
+}
+
+/// Where the bore of a cylinder begins: its floor is as thick as its wall, and at most half of the cylinder.
+pub(super) fn floor(foot: f64, mouth: f64, (thick, thin): (f64, f64)) -> f64 {
+    if thin < thick { foot + (0.5 * (thick - thin)).min(0.5 * (mouth - foot)) } else { mouth }
+}
+
+impl Export {
+    /// Kinds of legs in the order of their first legs.
+    pub(super) fn leg_kinds(&self) -> Vec<LegKind> {
+        let mut kinds: Vec<LegKind> = Vec::new();
+        for (i, leg) in self.legs.iter().enumerate() {
+            let length = leg.length();
+            let alike = |kind: &&mut LegKind| {
+                (kind.length - length).abs() <= SAME_LENGTH * self.size
+                    && self.joint_sorts(kind.legs[0]) == self.joint_sorts(i)
+            };
+            match kinds.iter_mut().find(alike) {
+                Some(kind) => kind.legs.push(i),
+                None => kinds.push(LegKind { length, legs: vec![i], lengths: [length; 2] }),
+            }
+        }
+        for pose in self.workspace.iter().chain(&self.trajectory) {
+            let lengths = self.lengths_at(pose);
+            for kind in &mut kinds {
+                for i in &kind.legs {
+                    kind.lengths = [kind.lengths[0].min(lengths[*i]), kind.lengths[1].max(lengths[*i])];
+                }
+            }
+        }
+        kinds
+    }
+
+    /// Cylinder and rod of the legs of a kind.
+    ///
+    /// # Errors
+    /// [`Unsupported::LegTooShort`] where there is no room for a rod at home.
+    pub(super) fn telescope(&self, kind: &LegKind) -> Result<Telescope, Unsupported> {
+        let leg: &ExportLeg = &self.legs[kind.legs[0]];
+        let [foot, tip] = [0, 1].map(|k: usize| 0.5 * self.bodies[k].ball_diameter);
+        let (mouth, length) = (leg.cylinder, kind.length);
+        if !(foot < mouth && mouth < length - tip) {
+            let taken = foot.max(mouth) + tip;
+            return Err(Unsupported::LegTooShort { leg: leg.number, length, taken });
+        }
+        let floor = floor(foot, mouth, leg.diameters);
+        // limits of all legs give all of them one rod
+        let range = self.leg_range.map_or(kind.lengths, |(least, greatest)| {
+            let homes = self.legs.iter().map(ExportLeg::length);
+            [homes.clone().fold(least, f64::min), homes.fold(greatest, f64::max)]
+        });
+        let least = if floor < mouth { range[0].max(mouth + tip) } else { length };
+        let rod = least - tip - floor;
+        Ok(Telescope { foot, floor, mouth, rod, tip, range })
+    }
+}

@@ -1,0 +1,198 @@
+//! Places for labels beside what they name, so that none covers another.
+
+/// A box on the page, pixels; y runs downwards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PageBox {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) right: f64,
+    pub(super) bottom: f64,
+}
+
+impl PageBox {
+    fn meets(&self, other: &Self) -> bool {
+        self.left < other.right
+            && other.left < self.right
+            && self.top < other.bottom
+            && other.top < self.bottom
+    }
+
+    fn is_inside(&self, other: &Self) -> bool {
+        self.left >= other.left
+            && self.right <= other.right
+            && self.top >= other.top
+            && self.bottom <= other.bottom
+    }
+}
+
+/// What a text takes at most in the fonts of the style, as shares of their size: digits, small letters and capitals of the widest of them, and the rest as wide as high.
+fn width(text: &str, size: f64) -> f64 {
+    let share = |c: char| match c {
+        'M' | 'W' | 'm' | 'w' | '@' | '%' => 1.0,
+        'A'..='Z' => 0.78,
+        ' '..='~' => 0.64,
+        _ => 1.0,
+    };
+    size * text.chars().map(share).sum::<f64>()
+}
+
+/// Above and below the line a text stands on, as shares of the size of the font.
+const ASCENT: f64 = 0.8;
+const DESCENT: f64 = 0.25;
+
+/// The box of a text that begins at a point of its line.
+pub(super) fn text_box(at: (f64, f64), text: &str, size: f64) -> PageBox {
+    PageBox {
+        left: at.0,
+        right: at.0 + width(text, size),
+        top: at.1 - ASCENT * size,
+        bottom: at.1 + DESCENT * size,
+    }
+}
+
+/// Directions from a point to its label: right above it first, then around it.
+const AROUND: [(f64, f64); 8] = [
+    (0.75, -0.75),
+    (1.0, 0.0),
+    (0.75, 0.75),
+    (0.0, -1.0),
+    (0.0, 1.0),
+    (-0.75, -0.75),
+    (-1.0, 0.0),
+    (-0.75, 0.75),
+];
+/// From one distance to the next, pixels.
+const STEP: f64 = 4.0;
+/// Distances that are tried.
+const RINGS: u32 = 60;
+/// Of these, those at which a label does not cover marks either.
+const NEAR: u32 = 4;
+
+/// A label and where it is.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct PlacedLabel {
+    pub(super) text: String,
+    /// Where its line begins.
+    pub(super) at: (f64, f64),
+    /// From what it names to the label, where it is not beside it.
+    pub(super) leader: Option<[(f64, f64); 2]>,
+}
+
+/// The labels of a page.
+#[derive(Debug)]
+pub(super) struct Labels {
+    page: PageBox,
+    size: f64,
+    texts: Vec<PageBox>,
+    marks: Vec<PageBox>,
+    placed: Vec<PlacedLabel>,
+}
+
+impl Labels {
+    /// A page without labels, and the size of their font.
+    pub(super) fn on((width, height): (f64, f64), size: f64) -> Self {
+        let page = PageBox { left: 2.0, top: 2.0, right: width - 2.0, bottom: height - 2.0 };
+        Self { page, size, texts: Vec::new(), marks: Vec::new(), placed: Vec::new() }
+    }
+
+    /// Keeps all labels away from a text.
+    pub(super) fn keep(&mut self, text: PageBox) {
+        self.texts.push(text);
+    }
+
+    /// Keeps labels away from a mark where there is room beside what they name.
+    pub(super) fn mark(&mut self, at: (f64, f64), radius: f64) {
+        self.marks.push(PageBox {
+            left: at.0 - radius,
+            right: at.0 + radius,
+            top: at.1 - radius,
+            bottom: at.1 + radius,
+        });
+    }
+
+    fn is_free(&self, place: &PageBox, with_marks: bool) -> bool {
+        let marks = if with_marks { &self.marks[..] } else { &[] };
+        place.is_inside(&self.page) && !self.texts.iter().chain(marks).any(|other| other.meets(place))
+    }
+
+    /// Puts a label on the first of these points where it covers no text and no mark, its middle at the point; else beside the first of them.
+    pub(super) fn put_on(&mut self, points: &[(f64, f64)], text: &str) {
+        let wide = width(text, self.size);
+        let start = |p: &(f64, f64)| (p.0 - 0.5 * wide, p.1 + 0.5 * (ASCENT - DESCENT) * self.size);
+        let free = points.iter().map(start).find(|at| self.is_free(&text_box(*at, text, self.size), true));
+        match (free, points.first()) {
+            (Some(at), _) => self.put(at, text, None),
+            (None, Some(first)) => self.put_beside(*first, 1.0, text),
+            (None, None) => {}
+        }
+    }
+
+    /// Puts a label beside a point, beyond a radius around it: at the first distance and in the first direction where it covers no text, near the point no mark either.
+    pub(super) fn put_beside(&mut self, point: (f64, f64), radius: f64, text: &str) {
+        let (wide, size) = (width(text, self.size), self.size);
+        let side = |d: f64| 0.5 * (d.signum() * f64::from(u8::from(d != 0.0)) - 1.0);
+        let candidate = |ring: u32, d: (f64, f64)| {
+            let far = radius + 1.0 + STEP * f64::from(ring);
+            let (left, top) = (
+                point.0 + d.0 * far + wide * side(d.0),
+                point.1 + d.1 * far + (ASCENT + DESCENT) * size * side(d.1),
+            );
+            (left, top + ASCENT * size)
+        };
+        let tries = |rings: u32| (0..rings).flat_map(|ring| AROUND.map(|d| (ring, candidate(ring, d))));
+        let fits = |at: &(f64, f64), with_marks: bool| self.is_free(&text_box(*at, text, size), with_marks);
+        let near = tries(NEAR).find(|(_, at)| fits(at, true));
+        let found = near.or_else(|| tries(RINGS).find(|(_, at)| fits(at, false)));
+        // a page without room: where it would be by itself
+        let (ring, at) = found.unwrap_or((0, candidate(0, AROUND[0])));
+        let to = text_box(at, text, size);
+        let leader =
+            (ring > 1).then(|| [point, (point.0.clamp(to.left, to.right), point.1.clamp(to.top, to.bottom))]);
+        self.put(at, text, leader);
+    }
+
+    fn put(&mut self, at: (f64, f64), text: &str, leader: Option<[(f64, f64); 2]>) {
+        self.texts.push(text_box(at, text, self.size));
+        self.placed.push(PlacedLabel { text: text.to_owned(), at, leader });
+    }
+
+    /// The labels in the order in which they were put.
+    pub(super) fn finish(self) -> Vec<PlacedLabel> {
+        self.placed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_of_one_point_stand_around_it_without_meeting() {
+        let mut labels = Labels::on((200.0, 200.0), 9.0);
+        for k in 0..12 {
+            labels.put_beside((100.0, 100.0), 5.0, &format!("A{k}_B{k}"));
+        }
+        let placed = labels.finish();
+        let boxes: Vec<PageBox> = placed.iter().map(|l| text_box(l.at, &l.text, 9.0)).collect();
+        for (i, a) in boxes.iter().enumerate() {
+            assert!(boxes[i + 1..].iter().all(|b| !a.meets(b)), "{placed:?}");
+        }
+        // the first is right above the point, the last are further away and lead to it
+        assert!(placed[0].at.0 > 100.0 && placed[0].at.1 < 100.0 && placed[0].leader.is_none());
+        assert_eq!(placed[11].leader.unwrap()[0], (100.0, 100.0));
+        // and two at one place do meet
+        assert!(boxes[0].meets(&boxes[0]));
+    }
+
+    #[test]
+    fn a_label_on_a_line_goes_where_no_mark_is() {
+        let mut labels = Labels::on((200.0, 200.0), 9.0);
+        labels.mark((50.0, 50.0), 6.0);
+        labels.put_on(&[(50.0, 50.0), (80.0, 80.0)], "1");
+        labels.put_on(&[(50.0, 50.0)], "2");
+        let placed = labels.finish();
+        let middle = text_box(placed[0].at, "1", 9.0);
+        assert!((0.5 * (middle.left + middle.right) - 80.0).abs() < 1e-9);
+        assert!(!text_box(placed[1].at, "2", 9.0).meets(&middle));
+    }
+}
