@@ -155,19 +155,19 @@ fn the_design_with_long_numbers_is_decided() {
 /// Iterations over matrices with entries next to nothing have to end: `check` went on for minutes, or without end.
 #[test]
 fn check_ends_whatever_the_magnitudes() {
-    check_ends(35, 6);
+    check_ends(6);
 }
 
 #[test]
 #[ignore = "slow evidence"]
 fn check_ends_whatever_more_magnitudes() {
-    check_ends(36, 24);
+    check_ends(30);
 }
 
-fn check_ends(seed: u64, count: usize) {
+fn check_ends(count: usize) {
     let text = std::fs::read_to_string("tests/fixtures/adversarial/REP_checkslow.toml").unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let mut rng = Rng::new(seed);
+    let mut rng = Rng::new(35);
     for k in 0..count {
         // the zeros of the design become numbers of these magnitudes as well
         let tiny = ["5e-324", "2.5e-321", "1e-310", "3e-308", "1e-200", "1e-160"][k % 6];
