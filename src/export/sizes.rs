@@ -281,7 +281,7 @@ impl LegSizes {
             choices,
             "cylinder length from the base joint",
             [(body.and_then(|b| b.rod.map(|r| r.0)), "[hardware]")],
-            (by_rule, if by_rule < half || by_rule > half { RULE_STROKE } else { RULE_CYLINDER }),
+            (by_rule, if by_rule.total_cmp(&half).is_eq() { RULE_CYLINDER } else { RULE_STROKE }),
         );
         Self { cylinder_diameter, rod_diameter, cylinder_length }
     }

@@ -23,7 +23,7 @@ mod tests {
     #[test]
     fn a_rotation_is_that_of_its_vector_at_all_angles() {
         let rng = &mut Rng::new(7);
-        for angle in [0.0, 1e-300, 1e-17, 1e-12, 1e-8, 1e-4, 1.0, 3.0, 3.1415, std::f64::consts::PI - 1e-9] {
+        for angle in [0.0, 1e-300, 1e-17, 1e-12, 1e-8, 1e-4, 1.0, 3.0, 3.1, std::f64::consts::PI - 1e-9] {
             for _ in 0..20 {
                 let axis = random_rotation(rng) * Vector3::x();
                 let w = axis * angle;

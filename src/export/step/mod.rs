@@ -91,20 +91,18 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Part
 fn stroke(name: &str, kind: &LegKind, t: &Telescope, mm: f64) -> String {
     let numbers: Vec<String> = kind.legs.iter().map(|i| (i + 1).to_string()).collect();
     let [least, greatest] = t.range.map(|l| rounded(l * mm));
-    let mut out = format!(
-        "Part {name} (legs {}), {least} to {greatest} long: the rod of {} is ",
-        numbers.join(" "),
-        rounded(t.rod * mm)
-    );
-    if t.held() > 0.0 {
-        out += &format!("in its cylinder by {} or more", rounded(t.held() * mm));
+    let (numbers, rod) = (numbers.join(" "), rounded(t.rod * mm));
+    let held = if t.held() > 0.0 {
+        format!("in its cylinder by {} or more", rounded(t.held() * mm))
     } else {
-        out += &format!("out of its cylinder by up to {}", rounded(-t.held() * mm));
-    }
-    if t.room() < 0.0 {
-        out += &format!("; the cylinder meets the platform joint by up to {}", rounded(-t.room() * mm));
-    }
-    out
+        format!("out of its cylinder by up to {}", rounded(-t.held() * mm))
+    };
+    let met = if t.room() < 0.0 {
+        format!("; the cylinder meets the platform joint by up to {}", rounded(-t.room() * mm))
+    } else {
+        String::new()
+    };
+    format!("Part {name} (legs {numbers}), {least} to {greatest} long: the rod of {rod} is {held}{met}")
 }
 
 /// A leg of a kind from the origin along the third axis.
