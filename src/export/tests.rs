@@ -411,31 +411,32 @@ fn meeting(labels: &[(f64, f64, String)]) -> Option<(String, String)> {
 #[ignore = "slow evidence"]
 fn no_label_of_a_drawing_covers_another() {
     let mut drawn = 0;
+    let mut paths = Vec::new();
     for folder in ["designs", "designs/presets", "designs/worked"] {
-        let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
-        paths.sort();
-        for path in paths.iter().filter(|p| p.extension().is_some_and(|e| e == "toml")) {
-            let text = std::fs::read_to_string(path).unwrap();
-            let Ok((design, _)) = crate::design::parse_with_cranks(&text, Format::Toml) else { continue };
-            let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("mm")).unwrap();
-            let options = ExportOptions::new().unit(unit);
-            let Ok(export) = Export::new(&design, design.home_or_default(), (vec![], vec![]), &options)
-            else {
-                continue;
-            };
-            let Ok(files) = export.files(ExportFormat::Drawing.writer()) else { continue };
-            let mut labels = labels(&files[0].text, "small");
-            let joints: usize = export.bodies.iter().map(|b| b.joints.len()).sum();
-            // joints, two origins and six legs in each of three views
-            assert_eq!(labels.len(), 3 * (joints + 2 + 6), "{}", path.display());
-            assert_eq!(meeting(&labels), None, "{}", path.display());
-            drawn += 1;
-            // a label on another is found
-            (labels[0].0, labels[0].1) = (labels[7].0 + 3.0, labels[7].1 - 2.0);
-            assert!(meeting(&labels).is_some());
-        }
+        paths.extend(std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()));
     }
-    assert!(drawn > 25, "{drawn}");
+    paths.sort();
+    // the silhouettes of a drawing take seconds in the profile of tests: one in four
+    for path in paths.iter().filter(|p| p.extension().is_some_and(|e| e == "toml")).step_by(4) {
+        let text = std::fs::read_to_string(path).unwrap();
+        let Ok((design, _)) = crate::design::parse_with_cranks(&text, Format::Toml) else { continue };
+        let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("mm")).unwrap();
+        let options = ExportOptions::new().unit(unit);
+        let Ok(export) = Export::new(&design, design.home_or_default(), (vec![], vec![]), &options) else {
+            continue;
+        };
+        let Ok(files) = export.files(ExportFormat::Drawing.writer()) else { continue };
+        let mut labels = labels(&files[0].text, "small");
+        let joints: usize = export.bodies.iter().map(|b| b.joints.len()).sum();
+        // joints, two origins and six legs in each of three views
+        assert_eq!(labels.len(), 3 * (joints + 2 + 6), "{}", path.display());
+        assert_eq!(meeting(&labels), None, "{}", path.display());
+        drawn += 1;
+        // a label on another is found
+        (labels[0].0, labels[0].1) = (labels[7].0 + 3.0, labels[7].1 - 2.0);
+        assert!(meeting(&labels).is_some());
+    }
+    assert!(drawn > 6, "{drawn}");
 }
 
 #[test]
