@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use super::telescope::LegKind;
 use super::text::{commented, csv_field, real, rounded};
 use super::{Export, ExportBody, Plate};
 use crate::manipulator::Body;
@@ -221,14 +220,10 @@ impl Export {
     fn legs_by_kind(&self, out: &mut Vec<PartLine>) {
         let mm = self.unit.millimetres;
         let mixed = (1..6).any(|leg| self.joint_sorts(leg) != self.joint_sorts(0));
-        let kinds = self.leg_kinds();
-        let name =
-            |k: usize| if kinds.len() == 1 { "leg".to_owned() } else { format!("leg, kind {}", k + 1) };
-        for (k, LegKind { length, legs, lengths }) in kinds.iter().enumerate() {
-            let numbers: Vec<String> = legs.iter().map(|i| (i + 1).to_string()).collect();
-            let mut remark = format!("legs {}", numbers.join(" "));
+        for kind in self.leg_kinds() {
+            let mut remark = kind.numbers();
             if mixed {
-                let [base, platform] = self.joint_sorts(legs[0]);
+                let [base, platform] = self.joint_sorts(kind.legs[0]);
                 let _ = write!(remark, "; {} at the base, {} at the platform", base.models, platform.models);
             }
             if let Some((least, greatest)) = self.leg_range {
@@ -239,9 +234,9 @@ impl Export {
                 let _ = write!(remark, ", {} N", rounded(force));
             }
             out.push(PartLine {
-                length: Some(length * mm),
-                lengths: Some(lengths.map(|l| l * mm)),
-                ..PartLine::new(name(k), legs.len(), remark)
+                length: Some(kind.length * mm),
+                lengths: Some(kind.lengths.map(|l| l * mm)),
+                ..PartLine::new(kind.name("leg"), kind.legs.len(), remark)
             });
         }
     }

@@ -44,12 +44,32 @@ impl Telescope {
 /// Legs with the same joints and the same length at home.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LegKind {
+    /// What comes after the names of its parts: nothing where all legs are of one kind.
+    pub(super) suffix: String,
     /// Length at home, design units.
     pub(super) length: f64,
     /// Indices of the legs.
     pub(super) legs: Vec<usize>,
     /// Least and greatest length over the listed poses, home among them, design units.
     pub(super) lengths: [f64; 2],
+}
+
+impl LegKind {
+    /// The name of a part of it.
+    pub(super) fn name(&self, part: &str) -> String {
+        format!("{part}{}", self.suffix)
+    }
+
+    /// The numbers of its legs.
+    pub(super) fn numbers(&self) -> String {
+        let numbers: Vec<String> = self.legs.iter().map(|i| (i + 1).to_string()).collect();
+        format!("legs {}", numbers.join(" "))
+    }
+}
+
+/// What tells the names of things of one kind out of `count` from those of the others.
+pub(super) fn kind_suffix(k: usize, count: usize) -> String {
+    if count == 1 { String::new() } else { format!(", kind {}", k + 1) }
 }
 
 /// Where the bore of a cylinder begins: its floor is as thick as its wall, and at most half of the cylinder.
@@ -69,7 +89,14 @@ impl Export {
             };
             match kinds.iter_mut().find(alike) {
                 Some(kind) => kind.legs.push(i),
-                None => kinds.push(LegKind { length, legs: vec![i], lengths: [length; 2] }),
+                None => {
+                    kinds.push(LegKind {
+                        suffix: String::new(),
+                        length,
+                        legs: vec![i],
+                        lengths: [length; 2],
+                    });
+                }
             }
         }
         for pose in self.workspace.iter().chain(&self.trajectory) {
@@ -79,6 +106,10 @@ impl Export {
                     kind.lengths = [kind.lengths[0].min(lengths[*i]), kind.lengths[1].max(lengths[*i])];
                 }
             }
+        }
+        let count = kinds.len();
+        for (k, kind) in kinds.iter_mut().enumerate() {
+            kind.suffix = kind_suffix(k, count);
         }
         kinds
     }

@@ -102,11 +102,6 @@ pub(crate) fn combination(columns: &[[Interval; 6]], cell: &ChartCell) -> [Inter
     out
 }
 
-/// Rotation vector that turns one rotation into another.
-fn between(from: &Pose, to: &Pose) -> Vector3<f64> {
-    turn_between(&from.rotation, &to.rotation)
-}
-
 /// What cutting a chart into cells has shown.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Bisection {
@@ -205,7 +200,7 @@ impl Chart {
 
     /// The poses between two of a trajectory, `x` from 0 to 1.
     fn of_step(from: &Pose, to: &Pose) -> Self {
-        let (shift, turn) = (to.position - from.position, between(from, to));
+        let (shift, turn) = (to.position - from.position, turn_between(&from.rotation, &to.rotation));
         let (reach, angle) = (from.position.amax().max(to.position.amax()), turn.norm());
         // the step is only given by its ends, to their last digits
         let about = |x: f64, scale: f64| {

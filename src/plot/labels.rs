@@ -50,6 +50,11 @@ pub(super) fn text_box(at: (f64, f64), text: &str, size: f64) -> PageBox {
     }
 }
 
+/// The same for a text whose middle is above or below a point of its line.
+pub(super) fn centred_text_box(at: (f64, f64), text: &str, size: f64) -> PageBox {
+    text_box((at.0 - 0.5 * width(text, size), at.1), text, size)
+}
+
 /// Directions from a point to its label: right above it first, then around it.
 const AROUND: [(f64, f64); 8] = [
     (0.75, -0.75),

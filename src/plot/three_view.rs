@@ -2,7 +2,7 @@
 
 use nalgebra::{Point2, Point3};
 
-use super::labels::{Labels, PageBox, text_box};
+use super::labels::{Labels, PageBox, centred_text_box, text_box};
 use super::style::Svg;
 use crate::geom::convex_hull;
 
@@ -142,16 +142,14 @@ pub fn three_views(figure: &ThreeViewFigure) -> String {
         svg.line("tick", (corner.0, below), (corner.0 + w, below));
         let dimension = format!("{:.3}", extent[across]);
         svg.text("note mid", (corner.0 + 0.5 * w, below + 13.0), &dimension);
-        let its = text_box((corner.0, below + 13.0), &dimension, NOTE);
-        let shift = 0.5 * (w - (its.right - its.left));
-        labels.keep(PageBox { left: its.left + shift, right: its.right + shift, ..its });
+        labels.keep(centred_text_box((corner.0 + 0.5 * w, below + 13.0), &dimension, NOTE));
         let left = corner.0 - 14.0;
         svg.line("tick", (left, corner.1), (left, corner.1 + h));
         let dimension = format!("{:.3}", extent[up]);
         svg.turned_text("note mid", (left - 5.0, corner.1 + 0.5 * h), -90.0, &dimension);
-        let its = text_box((0.0, left - 5.0), &dimension, NOTE);
-        let (middle, half) = (corner.1 + 0.5 * h, 0.5 * (its.right - its.left));
-        labels.keep(PageBox { left: its.top, right: its.bottom, top: middle - half, bottom: middle + half });
+        // turned by a quarter: along the page is across the text
+        let its = centred_text_box((corner.1 + 0.5 * h, left - 5.0), &dimension, NOTE);
+        labels.keep(PageBox { left: its.top, right: its.bottom, top: its.left, bottom: its.right });
     }
     let note = (MARGIN, height - 12.0);
     svg.text("note", note, &figure.note);

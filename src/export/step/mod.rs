@@ -9,7 +9,7 @@ mod solids;
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use self::assembly::{Group, Part, StepAssembly};
-use super::telescope::{LegKind, Telescope};
+use super::telescope::{LegKind, Telescope, kind_suffix};
 use super::text::rounded;
 use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
 use crate::geom::{Pose, any_across};
@@ -67,8 +67,7 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Part
     a.place(&mut group, part, &name, &frame);
     let kinds = export.joint_kinds(body);
     for (k, (sort, joints)) in kinds.iter().enumerate() {
-        let kind = if kinds.len() == 1 { String::new() } else { format!(", kind {}", k + 1) };
-        let name = format!("{} joint of the {}{kind}", sort.models, body.body);
+        let name = format!("{} joint of the {}{}", sort.models, body.body, kind_suffix(k, kinds.len()));
         let ball =
             a.part((&name, &sort.description(mm)), |b| solids::ball(b, &name, body.ball_diameter * mm));
         for joint in body.joints.iter().filter(|j| joints.contains(&j.name.as_str())) {
@@ -88,10 +87,9 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Part
 }
 
 /// What a leg of a kind does over its stroke, for the header.
-fn stroke(name: &str, kind: &LegKind, t: &Telescope, mm: f64) -> String {
-    let numbers: Vec<String> = kind.legs.iter().map(|i| (i + 1).to_string()).collect();
+fn stroke(kind: &LegKind, t: &Telescope, mm: f64) -> String {
     let [least, greatest] = t.range.map(|l| rounded(l * mm));
-    let (numbers, rod) = (numbers.join(" "), rounded(t.rod * mm));
+    let (name, numbers, rod) = (kind.name("leg"), kind.numbers(), rounded(t.rod * mm));
     let held = if t.held() > 0.0 {
         format!("in its cylinder by {} or more", rounded(t.held() * mm))
     } else {
@@ -102,11 +100,11 @@ fn stroke(name: &str, kind: &LegKind, t: &Telescope, mm: f64) -> String {
     } else {
         String::new()
     };
-    format!("Part {name} (legs {numbers}), {least} to {greatest} long: the rod of {rod} is {held}{met}")
+    format!("Part {name} ({numbers}), {least} to {greatest} long: the rod of {rod} is {held}{met}")
 }
 
 /// A leg of a kind from the origin along the third axis.
-fn leg(a: &mut StepAssembly, export: &Export, name: &str, kind: &LegKind, t: &Telescope) -> Part {
+fn leg(a: &mut StepAssembly, export: &Export, kind: &LegKind, t: &Telescope) -> Part {
     let mm = export.unit.millimetres;
     let (thick, thin) = export.legs[kind.legs[0]].diameters;
     let mut group = Group::default();
@@ -122,17 +120,15 @@ fn leg(a: &mut StepAssembly, export: &Export, name: &str, kind: &LegKind, t: &Te
     a.place(&mut group, part, "cylinder", &up(t.foot));
     let part = a.part(("rod", ""), |b| solids::cylinder(b, "rod", thin * mm, t.rod * mm));
     a.place(&mut group, part, "rod", &up(t.tail(kind.length)));
-    a.assembled(name, "", &group)
+    a.assembled(&kind.name("leg"), "", &group)
 }
 
 fn assembly(export: &Export) -> Result<String, Unsupported> {
     let mm = export.unit.millimetres;
-    let kinds = export.leg_kinds();
-    let named = |k: usize| if kinds.len() == 1 { "leg".to_owned() } else { format!("leg, kind {}", k + 1) };
-    let kinds: Vec<(String, &LegKind, Telescope)> = (kinds.iter().enumerate())
-        .map(|(k, kind)| Ok((named(k), kind, export.telescope(kind)?)))
+    let kinds: Vec<(LegKind, Telescope)> = (export.leg_kinds().into_iter())
+        .map(|kind| export.telescope(&kind).map(|t| (kind, t)))
         .collect::<Result<_, _>>()?;
-    let lines = kinds.iter().map(|(name, kind, t)| stroke(name, kind, t, mm)).collect();
+    let lines = kinds.iter().map(|(kind, t)| stroke(kind, t, mm)).collect();
     let mut a = StepAssembly::new(export, lines);
     let mut whole = Group::default();
     let base_frame = Pose { rotation: Rotation3::identity(), position: Vector3::zeros() };
@@ -140,15 +136,14 @@ fn assembly(export: &Export) -> Result<String, Unsupported> {
         let part = body(&mut a, export, of)?;
         a.place(&mut whole, part, of.body.name(), &placed);
     }
-    let mut parts: [Option<Part>; 6] = [None; 6];
-    for (name, kind, t) in &kinds {
-        let part = leg(&mut a, export, name, kind, t);
-        for i in &kind.legs {
-            parts[*i] = Some(part);
-        }
+    let mut legs: Vec<(usize, Part)> = Vec::new();
+    for (kind, t) in &kinds {
+        let part = leg(&mut a, export, kind, t);
+        legs.extend(kind.legs.iter().map(|i| (*i, part)));
     }
-    for (of, part) in export.legs.iter().zip(parts) {
-        let Some(part) = part else { continue };
+    legs.sort_unstable_by_key(|(i, _)| *i);
+    for (i, part) in legs {
+        let of = &export.legs[i];
         a.place(&mut whole, part, &format!("leg {}", of.number), &along(&of.foot, &of.direction()?));
     }
     Ok(a.finish(&whole))
