@@ -100,10 +100,20 @@ fn joints_per_leg_have_housings_of_their_own() {
 /// Each leg has the limits of its own joint: the least margin of a row is at a leg that has such a joint, and a limit of other legs changes nothing.
 #[test]
 fn joints_per_leg_are_judged_leg_by_leg() {
+    judged_leg_by_leg(&["--points", "200"]);
+}
+
+#[test]
+#[ignore = "slow evidence"]
+fn joints_per_leg_are_judged_leg_by_leg_at_all_poses() {
+    judged_leg_by_leg(&[]);
+}
+
+fn judged_leg_by_leg(poses: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let row = |name: &str, lines: &str| {
         let path = with(&folder, "mixed.toml", lines);
-        let answer = document(&equipod(&["assess", &path, "--points", "200", "--json"]));
+        let answer = document(&equipod(&[&["assess", &path, "--json"], poses].concat()));
         let rows = answer["requirements"].as_array().unwrap_or_else(|| panic!("{answer}"));
         rows.iter().find(|r| r["name"] == name).cloned().unwrap_or_else(|| panic!("{name}: {answer}"))
     };

@@ -60,6 +60,16 @@ fn a_workspace_ends_at_the_limits_of_the_design() {
 
 #[test]
 fn the_other_figures_are_those_of_their_commands() {
+    figures_of_their_commands("2");
+}
+
+#[test]
+#[ignore = "slow evidence"]
+fn the_other_figures_are_those_of_their_commands_with_more_steps() {
+    figures_of_their_commands("5");
+}
+
+fn figures_of_their_commands(steps: &str) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("by-command.svg");
     let path = file.to_str().unwrap();
@@ -67,7 +77,7 @@ fn the_other_figures_are_those_of_their_commands() {
         assert!(equipod(&[args, &["--svg", path]].concat()).status.success());
         std::fs::read_to_string(&file).unwrap()
     };
-    let locus = ["plot", "locus", OCTAHEDRAL, "--leg", "1", "--from", "10", "--to", "14", "--steps", "2"];
+    let locus = ["plot", "locus", OCTAHEDRAL, "--leg", "1", "--from", "10", "--to", "14", "--steps", steps];
     let out = equipod(&[&locus[..], &["-o", path]].concat());
     assert_eq!(svg(&locus[1..]), std::fs::read_to_string(&file).unwrap());
     assert!(String::from_utf8(out.stdout).unwrap().starts_with(path), "and the values as text");

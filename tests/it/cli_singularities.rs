@@ -82,12 +82,22 @@ fn a_regular_platform_has_no_self_motion() {
 
 #[test]
 fn equivalent_platforms_have_the_same_regular_box() {
+    same_regular_box("1000");
+}
+
+#[test]
+#[ignore = "slow evidence"]
+fn equivalent_platforms_have_the_same_regular_box_of_more_cells() {
+    same_regular_box("4000");
+}
+
+fn same_regular_box(cells: &str) {
     let folder = tempfile::tempdir().unwrap();
     let svg = folder.path().join("s.svg");
     let run = |design: &str| {
         let pose = "0,0,9,0,0,25";
         let shape = "2,2,2,10,10,10";
-        let args = ["singular", "poses", design, "--pose", pose, "--box", shape, "--cells", "1000", "--json"];
+        let args = ["singular", "poses", design, "--pose", pose, "--box", shape, "--cells", cells, "--json"];
         let out = equipod(&[&args[..], &["--svg", svg.to_str().unwrap()]].concat());
         let doc = document(&out);
         assert_eq!(out.status.code(), Some(0), "{doc}");
