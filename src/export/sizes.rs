@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use super::model::ExportedJoint;
+use super::telescope::has_room;
 use super::units::{LengthUnit, UnknownUnit};
 use crate::manipulator::Body;
 use crate::requirements::{Hardware, PlateDesign, seat_height};
@@ -146,8 +147,7 @@ pub enum NoExport {
 const PLATES: &str = "[plates]";
 
 const RULE_CYLINDER: &str = "rule: half the shortest leg at home";
-const RULE_STROKE: &str =
-    "rule: what holds a rod over the stroke and leaves room for the joint at the least length";
+const RULE_STROKE: &str = "rule: what holds a rod over the stroke, but no more than leaves room for the platform joint at the least length";
 
 const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
 
@@ -274,9 +274,10 @@ impl LegSizes {
             // floor, stroke and a guide of two rods; the platform joint has to stay outside at the least length
             let deep =
                 foot + 0.5 * (cylinder_diameter - rod_diameter) + (greatest - least) + 2.0 * rod_diameter;
-            half.max(deep).min(least - tip)
+            let bounded = half.max(deep).min(least - tip);
+            // a machine that is in at home, or whose joints take nearly all of its least length, has no room for that
+            if has_room(foot, bounded, shortest - tip) { bounded } else { half }
         });
-        let by_rule = if by_rule > 0.0 { by_rule } else { half };
         let cylinder_length = choose(
             choices,
             "cylinder length from the base joint",

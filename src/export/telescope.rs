@@ -72,6 +72,11 @@ pub(super) fn kind_suffix(k: usize, count: usize) -> String {
     if count == 1 { String::new() } else { format!(", kind {}", k + 1) }
 }
 
+/// Whether there is something of a cylinder between the balls of a leg, and of its rod: `head` is where the ball of the platform joint begins.
+pub(super) fn has_room(foot: f64, mouth: f64, head: f64) -> bool {
+    foot < mouth && mouth < head
+}
+
 /// Where the bore of a cylinder begins: its floor is as thick as its wall, and at most half of the cylinder.
 pub(super) fn floor(foot: f64, mouth: f64, (thick, thin): (f64, f64)) -> f64 {
     if thin < thick { foot + (0.5 * (thick - thin)).min(0.5 * (mouth - foot)) } else { mouth }
@@ -122,7 +127,7 @@ impl Export {
         let leg: &ExportLeg = &self.legs[kind.legs[0]];
         let [foot, tip] = [0, 1].map(|k: usize| 0.5 * self.bodies[k].ball_diameter);
         let (mouth, length) = (leg.cylinder, kind.length);
-        if !(foot < mouth && mouth < length - tip) {
+        if !has_room(foot, mouth, length - tip) {
             let taken = foot.max(mouth) + tip;
             return Err(Unsupported::LegTooShort { leg: leg.number, length, taken });
         }

@@ -314,6 +314,12 @@ fn legs_that_are_equal_are_places_of_one_part_and_joints_say_what_they_are() {
         assert_eq!(occurrences(&format!("leg {number}")), 1, "leg {number}");
     }
     assert_eq!((occurrences("cylinder"), occurrences("rod")), (kinds.len(), kinds.len()));
+    let mut parts: Vec<&str> =
+        text.split("PRODUCT('").skip(1).map(|rest| rest.split('\'').next().unwrap()).collect();
+    let count = parts.len();
+    parts.sort_unstable();
+    parts.dedup();
+    assert_eq!(parts.len(), count, "two parts of one name: {parts:?}");
     assert!(text.contains("PRODUCT('ball joint of the base','ball joint of the base','housing: ball of 40.0 mm; swings by 30.0 deg',"), "{text}");
     // the legs of an octahedral platform above the middle of its base have one length
     let equal = self::export(include_str!("../../designs/worked/simulator-300kg.toml"));
@@ -360,6 +366,18 @@ fn rods_stay_in_their_cylinders_over_the_stroke() {
             }
             assert!(t.room() >= -near, "{file}: {t:?}");
         }
+    }
+    // in at home, hardly longer than that at the least, and joints that take nearly all of the least length
+    let at_home = self::export(SYMMETRIC).legs.iter().map(ExportLeg::length).fold(f64::INFINITY, f64::min);
+    for least in [at_home, 1.06 * at_home, 28.0, 20.0, 10.0] {
+        let mut near = design(SYMMETRIC);
+        near.hardware.leg_length = Some(LengthLimits::Range(least, 900.0));
+        let export = export_with(&near, &ExportOptions::default());
+        for kind in export.leg_kinds() {
+            let t = export.telescope(&kind).unwrap();
+            assert!(t.foot < t.mouth && t.rod > 0.0, "{least}: {t:?}");
+        }
+        assert!(text_of(&export, "step", "platform.step").contains("'rod'"));
     }
     // a stroke that no rod in one piece has, and a rod as wide as its cylinder: both are said, and the files are written
     let mut long = design(SYMMETRIC);

@@ -50,8 +50,9 @@ const CSS: &str = "\
 .ball{fill:#fff;fill-opacity:.6;stroke:#1a1a1a;stroke-width:.8}\
 .axis{stroke:#1a1a1a;stroke-width:.5;stroke-dasharray:7 2 1.5 2}\
 .leader{stroke:#444;stroke-width:.5}";
-/// Sizes of the fonts of labels and notes, as in the style.
+/// Sizes of the fonts of labels, notes and title, as in the style.
 const SMALL: f64 = 9.0;
+const TITLE: f64 = 15.0;
 const NOTE: f64 = 11.0;
 /// Places along a leg at which its number may stand: on the rod, on the cylinder, towards the ends.
 const ALONG: [f64; 9] = [0.5, 0.6, 0.4, 0.7, 0.3, 0.8, 0.2, 0.55, 0.45];
@@ -75,7 +76,7 @@ fn bounds(figure: &ThreeViewFigure) -> [(f64, f64); 3] {
 }
 
 /// The drawing: silhouettes of all parts, one over the other. All views have the same scale; the overall dimensions stand at each view.
-/// Joints, origins and legs have their names and numbers beside them, none over another.
+/// Joints, origins and legs have their names and numbers beside them, none over another text as long as the page has room.
 #[must_use]
 pub fn three_views(figure: &ThreeViewFigure) -> String {
     let bounds = bounds(figure);
@@ -88,7 +89,9 @@ pub fn three_views(figure: &ThreeViewFigure) -> String {
     let mut svg = Svg::new(width, height, &figure.title, &figure.note);
     let mut labels = Labels::on((width, height), SMALL);
     svg.style(CSS);
-    svg.text("title", (MARGIN, 28.0), &figure.title);
+    let title = (MARGIN, 28.0);
+    svg.text("title", title, &figure.title);
+    labels.keep(text_box(title, &figure.title, TITLE));
     let corners = [(MARGIN, TOP), (MARGIN, second_row), (second_column, second_row)];
     let mut named: Vec<((f64, f64), f64, &str)> = Vec::new();
     let mut numbered: Vec<Vec<(f64, f64)>> = Vec::new();

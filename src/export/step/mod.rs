@@ -110,15 +110,18 @@ fn leg(a: &mut StepAssembly, export: &Export, kind: &LegKind, t: &Telescope) -> 
     let mut group = Group::default();
     let up = |z: f64| Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, z) };
     let height = (t.mouth - t.foot) * mm;
-    let part = a.part(("cylinder", ""), |b| {
+    // parts of different shapes have names of their own: programs keep parts by their names
+    let name = kind.name("cylinder");
+    let part = a.part((&name, ""), |b| {
         if t.floor < t.mouth {
-            solids::sleeve(b, "cylinder", (thick * mm, thin * mm), ((t.floor - t.foot) * mm, height))
+            solids::sleeve(b, &name, (thick * mm, thin * mm), ((t.floor - t.foot) * mm, height))
         } else {
-            solids::cylinder(b, "cylinder", thick * mm, height)
+            solids::cylinder(b, &name, thick * mm, height)
         }
     });
     a.place(&mut group, part, "cylinder", &up(t.foot));
-    let part = a.part(("rod", ""), |b| solids::cylinder(b, "rod", thin * mm, t.rod * mm));
+    let name = kind.name("rod");
+    let part = a.part((&name, ""), |b| solids::cylinder(b, &name, thin * mm, t.rod * mm));
     a.place(&mut group, part, "rod", &up(t.tail(kind.length)));
     a.assembled(&kind.name("leg"), "", &group)
 }
