@@ -13,7 +13,7 @@ mod way;
 
 use crate::geom::Pose;
 use crate::manipulator::{Leg, Manipulator};
-use crate::requirements::{Limit, Quantity, Requirements, Terms};
+use crate::requirements::{Limit, Requirements, Terms};
 
 pub use nearest::{NearestPose, NearestPoseOptions};
 pub use rays::{FreeRay, largest_box_within, volume_of_rays};
@@ -121,19 +121,9 @@ impl<'a> Reach<'a> {
     }
 
     fn scale(&self, limit: Limit) -> f64 {
-        let hardware = &self.required.hardware;
         match limit {
             Limit::Singular => 1.0,
-            Limit::Term(term) => match term.kind.quantity() {
-                Quantity::Length => self.size,
-                Quantity::Angle => 90.0,
-                Quantity::Force => hardware.max_leg_force.unwrap_or(1.0),
-                Quantity::Speed => hardware.max_leg_speed.unwrap_or(1.0),
-                Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
-                    self.required.least_stiffness_of(term.kind).unwrap_or(1.0)
-                }
-                Quantity::Torque | Quantity::AngularSpeed => self.required.whole(term.kind),
-            },
+            Limit::Term(term) => self.required.scale_of(term.kind, self.size),
         }
     }
 

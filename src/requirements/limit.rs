@@ -1,7 +1,7 @@
 //! Which requirement ends the workspace at a pose.
 
 use super::Requirements;
-use super::term::{Quantity, Term, Terms};
+use super::term::{Term, Terms};
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
 
@@ -57,18 +57,7 @@ impl<'a> Limits<'a> {
     }
 
     fn share(&self, (term, margin): &(Term, f64)) -> f64 {
-        let hardware = &self.required.hardware;
-        let scale = match term.kind.quantity() {
-            Quantity::Length => self.size,
-            Quantity::Angle => 90.0,
-            Quantity::Force => hardware.max_leg_force.unwrap_or(1.0),
-            Quantity::Speed => hardware.max_leg_speed.unwrap_or(1.0),
-            Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
-                self.required.least_stiffness_of(term.kind).unwrap_or(1.0)
-            }
-            Quantity::Torque | Quantity::AngularSpeed => self.required.whole(term.kind),
-        };
-        margin / scale
+        margin / self.required.scale_of(term.kind, self.size)
     }
 
     /// The requirement met worst at a pose. A singularity counts as the worst only where all others are met.

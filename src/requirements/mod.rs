@@ -163,4 +163,18 @@ impl Requirements {
     pub fn least_stiffness_of(&self, kind: TermKind) -> Option<f64> {
         self.platform_stiffness.and_then(|wanted| wanted.least(kind))
     }
+
+    /// What a margin of a kind is a share of where margins of several kinds are compared: the size of the design (lengths), 90 degrees, or the limit itself.
+    pub(crate) fn scale_of(&self, kind: TermKind, size: f64) -> f64 {
+        match kind.quantity() {
+            Quantity::Length => size,
+            Quantity::Angle => 90.0,
+            Quantity::Force => self.hardware.max_leg_force.unwrap_or(1.0),
+            Quantity::Speed => self.hardware.max_leg_speed.unwrap_or(1.0),
+            Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
+                self.least_stiffness_of(kind).unwrap_or(1.0)
+            }
+            Quantity::Torque | Quantity::AngularSpeed => self.whole(kind),
+        }
+    }
 }
