@@ -12,9 +12,9 @@ use super::solver::Triangle;
 use crate::num::batch::{ComplexBatch, LANES};
 use crate::poly::roots_in_lanes;
 
-/// Squared lengths this near to those of a translation, in parts of all, are solved from there.
-/// Three roots of the octic that are one at the translation are then nearer to each other than the cube root of it.
-const NEAR: f64 = 1e-4;
+/// Squared lengths this near to those of a translation, in parts of all, are solved from there: three roots of the octic are one at the translation, and still close to each other at the cube root of it.
+/// Ten times farther the continuation fails too often to be worth its time.
+const NEAR: f64 = 1e-3;
 /// Sides whose angle is smaller are taken for parallel: what follows from that is where Newton's method begins.
 const PARALLEL: f64 = 1e-4;
 

@@ -12,7 +12,7 @@ const BESIDE: [f64; 8] = [1e-2, -1e-2, 3e-2, 3e-3, -3e-2, -3e-3, 1e-1, 1e-3];
 /// A direction without symmetry.
 const ASKEW: [f64; 6] = [0.71, -0.43, 1.0, 0.29, -0.87, 0.53];
 /// The same for translations: parts of the distance along `x` and `y`, and of the squared height.
-const SHIFTED: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [0.021, -0.013, 0.03], [-0.043, 0.071, -0.06]];
+const SHIFTED: [[f64; 3]; 2] = [[0.0, 0.0, 0.0], [0.021, -0.013, 0.03]];
 /// Newton steps on both closures, which tell pairs near each other apart; from the coarse roots they come near rounding, and the angles get there.
 const POLISHES: usize = 2;
 /// The same for pairs that are continued, which may still be close to each other.
