@@ -82,7 +82,7 @@ pub(crate) fn approximate_roots(
         return Err(RootsError::NoPolynomial);
     }
     let mut z = starting_points(coefficients);
-    on_vector_unit(Sweeps { c: coefficients, z: &mut z, tolerance, sweeps });
+    on_vector_unit(Sweeps { c: coefficients, z: &mut z, tolerance, most: sweeps });
     Ok(z)
 }
 
@@ -91,7 +91,7 @@ struct Sweeps<'a> {
     c: &'a [Complex64],
     z: &'a mut [Complex64],
     tolerance: f64,
-    sweeps: usize,
+    most: usize,
 }
 
 impl pulp::WithSimd for Sweeps<'_> {
@@ -99,9 +99,9 @@ impl pulp::WithSimd for Sweeps<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { c, z, tolerance, sweeps } = self;
+        let Self { c, z, tolerance, most } = self;
         let mut moving = vec![true; z.len()];
-        for _ in 0..sweeps {
+        for _ in 0..most {
             for start in (0..z.len()).step_by(LANES) {
                 let end = (start + LANES).min(z.len());
                 if !moving[start..end].contains(&true) {
