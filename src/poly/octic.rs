@@ -1,4 +1,4 @@
-//! All eight roots of a real polynomial of degree eight at once, without allocation.
+//! All roots of a real polynomial of degree eight, or of a lower one, at once, without allocation.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -7,24 +7,30 @@ use crate::num::batch::{ComplexBatch, LANES};
 /// Sweeps before giving up; well separated roots take about ten.
 const SWEEPS: usize = 40;
 
-/// Approximate roots of `c[0] + .. + c[8] x^8`, relative corrections below `accuracy` in the last sweep.
+/// Approximate roots of `c[0] + .. + c[8] x^8`, as [`roots_in_lanes`].
+#[inline(always)]
+pub(crate) fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<ComplexBatch> {
+    roots_in_lanes::<LANES>(c, accuracy)
+}
+
+/// Approximate roots of `c[0] + .. + c[N] x^N` in the first `N` of eight lanes, relative corrections below `accuracy` in the last sweep.
 ///
 /// Ehrlich-Aberth iteration on all roots side by side, from circles whose radii are the slopes of the Newton polygon. `None` when an end
 /// coefficient is zero or not finite, or when some root does not settle (multiple roots converge linearly).
 #[inline(always)]
-pub(crate) fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<ComplexBatch> {
-    let usable = c.iter().all(|x| x.is_finite()) && c[0].abs() > 0.0 && c[LANES].abs() > 0.0;
+pub(crate) fn roots_in_lanes<const N: usize>(c: &[f64], accuracy: f64) -> Option<ComplexBatch> {
+    let usable = c.len() == N + 1 && c.iter().all(|x| x.is_finite()) && c[0].abs() > 0.0 && c[N].abs() > 0.0;
     if !usable {
         return None;
     }
-    let mut z = starting_points(c);
+    let mut z = starting_points::<N>(c);
     for _ in 0..SWEEPS {
-        let step = corrections(c, &z);
+        let step = corrections::<N>(c, &z);
         let (moved, size) = (step.norm_sqr(), z.norm_sqr());
         z = z - step;
         let mut settled = true;
         let mut finite = true;
-        for k in 0..LANES {
+        for k in 0..N {
             settled &= moved[k] <= accuracy * accuracy * size[k];
             finite &= moved[k].is_finite();
         }
@@ -40,24 +46,30 @@ pub(crate) fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<Complex
 
 /// `N / (1 - N sum 1 / (z_k - z_j))`, `N = p / p'`.
 #[inline(always)]
-fn corrections(c: &[f64; LANES + 1], z: &ComplexBatch) -> ComplexBatch {
-    let (mut p, mut d) = (ComplexBatch::real(c[LANES]), ComplexBatch::ZERO);
-    for k in (0..LANES).rev() {
+fn corrections<const N: usize>(c: &[f64], z: &ComplexBatch) -> ComplexBatch {
+    let (mut p, mut d) = (ComplexBatch::real(c[N]), ComplexBatch::ZERO);
+    for k in (0..N).rev() {
         d = d * *z + p;
         p = (p * *z).plus(c[k]);
     }
-    p * (d - p * repulsion(z)).reciprocal()
+    p * (d - p * repulsion_among::<N>(z)).reciprocal()
 }
 
 /// `sum 1 / (z_k - z_j)` over the other lanes `j`, for every lane `k`.
 #[inline(always)]
 pub(crate) fn repulsion(z: &ComplexBatch) -> ComplexBatch {
+    repulsion_among::<LANES>(z)
+}
+
+/// The same for the first `N` lanes.
+#[inline(always)]
+fn repulsion_among<const N: usize>(z: &ComplexBatch) -> ComplexBatch {
     let mut sum = ComplexBatch::ZERO;
     // lane k against lane k + shift, every pair from both sides
-    for shift in 1..LANES {
+    for shift in 1..N {
         let mut other = ComplexBatch::ZERO;
         for k in 0..LANES {
-            (other.re[k], other.im[k]) = (z.re[(k + shift) % LANES], z.im[(k + shift) % LANES]);
+            (other.re[k], other.im[k]) = (z.re[(k + shift) % N], z.im[(k + shift) % N]);
         }
         sum = sum + (*z - other).reciprocal();
     }
@@ -66,7 +78,7 @@ pub(crate) fn repulsion(z: &ComplexBatch) -> ComplexBatch {
 
 /// Points on circles whose radii are the slopes of the upper convex hull of `(k, ln |c_k|)`.
 #[inline(always)]
-fn starting_points(c: &[f64; LANES + 1]) -> ComplexBatch {
+fn starting_points<const N: usize>(c: &[f64]) -> ComplexBatch {
     // unit vectors at 2 pi k / 8 + 0.4, not symmetric to the real axis
     const COSINE: [f64; LANES] = [
         0.921_060_994_002_885_1,
@@ -78,10 +90,13 @@ fn starting_points(c: &[f64; LANES + 1]) -> ComplexBatch {
         0.389_418_342_308_650_5,
         0.926_648_825_310_733,
     ];
-    let logs = c.map(|x| x.abs().ln());
+    let mut logs = [0.0; LANES + 1];
+    for k in 0..=N {
+        logs[k] = c[k].abs().ln();
+    }
     let mut hull = [0usize; LANES + 1];
     let mut count = 0;
-    for k in 0..=LANES {
+    for k in 0..=N {
         if !logs[k].is_finite() {
             continue;
         }
@@ -133,6 +148,23 @@ mod tests {
                 assert!(near <= 1e-7 * r.norm(), "case {case}: {near}");
             }
         }
+    }
+
+    #[test]
+    fn lower_degrees_have_their_roots_in_the_first_lanes() {
+        let mut rng = Rng::new(8);
+        for _ in 0..100 {
+            let c: [f64; 7] = std::array::from_fn(|_| rng.normal());
+            let (quartic, sextic) = (roots_in_lanes::<4>(&c[..5], 1e-12), roots_in_lanes::<6>(&c, 1e-12));
+            for (n, all) in [(4, quartic.unwrap()), (6, sextic.unwrap())] {
+                for r in roots(&c[..=n].iter().map(|x| Complex64::from(*x)).collect::<Vec<_>>()).unwrap() {
+                    let near = (0..n).map(|k| (all.lane(k) - r).norm()).fold(f64::MAX, f64::min);
+                    assert!(near <= 1e-7 * r.norm(), "{n}: {near}");
+                }
+            }
+        }
+        // as many coefficients as the degree asks for
+        assert!(roots_in_lanes::<4>(&[1.0; 9], 1e-8).is_none());
     }
 
     #[test]

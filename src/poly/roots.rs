@@ -1,7 +1,12 @@
 //! All complex roots of one polynomial by simultaneous iteration.
 
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
 use num_complex::Complex64;
 use thiserror::Error;
+
+use crate::num::batch::{ComplexBatch, LANES};
+use crate::num::vector_unit::on_vector_unit;
 
 /// Roots that could not be computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -77,32 +82,86 @@ pub(crate) fn approximate_roots(
         return Err(RootsError::NoPolynomial);
     }
     let mut z = starting_points(coefficients);
-    let mut moving = vec![true; z.len()];
-    for _ in 0..sweeps {
-        for k in 0..z.len() {
-            if !moving[k] {
-                continue;
-            }
-            let newton = newton_correction(coefficients, z[k]);
-            let mut repulsion = Complex64::ZERO;
-            for (j, other) in z.iter().enumerate() {
-                let d = z[k] - other;
-                let n = d.norm_sqr();
-                if j != k && n > 0.0 {
-                    repulsion += d.conj() * n.recip();
+    on_vector_unit(Sweeps { c: coefficients, z: &mut z, tolerance, most: sweeps });
+    Ok(z)
+}
+
+/// The sweeps of [`approximate_roots`], eight roots side by side.
+struct Sweeps<'a> {
+    c: &'a [Complex64],
+    z: &'a mut [Complex64],
+    tolerance: f64,
+    most: usize,
+}
+
+impl pulp::WithSimd for Sweeps<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { c, z, tolerance, most } = self;
+        let mut moving = vec![true; z.len()];
+        for _ in 0..most {
+            for start in (0..z.len()).step_by(LANES) {
+                let end = (start + LANES).min(z.len());
+                if !moving[start..end].contains(&true) {
+                    continue;
+                }
+                let mut batch = ComplexBatch::ZERO;
+                for k in 0..LANES {
+                    let at = z[(start + k).min(end - 1)];
+                    (batch.re[k], batch.im[k]) = (at.re, at.im);
+                }
+                let step = corrections(c, &batch, z);
+                let next = batch - step;
+                let (moved, size) = (step.norm_sqr(), next.norm_sqr());
+                for k in start..end {
+                    let lane = k - start;
+                    // two roots in one place stay there
+                    if moving[k] && moved[lane].is_finite() {
+                        z[k] = next.lane(lane);
+                        moving[k] = !(moved[lane] <= tolerance * tolerance * size[lane]);
+                    }
                 }
             }
-            let step = newton / (1.0 - newton * repulsion);
-            if step.is_finite() {
-                z[k] -= step;
-                moving[k] = !(step.norm_sqr() <= tolerance * tolerance * z[k].norm_sqr());
+            if !moving.contains(&true) {
+                break;
             }
         }
-        if !moving.contains(&true) {
-            break;
+    }
+}
+
+/// `N / (1 - N sum 1 / (x_k - z_j))` for `x` among the `z`, `N = p / p'`; where `|x| > 1` from the reversed polynomial, see [`newton_correction`].
+#[inline(always)]
+fn corrections(c: &[Complex64], x: &ComplexBatch, z: &[Complex64]) -> ComplexBatch {
+    let constant = |z: Complex64| ComplexBatch { re: [z.re; LANES], im: [z.im; LANES] };
+    let n = c.len() - 1;
+    let size = x.norm_sqr();
+    let mut outside = [false; LANES];
+    for k in 0..LANES {
+        outside[k] = size[k] > 1.0;
+    }
+    let inverse = x.reciprocal();
+    let y = inverse.select(*x, outside);
+    let coefficient = |k: usize| constant(c[n - k]).select(constant(c[k]), outside);
+    let (mut p, mut d) = (coefficient(n), ComplexBatch::ZERO);
+    for k in (0..n).rev() {
+        d = d * y + p;
+        p = p * y + coefficient(k);
+    }
+    let reversed = p.times(n as f64) - d * inverse;
+    let (top, bottom) = ((p * *x).select(p, outside), reversed.select(d, outside));
+    let mut repulsion = ComplexBatch::ZERO;
+    for other in z {
+        for k in 0..LANES {
+            let (re, im) = (x.re[k] - other.re, x.im[k] - other.im);
+            let square = re * re + im * im;
+            let inverse = if square > 0.0 { 1.0 / square } else { 0.0 };
+            repulsion.re[k] += re * inverse;
+            repulsion.im[k] -= im * inverse;
         }
     }
-    Ok(z)
+    top * (bottom - top * repulsion).reciprocal()
 }
 
 /// `p(x) / p'(x)`, from the reversed polynomial where `|x| > 1` so that powers do not overflow.

@@ -8,15 +8,11 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use super::lanes::{Corners, LEGS, Points, dot, separate};
+use super::lanes::{Corners, Points, dot, separate};
 use super::solver::{OcticSolver, Triangle};
 use crate::num::batch::{ComplexBatch, LANES};
 
-/// How far beside the lengths wanted those are whose poses are continued, as parts of the squares.
-const BESIDE: [f64; 8] = [1e-2, -1e-2, 3e-2, 3e-3, -3e-2, -3e-3, 1e-1, 1e-3];
-/// A direction without symmetry.
-const ASKEW: [f64; 6] = [0.71, -0.43, 1.0, 0.29, -0.87, 0.53];
-/// Newton steps of the angles at most, and for the pairs that the continuation starts from, which may still be close to each other.
+/// Newton steps of the angles at most.
 const STEPS: usize = 8;
 
 /// The circle of a corner of the platform about a side of the base, in the frame of the base triangle.
@@ -45,80 +41,6 @@ impl Circle {
             squared_radius: s[0] - foot * foot,
         }
     }
-}
-
-/// An orientation with both triangles in parallel planes and `P4 P5` parallel to `P1 P3`: at each of its translations two poses share their pair of distances.
-///
-/// With `d` the vectors in the plane from base to platform joints where `P4` is in `P1`, a translation by `t` has `s = |t|^2 + 2 t.d + |d|^2`: six squared lengths that are, but for `|d|^2`, combinations
-/// of `1`, `d_x` and `d_y`.
-#[derive(Debug, Clone)]
-pub(super) struct ParallelSides {
-    squares: [f64; 6],
-    /// An orthonormal basis of the combinations; zero where they depend on each other.
-    basis: [[f64; 6]; 3],
-}
-
-/// Squared lengths this near to those of a translation, in parts of all, are taken for such: the roots of the octic are then nearer to each other than its accuracy, by a square root.
-const TRANSLATED: f64 = 1e-10;
-
-impl ParallelSides {
-    /// Both directions along `P1 P3`, with either side of the platform above.
-    pub(super) fn all(base: &Triangle, platform: &Triangle) -> [Self; 4] {
-        let long = base.u.hypot(base.v);
-        let along = [base.u / long, base.v / long];
-        let feet = [[0.0, 0.0], [base.b, 0.0], [base.u, base.v]];
-        [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(forth, left)| {
-            let corner = |x: f64, y: f64| {
-                let (x, y) = (x * forth, y * left);
-                [along[0] * x - along[1] * y, along[1] * x + along[0] * y]
-            };
-            let heads = [[0.0, 0.0], corner(platform.b, 0.0), corner(platform.u, platform.v)];
-            let d = LEGS.map(|(foot, head)| [0, 1].map(|i| heads[head][i] - feet[foot][i]));
-            let mut basis = [[1.0; 6], d.map(|d| d[0]), d.map(|d| d[1])];
-            for k in 0..3 {
-                let (before, rest) = basis.split_at_mut(k);
-                let own = inner(&rest[0], &rest[0]);
-                // twice is enough
-                for known in before.iter().chain(before.iter()) {
-                    rest[0] = less(&rest[0], inner(known, &rest[0]), known);
-                }
-                let left = inner(&rest[0], &rest[0]);
-                let factor = if left > 1e-20 * own { left.sqrt().recip() } else { 0.0 };
-                rest[0] = rest[0].map(|x| x * factor);
-            }
-            Self { squares: d.map(|d| d[0] * d[0] + d[1] * d[1]), basis }
-        })
-    }
-
-    /// Whether the squared lengths are those of a translation, in the order s14 s24 s25 s35 s36 s16.
-    #[inline(always)]
-    pub(super) fn is_translated(&self, s: &[f64; 6]) -> bool {
-        let all = less(s, 1.0, &self.squares);
-        let mut rest = all;
-        for q in &self.basis {
-            rest = less(&rest, inner(q, &rest), q);
-        }
-        inner(&rest, &rest) <= TRANSLATED * TRANSLATED * inner(s, s)
-    }
-}
-
-#[inline(always)]
-fn inner(x: &[f64; 6], y: &[f64; 6]) -> f64 {
-    let mut sum = 0.0;
-    for i in 0..6 {
-        sum += x[i] * y[i];
-    }
-    sum
-}
-
-/// `x - c y`.
-#[inline(always)]
-fn less(x: &[f64; 6], c: f64, y: &[f64; 6]) -> [f64; 6] {
-    let mut out = *x;
-    for i in 0..6 {
-        out[i] -= c * y[i];
-    }
-    out
 }
 
 /// A corner on its circle: `h + i z` and `h - i z`, with `h` across the side in the plane and `z` above the plane. Their product is the squared radius, and each has all its digits.
@@ -151,25 +73,6 @@ fn are_separate(places: &[OnCircle; 3]) -> bool {
 }
 
 impl OcticSolver {
-    /// The corners, continued from lengths beside; `None` unless these are eight separate poses.
-    #[inline(always)]
-    pub(super) fn corners_from_beside(&self, scaled: &[f64; 6]) -> Option<Corners> {
-        for part in BESIDE {
-            let mut beside = *scaled;
-            for i in 0..6 {
-                beside[i] *= 1.0 + part * ASKEW[i];
-            }
-            // near each other they may be known with few digits: the continuation judges
-            if let Some((x, y, _)) = self.pairs(&beside, STEPS) {
-                let found = self.continued(&self.corners(&beside, x, y), &beside, scaled);
-                if found.is_some() {
-                    return found;
-                }
-            }
-        }
-        None
-    }
-
     /// Legs in the order s14 s24 s25 s35 s36 s16.
     #[inline(always)]
     fn circles(&self, s: &[f64; 6]) -> [Circle; 3] {
@@ -180,14 +83,6 @@ impl OcticSolver {
             Circle::new([corners[1], corners[2]], [s[2], s[3]]),
             Circle::new([corners[2], corners[0]], [s[4], s[5]]),
         ]
-    }
-
-    /// Newton's method in the three angles, from corners known roughly. `None` unless it settles, on eight separate poses.
-    #[inline(always)]
-    pub(super) fn settled(&self, corners: &[Points; 3], s: &[f64; 6]) -> Option<Corners> {
-        let circles = self.circles(s);
-        let places = self.turned(&circles, Self::on_circles(&circles, corners))?;
-        are_separate(&places).then(|| self.off_circles(&circles, &places))
     }
 
     /// From the larger of `h + i z` and `h - i z`.
@@ -264,17 +159,26 @@ impl OcticSolver {
         None
     }
 
+    /// Newton's method in the three angles, from corners known roughly, for other squared lengths where `from` says so. `None` unless it settles, on eight separate poses.
     #[inline(always)]
-    fn continued(&self, corners: &[Points; 3], from: &[f64; 6], to: &[f64; 6]) -> Option<Corners> {
-        let (before, circles) = (self.circles(from), self.circles(to));
+    pub(super) fn continued(
+        &self,
+        corners: &[Points; 3],
+        from: Option<&[f64; 6]>,
+        to: &[f64; 6],
+    ) -> Option<Corners> {
+        let circles = self.circles(to);
+        let before = from.map_or(circles, |from| self.circles(from));
         let mut places = Self::on_circles(&before, corners);
-        for k in 0..3 {
-            let ratio = circles[k].squared_radius / before[k].squared_radius;
-            if !(ratio > 0.0) {
-                return None;
+        if from.is_some() {
+            for k in 0..3 {
+                let ratio = circles[k].squared_radius / before[k].squared_radius;
+                if !(ratio > 0.0) {
+                    return None;
+                }
+                let [u, v] = places[k];
+                places[k] = [u.times(ratio.sqrt()), v.times(ratio.sqrt())];
             }
-            let [u, v] = places[k];
-            places[k] = [u.times(ratio.sqrt()), v.times(ratio.sqrt())];
         }
         let places = self.turned(&circles, places)?;
         are_separate(&places).then(|| self.off_circles(&circles, &places))

@@ -5,6 +5,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::factors::Factors;
+use super::parallel::Translation;
 use super::solver::{OcticSolver, Triangle};
 use super::{minor, resultant};
 use crate::geom::ComplexPose;
@@ -12,9 +13,7 @@ use crate::num::batch::{ComplexBatch, LANES};
 use crate::poly::octic_roots;
 
 /// Relative accuracy asked of the octic's roots before both closures take over.
-const COARSE: f64 = 1e-6;
-/// Newton steps on both closures, which tell pairs near each other apart; from `COARSE` they come near rounding, and the angles get there.
-pub(super) const POLISHES: usize = 2;
+pub(super) const COARSE: f64 = 1e-6;
 /// Pairs closer than this, relative to their size, are left to the general treatment.
 pub(super) const SEPARATE: f64 = 1e-5;
 
@@ -44,15 +43,20 @@ fn horner(c: &[f64; 5], x: ComplexBatch) -> ComplexBatch {
     out
 }
 
-/// The eight pairs `(s15, s34)`, and whether these are eight well separated ones.
+/// The eight pairs `(s15, s34)`; at a translation those that are not known from it, in the lanes that it leaves to them.
 #[inline(always)]
 pub(super) fn pairs(
     first: &Factors,
     second: &Factors,
+    translation: Option<&Translation>,
     polishes: usize,
-) -> Option<(ComplexBatch, ComplexBatch, bool)> {
+) -> Option<(ComplexBatch, ComplexBatch)> {
     let (a, b) = (first.expanded(), second.expanded());
-    let mut x = octic_roots(&resultant(&a, &b), COARSE)?;
+    let octic = resultant(&a, &b);
+    let mut x = match translation {
+        Some(known) => known.other_roots(&octic)?,
+        None => octic_roots(&octic, COARSE)?,
+    };
     // the common root of both quadratics in y: y = -(a2 b0 - a0 b2) / (a2 b1 - a1 b2)
     let denominator = horner(&minor(&a, &b, 2, 1), x);
     let mut y = (horner(&minor(&a, &b, 2, 0), x) * denominator.reciprocal()).times(-1.0);
@@ -63,7 +67,7 @@ pub(super) fn pairs(
         let dy = (f[1] * g[0] - f[0] * g[1]) * inverse;
         (x, y) = (x - dx, y - dy);
     }
-    Some((x, y, separate(&[x, y])))
+    Some((x, y))
 }
 
 /// Whether every two lanes are apart, relative to their size.

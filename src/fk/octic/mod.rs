@@ -10,8 +10,10 @@
 mod beside;
 mod factors;
 mod lanes;
+mod parallel;
 mod records;
 mod solver;
+mod starts;
 
 pub use solver::{OcticPoses, OcticSolver};
 

@@ -6,15 +6,15 @@ use nalgebra::Vector3;
 use num_complex::Complex64;
 
 use super::OcticProblem;
-use super::beside::ParallelSides;
-use super::factors::{Factors, Gram};
-use super::lanes::{Corners, POLISHES, Placed, SEPARATE, pairs};
+use super::factors::Gram;
+use super::lanes::{Corners, Placed, SEPARATE};
+use super::parallel::ParallelSides;
 use crate::fk::collect::pose_scale;
 use crate::fk::newton::refine;
 use crate::fk::{FkError, Method};
 use crate::geom::{ComplexPose, reorthogonalised};
 use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
-use crate::num::batch::{ComplexBatch, LANES};
+use crate::num::batch::LANES;
 use crate::num::vector_unit::on_vector_unit;
 use crate::solve::certify::octahedral::{
     OctahedralCertificate, OctahedralCertificates, OctahedralCertifier, PairCertificate,
@@ -52,10 +52,10 @@ pub struct OcticSolver {
     /// Corners in the design's frames over its size.
     pub(super) base_corners: [Vector3<f64>; 3],
     pub(super) platform_corners: [Vector3<f64>; 3],
-    base_gram: Gram,
+    pub(super) base_gram: Gram,
     /// Of the platform triangle as `P5 P6 P4`.
-    turned_gram: Gram,
-    parallel: [ParallelSides; 4],
+    pub(super) turned_gram: Gram,
+    pub(super) parallel: [ParallelSides; 4],
     /// Absent where the joints cannot be scaled exactly.
     certifier: Option<OctahedralCertifier>,
 }
@@ -107,23 +107,6 @@ impl pulp::WithSimd for Solve<'_> {
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) -> Option<OcticPoses> {
         self.solver.solve_lanes(self.s)
-    }
-}
-
-/// [`Solve`] for lengths at which two poses share their pair of distances.
-struct SolveBeside<'a> {
-    solver: &'a OcticSolver,
-    s: &'a SquaredLegLengths,
-}
-
-impl pulp::WithSimd for SolveBeside<'_> {
-    type Output = Option<OcticPoses>;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Option<OcticPoses> {
-        let scaled = self.solver.scaled(self.s);
-        let beside = self.solver.corners_from_beside(&scaled)?;
-        self.solver.placed(self.s, &scaled, &beside)
     }
 }
 
@@ -180,20 +163,12 @@ impl OcticSolver {
     /// plane, or a residual above `1e-12`.
     #[must_use]
     pub fn solve(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
-        // the roots of the octic do not settle there: what takes as long as all the rest is left out
-        let scaled = self.scaled(s);
-        if self.parallel.iter().any(|sides| sides.is_translated(&scaled)) {
-            let found = on_vector_unit(SolveBeside { solver: self, s });
-            if found.is_some() {
-                return found;
-            }
-        }
         on_vector_unit(Solve { solver: self, s })
     }
 
     /// Squared lengths over the squared size, in the order s14 s24 s25 s35 s36 s16.
     #[inline(always)]
-    fn scaled(&self, s: &SquaredLegLengths) -> [f64; 6] {
+    pub(super) fn scaled(&self, s: &SquaredLegLengths) -> [f64; 6] {
         let scale = (self.size * self.size).recip();
         let given = s.get();
         self.order.map(|i| given[i] * scale)
@@ -202,16 +177,15 @@ impl OcticSolver {
     #[inline(always)]
     fn solve_lanes(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
         let scaled = self.scaled(s);
-        if let Some((x, y, true)) = self.pairs(&scaled, POLISHES) {
-            let settled = self.settled(&self.corners(&scaled, x, y), &scaled);
-            let found = settled.and_then(|corners| self.placed(s, &scaled, &corners));
+        for start in self.starts(&scaled) {
+            let near = self.start(&start, &scaled);
+            let corners = near.and_then(|near| self.continued(&near, start.beside.as_ref(), &scaled));
+            let found = corners.and_then(|corners| self.placed(s, &scaled, &corners));
             if found.is_some() {
                 return found;
             }
         }
-        // where two poses share a pair, or nearly so
-        let beside = self.corners_from_beside(&scaled)?;
-        self.placed(s, &scaled, &beside)
+        None
     }
 
     /// The poses of corners and pairs, where their residuals are small.
@@ -231,20 +205,6 @@ impl OcticSolver {
         let unit = self.size * self.size;
         let pairs = std::array::from_fn(|k| [x.lane(k) * unit, y.lane(k) * unit]);
         Some(OcticPoses { poses, pairs, residuals, residual: worst })
-    }
-
-    /// The pairs `(s15, s34)`, see [`pairs`], for squared lengths in the order s14 s24 s25 s35 s36 s16.
-    #[inline(always)]
-    pub(super) fn pairs(
-        &self,
-        scaled: &[f64; 6],
-        polishes: usize,
-    ) -> Option<(ComplexBatch, ComplexBatch, bool)> {
-        let [s14, s24, s25, s35, s36, s16] = *scaled;
-        let short = self.platform.b * self.platform.b;
-        let first = Factors::new(&self.base_gram, [s25, s35], [s14, s24], short);
-        let second = Factors::new(&self.turned_gram, [s16, s14], [s35, s36], self.base_gram.cc);
-        pairs(&first, &second, polishes)
     }
 
     /// Newton's method on the leg equations; the residual then, or `None` when it stays too large or the pose was not near its

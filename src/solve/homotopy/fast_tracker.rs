@@ -13,10 +13,9 @@ use pulp::{Simd, WithSimd};
 use super::lanes::{Lanes, MOST_LANES, Matrix8, PerLane, Vec8, load, norm_sqr, store};
 use super::limits::{CORRECTION_RATIO, FastTrackerLimits, STEP_GROWTH, STEP_REDUCTION};
 use super::lu::{eliminate, substitute};
-use super::paths::SETTLED;
 use super::predictor::{choose_step, predicted};
 use super::quadrics::{Forms, Quadrics};
-use super::system::{Line, ORDER, taylor, values};
+use super::system::{Line, Series, blank_series, taylor, values};
 use crate::num::vector_unit::on_vector_unit;
 
 /// Ratio of corrections below which they are squared by every step, not shrunk by a constant factor: at a double root that is a half.
@@ -84,11 +83,12 @@ where
     fn with_simd<S: Simd>(self, simd: S) -> Vec<FastPath> {
         let mut batch = PathBatch::new(simd, &self);
         let mut matrix = [[Lanes::zero(simd); 8]; 8];
+        let mut series = blank_series(simd);
         while batch.path_of_lane.iter().any(Option::is_some) {
-            batch.iterate(&self, &mut matrix);
+            batch.iterate(&self, &mut matrix, &mut series);
         }
         let mut out = batch.out;
-        polish(simd, self.homotopy, self.way[2], &mut out);
+        polish(simd, self.homotopy, self.way[2], self.limits.settled, &mut out);
         out
     }
 }
@@ -116,8 +116,8 @@ struct PathBatch<S: Simd> {
 }
 
 fn normalised(x: &[Complex64; 8]) -> [Complex64; 8] {
-    let norm = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt();
-    x.map(|z| z / norm)
+    let inverse = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt().recip();
+    x.map(|z| z * inverse)
 }
 
 #[inline(always)]
@@ -185,6 +185,7 @@ impl<S: Simd> PathBatch<S> {
         &mut self,
         tracker: &FastTracker<'_, L, F>,
         matrix: &mut Matrix8<S>,
+        series: &mut Series<S>,
     ) where
         Forms<F>: Quadrics<F>,
     {
@@ -204,13 +205,13 @@ impl<S: Simd> PathBatch<S> {
         for p in 0..8 {
             self.x[p] -= delta[p];
         }
-        let series = taylor(tracker.homotopy, self.t, &self.x, |b| substitute(matrix, &inverse, b));
+        taylor(tracker.homotopy, self.t, &self.x, series, |b| substitute(matrix, &inverse, b));
         // |x_2| / |x_1|^2 measures the curvature that Newton's method has to cope with: the correction after
         // one of size d will be about that times d^2
         let speed = norm_sqr(&series[0]);
         let curvature = store::<S>(s.div_f64s(s.sqrt_f64s(norm_sqr(&series[1])), speed));
         let advance = self.accept_or_reject(&size, &curvature, tracker);
-        self.predict(&series, advance, &tracker.limits);
+        self.predict(series, advance, &tracker.limits);
     }
 
     /// Accepts, repeats or rejects every lane by its correction; which lanes go on.
@@ -300,12 +301,7 @@ impl<S: Simd> PathBatch<S> {
 
     /// Moves the lanes that advance along their series.
     #[inline(always)]
-    fn predict(
-        &mut self,
-        series: &[Vec8<S>; ORDER],
-        advance: [bool; MOST_LANES],
-        limits: &FastTrackerLimits,
-    ) {
+    fn predict(&mut self, series: &Series<S>, advance: [bool; MOST_LANES], limits: &FastTrackerLimits) {
         let s = self.t.simd;
         let ends = [self.t, self.goal];
         let step = choose_step(ends, series, &limits.step, &self.step_factor, &advance);
@@ -334,8 +330,13 @@ fn next_correction(last: f64, this: f64) -> f64 {
 
 /// Newton's method at the target for all paths that arrived there, and a condition estimate.
 #[inline(always)]
-fn polish<S: Simd, L: Line<F>, const F: usize>(simd: S, homotopy: &L, end: Complex64, paths: &mut [FastPath])
-where
+fn polish<S: Simd, L: Line<F>, const F: usize>(
+    simd: S,
+    homotopy: &L,
+    end: Complex64,
+    enough: f64,
+    paths: &mut [FastPath],
+) where
     Forms<F>: Quadrics<F>,
 {
     let arrived: Vec<usize> = (0..paths.len()).filter(|&i| paths[i].remaining == Some(0.0)).collect();
@@ -373,7 +374,7 @@ where
                 next[l] = next_correction(last[l], sizes[l]);
             }
             last = sizes;
-            let settled = next[..S::F64_LANES].iter().all(|size| *size < SETTLED);
+            let settled = next[..S::F64_LANES].iter().all(|size| *size < enough);
             if settled || round + 1 == POLISHES {
                 let mut probe = [Lanes::splat(simd, Complex64::new(0.25, 0.25)); 8];
                 substitute(&matrix, &inverse, &mut probe);

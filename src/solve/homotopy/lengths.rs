@@ -12,7 +12,7 @@ use super::dispatch::track_all;
 use super::endgame::projective_distance;
 use super::fast_tracker::{FastPath, FastTracker};
 use super::lanes::{Lanes, Matrix8, Vec8};
-use super::limits::{BRISK, CAREFUL, LENGTHS, VERY_CAREFUL};
+use super::limits::{BRISK, CAREFUL, FastTrackerLimits, LENGTHS, VERY_CAREFUL};
 use super::monodromy::StartKind;
 use super::paths::{EndKind, HomotopyPath, SAME_END, SETTLED, settle, settle_arrived, suspects, unit};
 use super::polish::polish;
@@ -114,9 +114,13 @@ impl LengthStart {
         let (sections, slope) = frame.moving_sections(m, from, &change)?;
         let real_rows = sections.rows.map(|row| row.map(|z| z.re));
         let way = [Complex64::ZERO, Complex64::ZERO, Complex64::ONE];
-        let tracked = track(kind, &real_rows, slope, points, way);
+        let limits = FastTrackerLimits { settled: SETTLED, ..LENGTHS };
+        let tracked = track(kind, &real_rows, slope, points, (way, limits));
         let settled = tracked.iter().all(|p| p.remaining == Some(0.0) && p.correction < SETTLED);
-        let quick: Vec<[Complex64; 8]> = tracked.iter().map(|p| p.x).collect();
+        // paths that take many steps first, so that no lane of the tracker is left alone with one at the end
+        let mut order: Vec<&FastPath> = tracked.iter().collect();
+        order.sort_by_key(|p| std::cmp::Reverse(p.steps + p.rejections));
+        let quick: Vec<[Complex64; 8]> = order.iter().map(|p| p.x).collect();
         if settled && all_different(kind, &quick) {
             return Some(Self { kind, squares: to, scale: frame.scale(), points: quick });
         }
@@ -159,14 +163,14 @@ impl LengthStart {
             self.points.iter().map(|x| unit(&frame.rescaled(x, self.scale))).collect();
         let target = sections.rows.map(|row| row.map(|z| z.re));
         let way = [Complex64::ONE, Complex64::ONE, Complex64::ZERO];
-        let tracked = track(self.kind, &target, slope, &starts, way);
+        let tracked = track(self.kind, &target, slope, &starts, (way, LENGTHS));
         let homotopy = SectionHomotopy::line(&sections.rows, &slope_rows(&slope));
         let mut paths: Vec<HomotopyPath> = tracked
             .iter()
             .map(|p| {
                 let blank = HomotopyPath::under_way(p);
                 match p.remaining {
-                    Some(0.0) if p.correction < SETTLED => settle(blank, &p.x),
+                    Some(0.0) if p.correction < LENGTHS.settled => settle(blank, &p.x),
                     Some(0.0) => settle_arrived(&homotopy, &blank),
                     _ => blank,
                 }
@@ -209,16 +213,16 @@ fn track(
     target: &[[f64; FORMS]; 6],
     slope: [Complex64; 6],
     starts: &[[Complex64; 8]],
-    way: [Complex64; 3],
+    (way, limits): ([Complex64; 3], FastTrackerLimits),
 ) -> Vec<FastPath> {
     match kind {
         StartKind::Generic => {
             let homotopy = &LengthHomotopy::<FORMS> { target: *target, slope };
-            FastTracker { homotopy, starts, way, limits: LENGTHS }.run()
+            FastTracker { homotopy, starts, way, limits }.run()
         }
         StartKind::Planar => {
             let homotopy = &LengthHomotopy::<PLANAR_FORMS> { target: target.map(planar_row), slope };
-            FastTracker { homotopy, starts, way, limits: LENGTHS }.run()
+            FastTracker { homotopy, starts, way, limits }.run()
         }
     }
 }

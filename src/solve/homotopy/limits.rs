@@ -1,5 +1,7 @@
 //! Limits of the path trackers, all in one place; dimensionless, since solutions are kept at norm one.
 
+use super::paths::SETTLED;
+
 /// Limits of one predictor-corrector step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepLimits {
@@ -40,6 +42,8 @@ pub(super) struct FastTrackerLimits {
     pub(super) infinity_at: f64,
     /// See `infinity_at`.
     pub(super) small_rotation: f64,
+    /// A Newton correction at the target below this, or expected to be, needs no further polishing.
+    pub(super) settled: f64,
 }
 
 /// Factor on the next step after a rejection.
@@ -57,14 +61,16 @@ pub(super) const FAST: FastTrackerLimits = FastTrackerLimits {
     endgame_at: 1e-4,
     infinity_at: 3e-2,
     small_rotation: 1e-5,
+    settled: SETTLED,
 };
 
-/// For paths in the lengths alone: they have no end but a regular one at the target. Steps are as long as the next correction can bear.
+/// For paths in the lengths alone: they have no end but a regular one at the target. Steps are as long as the next correction can bear, and the certificate begins with a Newton step of its own.
 pub(super) const LENGTHS: FastTrackerLimits = FastTrackerLimits {
     step: StepLimits { truncation: 8e-3, accuracy: 2e-2, ..FAST.step },
     contraction: 0.05,
     endgame_at: f64::MIN_POSITIVE,
     infinity_at: 0.0,
+    settled: 1e-9,
     ..FAST
 };
 

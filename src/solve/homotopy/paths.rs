@@ -93,7 +93,8 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
     let size: f64 = e.iter().map(num_complex::Complex::norm_sqr).sum();
     let all: f64 = x.iter().map(num_complex::Complex::norm_sqr).sum();
     let n: Complex64 = e.iter().map(|z| z * z).sum();
-    (n.norm() / size, (size / all).sqrt())
+    // no `hypot`: what underflows is isotropic
+    (n.norm_sqr().sqrt() / size, (size / all).sqrt())
 }
 
 /// Tracks all paths from the start system of a kind to `target`, which must be of that kind: for [`StartKind::Planar`] the
@@ -313,6 +314,6 @@ pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Section
 }
 
 pub(crate) fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {
-    let norm = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt();
-    x.map(|z| z / norm)
+    let inverse = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt().recip();
+    x.map(|z| z * inverse)
 }

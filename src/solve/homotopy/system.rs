@@ -245,7 +245,16 @@ pub(super) fn values<S: Simd>(j: &Matrix8<S>, x: &Vec8<S>) -> Vec8<S> {
     f
 }
 
-/// Taylor coefficients `x_1 .. x_ORDER` of the path through `x` at `t`; `solve` applies the inverse of the
+/// Taylor coefficients `x_1 .. x_ORDER` of a path.
+pub(super) type Series<S> = [Vec8<S>; ORDER];
+
+/// The place for a [`taylor`] series.
+#[inline(always)]
+pub(super) fn blank_series<S: Simd>(simd: S) -> Series<S> {
+    [[Lanes::zero(simd); 8]; ORDER]
+}
+
+/// The series of the path through `x` at `t`, written to a place that is kept for the next one; `solve` applies the inverse of the
 /// derivative matrix there.
 ///
 /// Order `k` of `C(t) forms(x(t)) = 0` reads
@@ -257,27 +266,27 @@ pub(super) fn taylor<S: Simd, L: Line<F>, const F: usize>(
     homotopy: &L,
     t: Lanes<S>,
     x: &Vec8<S>,
+    series: &mut Series<S>,
     solve: impl Fn(&mut Vec8<S>),
-) -> [Vec8<S>; ORDER]
-where
+) where
     Forms<F>: Quadrics<F>,
 {
     let zero = Lanes::zero(t.simd);
-    let mut series = [[zero; 8]; ORDER];
     let half = Lanes::splat(t.simd, Complex64::new(-0.5, 0.0));
     // F(x, x) is halved
     let twice = L::moved_polar(x, x);
     let mut full = L::moved_sum(&twice, half, &twice);
+    let (mut inner, mut study) = ([zero; F], zero);
     for k in 1..=ORDER {
-        let mut inner = [zero; F];
-        let mut study = zero;
         for i in 1..=k / 2 {
             let j = k - i;
             let (f, s) = Forms::polar(&series[i - 1], &series[j - 1]);
+            let part = |z: Lanes<S>| if i == j { z.times(0.5) } else { z };
+            // the first of an order takes the place of the order before
             for n in 0..F {
-                inner[n] += if i == j { f[n].times(0.5) } else { f[n] };
+                inner[n] = if i == 1 { part(f[n]) } else { inner[n] + part(f[n]) };
             }
-            study += if i == j { s.times(0.5) } else { s };
+            study = if i == 1 { part(s) } else { study + part(s) };
         }
         let sections = if k == 1 {
             homotopy.combine(None, &full)
@@ -290,13 +299,13 @@ where
             rhs[i] = -sections[i];
         }
         rhs[6] = -study;
+        rhs[7] = zero;
         solve(rhs);
         if k < ORDER {
             let one = Lanes::splat(t.simd, Complex64::ONE);
             full = L::moved_sum(&L::moved(&inner), one, &L::moved_polar(x, &series[k - 1]));
         }
     }
-    series
 }
 
 #[cfg(test)]
@@ -376,7 +385,8 @@ mod tests {
         let norm: f64 = x.iter().map(num_complex::Complex::norm_sqr).sum();
         let patch: Vec8<Scalar> = x.map(|z| Lanes::splat(Scalar::new(), z.conj() / norm));
         let lu = Lu::factorise(derivative_matrix(&rows, &lanes(x), &patch));
-        let series = taylor(&homotopy, t0, &lanes(x), |b| *b = lu.solve(*b));
+        let mut series = blank_series(Scalar::new());
+        taylor(&homotopy, t0, &lanes(x), &mut series, |b| *b = lu.solve(*b));
         let defect = |h: f64| {
             let mut y = lanes(x);
             for (k, c) in series.iter().enumerate() {

@@ -11,7 +11,7 @@ use pulp::Scalar;
 use super::lanes::{Lanes, Vec8, norm_sqr};
 use super::lu::Lu;
 use super::paths::EndKind;
-use super::system::{ORDER, SectionHomotopy, derivative_matrix, taylor};
+use super::system::{ORDER, SectionHomotopy, blank_series, derivative_matrix, taylor};
 use crate::num::octuple::{ComplexOctuple, Octuple, OctupleLu};
 use crate::solve::octuple_sections::{OctupleSections, octuple_forms};
 use crate::solve::sections::{FORMS, FormRow, Sections};
@@ -408,7 +408,9 @@ impl Tail {
         let inverse = norm_sqr(&y).recip();
         let patch = y.map(|z| z.conj().times(inverse));
         let lu = Lu::factorise(derivative_matrix(&homotopy.rows_at(one), &y, &patch));
-        taylor(&homotopy, one, &y, |b| *b = lu.solve(*b)).map(|c| c.map(|z| z.lane(0)))
+        let mut series = blank_series(simd);
+        taylor(&homotopy, one, &y, &mut series, |b| *b = lu.solve(*b));
+        series.map(|c| c.map(|z| z.lane(0)))
     }
 
     /// The same with all digits, then rounded.

@@ -11,7 +11,7 @@ use super::lanes::{Lanes, MOST_LANES, PerLane, Vec8, load, norm_sqr, store};
 use super::limits::{CORRECTION_RATIO, STEP_GROWTH, STEP_REDUCTION, TrackerLimits};
 use super::lu::Lu;
 use super::predictor::{choose_step, predicted};
-use super::system::{Line, SectionHomotopy, derivative_matrix, taylor, values};
+use super::system::{Line, SectionHomotopy, blank_series, derivative_matrix, taylor, values};
 
 /// Paths under way, one per lane.
 #[derive(Debug, Clone)]
@@ -72,7 +72,8 @@ impl<S: Simd> PathBatch<S> {
         let mut matrix = [patch; 8];
         homotopy.derivative_at(self.t, &self.x, &patch, &mut matrix);
         let lu = Lu::factorise(matrix);
-        let series = taylor(homotopy, self.t, &self.x, |b| *b = lu.solve(*b));
+        let mut series = blank_series(s);
+        taylor(homotopy, self.t, &self.x, &mut series, |b| *b = lu.solve(*b));
         let ends = [self.t, self.goal];
         let step = choose_step(ends, &series, &limits.step, &self.step_factor, &[true; MOST_LANES]);
         let mut y = predicted(&self.x, &series, step.dt);
