@@ -7,8 +7,8 @@ use super::{Export, ExportBody, Plate};
 use crate::manipulator::Body;
 use crate::requirements::Housing;
 
-/// Legs whose lengths differ by less than this share of the size are of one kind.
-pub(super) const SAME_LENGTH: f64 = 1e-6;
+/// Legs whose lengths differ by less than this share of the size are of one kind: above what searches leave of a symmetry, a hundredth of a micrometre in a metre.
+pub(super) const SAME_LENGTH: f64 = 1e-8;
 /// Kinds of joint by body.
 const JOINTS: [&str; 2] = ["base joint", "platform joint"];
 

@@ -22,6 +22,8 @@ pub(super) struct Telescope {
     pub(super) tip: f64,
     /// Least and greatest length of the leg: the limits of the design, else those over the poses of workspace and trajectory that are listed; home is among them.
     pub(super) range: [f64; 2],
+    /// Lengths closer than this are the same.
+    same: f64,
 }
 
 impl Telescope {
@@ -30,14 +32,18 @@ impl Telescope {
         length - self.tip - self.rod
     }
 
-    /// How much of the rod is inside the cylinder at the greatest length; negative where the rod would leave it.
+    /// How much of the rod is inside the cylinder at the greatest length; negative where the rod would leave it, zero where that is less than legs of a kind may differ.
     pub(super) fn held(&self) -> f64 {
-        self.mouth - self.tail(self.range[1])
+        self.settled(self.mouth - self.tail(self.range[1]))
     }
 
-    /// Room between the cylinder and the ball of the platform joint at the least length; negative where they would meet.
+    /// Room between the cylinder and the ball of the platform joint at the least length; negative where they would meet, zero as for [`Telescope::held`].
     pub(super) fn room(&self) -> f64 {
-        self.range[0] - self.tip - self.mouth
+        self.settled(self.range[0] - self.tip - self.mouth)
+    }
+
+    fn settled(&self, x: f64) -> f64 {
+        if x.abs() <= self.same { 0.0 } else { x }
     }
 }
 
@@ -139,6 +145,6 @@ impl Export {
         });
         let least = if floor < mouth { range[0].max(mouth + tip) } else { length };
         let rod = least - tip - floor;
-        Ok(Telescope { foot, floor, mouth, rod, tip, range })
+        Ok(Telescope { foot, floor, mouth, rod, tip, range, same: SAME_LENGTH * self.size })
     }
 }

@@ -13,7 +13,9 @@ pub(crate) fn convex_hull(points: &[Point2<f64>], tolerance: f64) -> Vec<Point2<
     sorted.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
     let mut apart: Vec<Point2<f64>> = Vec::new();
     for p in sorted {
-        if apart.iter().all(|q| (p - q).norm() > tolerance) {
+        // in the order of x only the last ones can be near
+        let near = |q: &&Point2<f64>| p.x - q.x <= tolerance;
+        if apart.iter().rev().take_while(near).all(|q| (p - q).norm() > tolerance) {
             apart.push(p);
         }
     }
@@ -42,6 +44,21 @@ pub(crate) fn convex_hull(points: &[Point2<f64>], tolerance: f64) -> Vec<Point2<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::Rng;
+
+    /// As many points as a silhouette has: the corners are on one side of every edge, and found at once.
+    #[test]
+    fn no_point_is_outside_the_hull_of_many() {
+        let mut rng = Rng::new(3);
+        let points: Vec<Point2<f64>> =
+            (0..20_000).map(|_| Point2::new(rng.normal(), (4.0 * rng.unit()).floor())).collect();
+        let corners = convex_hull(&points, 1e-6);
+        assert!((4..20).contains(&corners.len()), "{corners:?}");
+        for (k, a) in corners.iter().enumerate() {
+            let b = &corners[(k + 1) % corners.len()];
+            assert!(points.iter().all(|p| turn_of(a, b, p) > -1e-5), "{a} {b}");
+        }
+    }
 
     #[test]
     fn corners_of_a_square_a_line_and_a_point() {

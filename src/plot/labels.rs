@@ -17,6 +17,24 @@ impl PageBox {
             && other.top < self.bottom
     }
 
+    /// Whether a part of a segment is inside (Liang, Barsky 1984: the shares of the segment between the sides).
+    fn is_crossed(&self, [from, to]: &Segment) -> bool {
+        let sides = [(from.0, to.0, self.left, self.right), (from.1, to.1, self.top, self.bottom)];
+        let mut inside = (0.0_f64, 1.0_f64);
+        for (a, b, least, greatest) in sides {
+            let way = b - a;
+            if way.abs() < f64::MIN_POSITIVE {
+                if !(least < a && a < greatest) {
+                    return false;
+                }
+                continue;
+            }
+            let (s, t) = ((least - a) / way, (greatest - a) / way);
+            inside = (inside.0.max(s.min(t)), inside.1.min(s.max(t)));
+        }
+        inside.0 < inside.1
+    }
+
     fn is_inside(&self, other: &Self) -> bool {
         self.left >= other.left
             && self.right <= other.right
@@ -24,6 +42,9 @@ impl PageBox {
             && self.bottom <= other.bottom
     }
 }
+
+/// Two points on the page.
+type Segment = [(f64, f64); 2];
 
 /// What a text takes at most in the fonts of the style, as shares of their size: digits, small letters and capitals of the widest of them, and the rest as wide as high.
 fn width(text: &str, size: f64) -> f64 {
@@ -80,7 +101,7 @@ pub(super) struct PlacedLabel {
     /// Where its line begins.
     pub(super) at: (f64, f64),
     /// From what it names to the label, where it is not beside it.
-    pub(super) leader: Option<[(f64, f64); 2]>,
+    pub(super) leader: Option<Segment>,
 }
 
 /// The labels of a page.
@@ -115,16 +136,21 @@ impl Labels {
         });
     }
 
-    fn is_free(&self, place: &PageBox, with_marks: bool) -> bool {
-        let marks = if with_marks { &self.marks[..] } else { &[] };
-        place.is_inside(&self.page) && !self.texts.iter().chain(marks).any(|other| other.meets(place))
+    /// Whether a label covers no text there, and no mark or no leader either.
+    fn is_free(&self, place: &PageBox, (marks, leaders): (bool, bool)) -> bool {
+        let marks = if marks { &self.marks[..] } else { &[] };
+        let mut drawn = self.placed.iter().filter(|_| leaders).filter_map(|label| label.leader.as_ref());
+        place.is_inside(&self.page)
+            && !self.texts.iter().chain(marks).any(|other| other.meets(place))
+            && !drawn.any(|leader| place.is_crossed(leader))
     }
 
     /// Puts a label on the first of these points where it covers no text and no mark, its middle at the point; else beside the first of them.
     pub(super) fn put_on(&mut self, points: &[(f64, f64)], text: &str) {
         let wide = width(text, self.size);
         let start = |p: &(f64, f64)| (p.0 - 0.5 * wide, p.1 + 0.5 * (ASCENT - DESCENT) * self.size);
-        let free = points.iter().map(start).find(|at| self.is_free(&text_box(*at, text, self.size), true));
+        let free =
+            points.iter().map(start).find(|at| self.is_free(&text_box(*at, text, self.size), (true, true)));
         match (free, points.first()) {
             (Some(at), _) => self.put(at, text, None),
             (None, Some(first)) => self.put_beside(*first, 1.0, text),
@@ -132,7 +158,7 @@ impl Labels {
         }
     }
 
-    /// Puts a label beside a point, beyond a radius around it: at the first distance and in the first direction where it covers no text, near the point no mark either.
+    /// Puts a label beside a point, beyond a radius around it: at the first distance and in the first direction where it covers no text and no leader, and its own leader crosses no text; near the point no mark either.
     pub(super) fn put_beside(&mut self, point: (f64, f64), radius: f64, text: &str) {
         let (wide, size) = (width(text, self.size), self.size);
         let side = |d: f64| 0.5 * (d.signum() * f64::from(u8::from(d != 0.0)) - 1.0);
@@ -145,14 +171,23 @@ impl Labels {
             (left, top + ASCENT * size)
         };
         let tries = |rings: u32| (0..rings).flat_map(|ring| AROUND.map(|d| (ring, candidate(ring, d))));
-        let fits = |at: &(f64, f64), with_marks: bool| self.is_free(&text_box(*at, text, size), with_marks);
-        let near = tries(NEAR).find(|(_, at)| fits(at, true));
-        let found = near.or_else(|| tries(RINGS).find(|(_, at)| fits(at, false)));
+        let leader = |ring: u32, at: (f64, f64)| {
+            let to = text_box(at, text, size);
+            let end = (point.0.clamp(to.left, to.right), point.1.clamp(to.top, to.bottom));
+            (ring > 1).then_some([point, end])
+        };
+        let fits = |&(ring, at): &(u32, (f64, f64)), marks: bool, leaders: bool| {
+            let crosses = |line: Segment| self.texts.iter().any(|other| other.is_crossed(&line));
+            self.is_free(&text_box(at, text, size), (marks, leaders))
+                && !(leaders && leader(ring, at).is_some_and(crosses))
+        };
+        let near = tries(NEAR).find(|place| fits(place, true, true));
+        let found = near
+            .or_else(|| tries(RINGS).find(|place| fits(place, false, true)))
+            .or_else(|| tries(RINGS).find(|place| fits(place, false, false)));
         // a page without room: where it would be by itself
         let (ring, at) = found.unwrap_or((0, candidate(0, AROUND[0])));
-        let to = text_box(at, text, size);
-        let leader =
-            (ring > 1).then(|| [point, (point.0.clamp(to.left, to.right), point.1.clamp(to.top, to.bottom))]);
+        let leader = leader(ring, at);
         self.put(at, text, leader);
     }
 
@@ -187,6 +222,40 @@ mod tests {
         assert_eq!(placed[11].leader.unwrap()[0], (100.0, 100.0));
         // and two at one place do meet
         assert!(boxes[0].meets(&boxes[0]));
+    }
+
+    #[test]
+    fn leaders_cross_no_label() {
+        let mut labels = Labels::on((300.0, 300.0), 9.0);
+        for k in 0..30 {
+            labels.put_beside((120.0 + 3.0 * f64::from(k % 3), 150.0), 5.0, &format!("A{k}_B{k}"));
+        }
+        let placed = labels.finish();
+        let crossings = |placed: &[PlacedLabel]| -> usize {
+            let leaders = placed.iter().enumerate().filter_map(|(i, l)| Some((i, l.leader?)));
+            leaders
+                .map(|(i, line)| {
+                    let others = placed.iter().enumerate().filter(|(j, _)| *j != i);
+                    others.filter(|(_, l)| text_box(l.at, &l.text, 9.0).is_crossed(&line)).count()
+                })
+                .sum()
+        };
+        assert!(placed.iter().filter(|l| l.leader.is_some()).count() > 5);
+        assert_eq!(crossings(&placed), 0, "{placed:?}");
+        // a leader through a label is found
+        let mut through = placed.clone();
+        through[29].leader = Some([(0.0, through[3].at.1 - 2.0), (300.0, through[3].at.1 - 2.0)]);
+        assert!(crossings(&through) > 0);
+    }
+
+    #[test]
+    fn segments_cross_boxes_by_their_inside() {
+        let page = PageBox { left: 0.0, right: 2.0, top: 0.0, bottom: 1.0 };
+        let crossed = |a, b| page.is_crossed(&[a, b]);
+        assert!(crossed((-1.0, 0.5), (3.0, 0.5)) && crossed((0.5, 0.5), (0.6, 0.6)));
+        assert!(crossed((-1.0, -1.0), (2.0, 2.0)) && crossed((1.0, -5.0), (1.0, 5.0)));
+        assert!(!crossed((-1.0, 0.0), (3.0, 0.0)) && !crossed((-1.0, 0.5), (0.0, 0.5)));
+        assert!(!crossed((-1.0, 0.5), (1.0, 2.5)) && !crossed((3.0, -1.0), (3.0, 2.0)));
     }
 
     #[test]

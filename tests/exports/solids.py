@@ -98,7 +98,7 @@ def tree_fault(path, doc):
     if whole is None or [p[0] for p in whole] != ["base", "platform"] + [f"leg {k}" for k in range(1, 7)]:
         return f"parts of the whole: {whole and [p[0] for p in whole]}"
     for (body, _, inside) in whole[:2]:
-        names = [p[0] for p in inside if not p[0].startswith("post of")]
+        names = [p[0] for p in inside if not p[0].startswith(("post of", "housing of"))]
         if sorted(names) != sorted([f"{body} plate"] + [j["name"] for j in doc[body]["joints"]]):
             return f"parts of the {body}: {names}"
         if any("joint of the " + body not in p[1] for p in inside if p[0] in {j["name"] for j in doc[body]["joints"]}):
@@ -107,7 +107,7 @@ def tree_fault(path, doc):
         return "parts of a leg"
     for a, leg in zip(whole[2:], doc["legs"]):
         for b, other in zip(whole[2:], doc["legs"]):
-            if abs(leg["home_length"] - other["home_length"]) > 1e-5 * leg["home_length"] and a[1] == b[1]:
+            if abs(leg["home_length"] - other["home_length"]) > 1e-7 * leg["home_length"] and a[1] == b[1]:
                 return f"{a[0]} and {b[0]} differ and are one part"
             # of the designs checked all joints of a body are of one kind
             if abs(leg["home_length"] - other["home_length"]) < 1e-9 * leg["home_length"] and a[1] != b[1]:

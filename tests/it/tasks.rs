@@ -1,5 +1,7 @@
-//! The tasks of a newcomer, `docs/tasks.md`, and the guides: every command is run as it stands there, in an empty folder.
+//! The tasks of a newcomer, `docs/tasks.md`, and the guides: every command is run as it stands there, in an empty folder; the commands of the other pages
+//! beside the shipped designs. A design that a command calls good is given to `equipod assess`, which has to agree.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -63,17 +65,10 @@ fn faults(page: &str, folder: &Path) -> Vec<String> {
                 fs::write(path, before + &text).unwrap();
             }
             Step::Run { command, code, shows } => {
-                let mut words = command.split(' ');
-                assert_eq!(words.next(), Some("equipod"), "{command}");
-                let mut program = Command::new(env!("CARGO_BIN_EXE_equipod"));
-                let out = program.current_dir(folder).args(words).output().unwrap();
-                let shown = String::from_utf8(out.stdout).unwrap() + &String::from_utf8(out.stderr).unwrap();
-                if out.status.code() != Some(code) || !shown.contains(&shows) {
+                let (found, shown) = run(&command, folder, &mut faults);
+                if found != Some(code) || !shown.contains(&shows) {
                     let seen: String = shown.chars().take(1500).collect();
-                    faults.push(format!(
-                        "{command}: exit {:?}, not {code} with {shows:?}\n{seen}",
-                        out.status.code()
-                    ));
+                    faults.push(format!("{command}: exit {found:?}, not {code} with {shows:?}\n{seen}"));
                 }
                 let written = command.split_once(" -o ").and_then(|(_, rest)| rest.split(' ').next());
                 if let Some(file) = written.filter(|f| *f != "-" && code == 0)
@@ -85,6 +80,112 @@ fn faults(page: &str, folder: &Path) -> Vec<String> {
         }
     }
     faults
+}
+
+/// Runs a command line in a folder, judges what it calls good, and returns its exit code and what it shows.
+fn run(command: &str, folder: &Path, faults: &mut Vec<String>) -> (Option<i32>, String) {
+    // quotes are for a shell
+    let words: Vec<String> = command.split(' ').map(|w| w.trim_matches('\'').to_owned()).collect();
+    assert_eq!(words[0], "equipod", "{command}");
+    let before = designs(folder);
+    let mut program = Command::new(env!("CARGO_BIN_EXE_equipod"));
+    let out = program.current_dir(folder).args(&words[1..]).output().unwrap();
+    let code = out.status.code();
+    let shown = String::from_utf8(out.stdout).unwrap() + &String::from_utf8(out.stderr).unwrap();
+    if !calls_good(&shown) && !(is_judge(command) && code == Some(0)) {
+        return (code, shown);
+    }
+    // what the answer is about: the designs that are new, else those that were read
+    let after = designs(folder);
+    let is_new = |(path, text): &(&String, &String)| before.get(*path) != Some(*text);
+    let mut subjects: Vec<&String> = after.iter().filter(is_new).map(|(path, _)| path).collect();
+    if subjects.is_empty() {
+        subjects = after.keys().filter(|path| words.contains(path)).collect();
+    }
+    let judged = subjects.into_iter().filter(|path| !words[1].starts_with("assess") || words.contains(path));
+    let judged: Vec<(String, bool)> = judged.map(|path| (path.clone(), !is_refused(path, folder))).collect();
+    faults.extend(contradictions(&shown, &judged).into_iter().map(|fault| format!("{command}: {fault}")));
+    (code, shown)
+}
+
+/// Designs of a folder and of those below it by their paths, with their texts. What `explore` names the original is the design that it has read.
+fn designs(folder: &Path) -> BTreeMap<String, String> {
+    let mut out = BTreeMap::new();
+    let mut open = vec![folder.to_path_buf()];
+    while let Some(at) = open.pop() {
+        for entry in fs::read_dir(at).unwrap() {
+            let path = entry.unwrap().path();
+            let named = |end: &str| path.extension().is_some_and(|e| e == end);
+            if path.is_dir() {
+                open.push(path);
+            } else if (named("toml") || named("json")) && !path.ends_with("original.toml") {
+                let text = fs::read_to_string(&path).unwrap();
+                // answers and plans have no legs of their own
+                if text.lines().any(|l| l.starts_with("legs = ") || l.starts_with("  \"legs\"")) {
+                    out.insert(path.strip_prefix(folder).unwrap().to_str().unwrap().replace('\\', "/"), text);
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Words that call a design good.
+const GOOD: [&str; 10] = [
+    "meets all its requirements",
+    "meets its requirements",
+    "meet the requirements",
+    "requirements met",
+    "requirements are met",
+    "limits are met",
+    "every wish fulfilled",
+    "fulfil every wish",
+    "optimal",
+    "optimum",
+];
+
+/// Words that take it back in the same line.
+const BUT: [&str; 7] = ["violat", "miss", "not ", "none", "no ", "unproved", "infeasible"];
+
+fn praises(line: &str) -> bool {
+    let line = line.to_lowercase();
+    GOOD.iter().any(|w| line.contains(w)) && !BUT.iter().any(|w| line.contains(w))
+}
+
+fn calls_good(shown: &str) -> bool {
+    shown.lines().any(praises)
+}
+
+/// Commands whose exit code 0 says that a design is as it should be.
+fn is_judge(command: &str) -> bool {
+    ["assess ", "optimize ", "explore ", "build round ", "build drives ", "equivalents move "]
+        .iter()
+        .any(|c| command.strip_prefix("equipod ").is_some_and(|rest| rest.starts_with(c)))
+        && !command.contains(" --move ")
+}
+
+/// Whether `assess` does not call a design good; one that requires nothing cannot be bad.
+fn is_refused(design: &str, folder: &Path) -> bool {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_equipod"));
+    let out = program.current_dir(folder).args(["assess", design]).output().unwrap();
+    let nothing = String::from_utf8(out.stderr).unwrap().contains("nothing_required");
+    out.status.code() != Some(0) && !nothing
+}
+
+/// Where an answer calls designs good that `assess` refuses: the only one or all of them, or one to which a line belongs, by its path or its number.
+fn contradictions(shown: &str, judged: &[(String, bool)]) -> Vec<String> {
+    let mut out = Vec::new();
+    if !judged.is_empty() && judged.iter().all(|(_, good)| !good) {
+        let names: Vec<&str> = judged.iter().map(|(path, _)| path.as_str()).collect();
+        out.push(format!("`assess` does not agree about {}", names.join(", ")));
+    }
+    for (path, _) in judged.iter().filter(|(_, good)| !good) {
+        let number = Path::new(path).file_stem().unwrap().to_str().unwrap().to_owned() + ". ";
+        let own = |line: &&str| line.contains(path.as_str()) || line.starts_with(&number);
+        let said = shown.lines().filter(own).filter(|line| praises(line));
+        out.extend(said.map(|line| format!("`assess` does not agree about {path}: {line}")));
+    }
+    out
 }
 
 fn read(path: impl AsRef<Path>) -> String {
@@ -142,4 +243,179 @@ fn a_page_that_promises_too_much_is_found_out() {
         page("```toml\n# made.toml\nname = \"\"\n```\n```sh\nequipod check made.toml  # exit 2\n```"),
         0
     );
+}
+
+#[test]
+fn praise_that_assess_does_not_share_is_found_out() {
+    let judged = |all: &[(&str, bool)]| -> Vec<(String, bool)> {
+        all.iter().map(|(path, good)| ((*path).to_owned(), *good)).collect()
+    };
+    let found = |shown: &str, all: &[(&str, bool)]| contradictions(shown, &judged(all)).len();
+    assert_eq!(found("x: optimal", &[("x.toml", true)]), 0);
+    assert_eq!(found("x: optimal", &[("x.toml", false)]), 1);
+    let two = "1. every wish fulfilled, all requirements met\n2. every wish fulfilled, requirements violated: leg_force";
+    assert_eq!(found(two, &[("found/1.toml", true), ("found/2.toml", false)]), 0);
+    assert_eq!(found(two, &[("found/1.toml", false), ("found/2.toml", true)]), 1);
+    assert_eq!(found("wrote a.toml: limits are met", &[("a.toml", false), ("b.toml", true)]), 1);
+    // words that take it back, and words of every answer that does not
+    let praise = ["p: optimal", "the limits are met; better platforms may be near"];
+    assert!(praise.iter().all(|line| calls_good(line)));
+    let none = [
+        "the platform misses requirements and is not called optimal",
+        "5 equivalent platform(s) fulfil every wish, and each of them violates requirements of the design",
+    ];
+    assert!(!none.iter().any(|line| calls_good(line)));
+    // the program itself: a design that misses a limit is refused, one without limits is not, and a table of joints is no design
+    let folder = tempfile::tempdir().unwrap();
+    let text = read("designs/rbt-octahedral.toml");
+    fs::write(folder.path().join("good.toml"), &text).unwrap();
+    fs::write(folder.path().join("bad.toml"), text + "\n[hardware]\nleg_length = [1.0, 2.0]\n").unwrap();
+    fs::write(folder.path().join("none.toml"), read("designs/general-6-6.toml")).unwrap();
+    fs::write(folder.path().join("table.toml"), "x = 1\n").unwrap();
+    assert_eq!(designs(folder.path()).len(), 3);
+    let refused = |name: &str| is_refused(name, folder.path());
+    assert_eq!(["bad.toml", "none.toml"].map(refused), [true, false]);
+    assert!(
+        is_judge("equipod assess x.toml") && !is_judge("equipod equivalents move x.toml --move 1:1:0.25")
+    );
+}
+
+/// Commands of the pages that are not run here, by their beginning, and why.
+const LEFT_OUT: [(&str, &str); 14] = [
+    ("equipod bench ", "solves problems for minutes and judges no design; tests/it/cli_bench.rs runs it"),
+    ("equipod export hexapod.toml ", "stands for any design with joints that are not ideal"),
+    ("equipod fk DESIGN ", "stands for any design"),
+    ("equipod design schema fk > ", "the shell writes the file"),
+    (
+        "equipod plot pareto ",
+        "reads the answer of a search for a front, which no page makes; tests/it/cli_plot.rs does",
+    ),
+    ("equipod plot self-motion ", "a minute, and judges no design; tests/it/cli_plot.rs runs a shorter one"),
+    ("equipod singular motion ", "a minute, and judges no design; tests/it/cli_singularities.rs runs it"),
+    ("equipod shell completions bash > ", "writes into the folder of its user"),
+    ("equipod shell completions fish > ", "writes into the folder of its user"),
+    ("equipod shell man -o ~", "writes into the folder of its user"),
+    (
+        "equipod optimize designs/worked/",
+        "a minute; tests/it/worked_designs.rs judges the result, which is shipped",
+    ),
+    (
+        "equipod explore designs/worked/",
+        "minutes; tests/it/worked_designs.rs judges the result, which is shipped",
+    ),
+    ("equipod assess designs/worked/bench-plates", "half a minute; it is `assess` itself"),
+    ("equipod explore designs/rbt-octahedral.toml -o DIR", "docs/cli.md has the same"),
+];
+
+/// Commands that a page asks its reader to type: lines of blocks for a shell, indented lines, and what stands in a sentence with a shipped design.
+fn examples(page: &str) -> Vec<String> {
+    let mut out: Vec<String> = Vec::new();
+    let mut block: Option<bool> = None;
+    for line in page.lines() {
+        if let Some(language) = line.strip_prefix("```") {
+            block = if block.is_some() { None } else { Some(["sh", "console"].contains(&language)) };
+            continue;
+        }
+        let typed = match block {
+            Some(true) => vec![line.trim_start_matches("$ ").replace("cargo run -- ", "equipod ")],
+            Some(false) => Vec::new(),
+            None if line.starts_with("    ") => vec![line.trim().to_owned()],
+            None => {
+                let quoted = line.split('`').skip(1).step_by(2).filter(|q| q.contains(" designs/"));
+                quoted.map(str::to_owned).collect()
+            }
+        };
+        for command in typed {
+            let command = command.split("  #").next().unwrap().trim().to_owned();
+            // patterns of usage have brackets and dots
+            let pattern = command.contains(['[', '<', '{']) || command.contains("..");
+            if command.starts_with("equipod ") && !pattern && !out.contains(&command) {
+                out.push(command);
+            }
+        }
+    }
+    out
+}
+
+/// The pages whose commands are not run by another test: those of `docs` and the first one, without the lists of fields and the tasks.
+fn pages() -> Vec<(String, String)> {
+    let first = read("README.md");
+    let (before, own) = first.split_once("\n## Your own hexapod").unwrap();
+    // that section makes its files from blocks of text and is run by a test of its own
+    let rest = own.split_once("\n## ").unwrap().1;
+    let mut out = vec![("README.md".to_owned(), format!("{before}\n{rest}"))];
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in ["docs", "docs/theory", "docs/evidence"] {
+        for entry in fs::read_dir(root.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            if path.extension().is_some_and(|e| e == "md") && name != "tasks.md" {
+                out.push((format!("{folder}/{name}"), fs::read_to_string(path).unwrap()));
+            }
+        }
+    }
+    out.sort();
+    out
+}
+
+/// A folder with the shipped designs.
+fn with_designs() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut open = vec![PathBuf::from("designs")];
+    while let Some(at) = open.pop() {
+        fs::create_dir_all(folder.path().join(&at)).unwrap();
+        for entry in fs::read_dir(root.join(&at)).unwrap() {
+            let path = at.join(entry.unwrap().file_name());
+            if root.join(&path).is_dir() {
+                open.push(path);
+            } else {
+                fs::copy(root.join(&path), folder.path().join(&path)).unwrap();
+            }
+        }
+    }
+    fs::create_dir_all(folder.path().join("docs/figures")).unwrap();
+    folder
+}
+
+/// Runs the commands of a page one after the other; what was said before is not asked again.
+fn faults_of_examples(page: &str, done: &mut BTreeSet<String>) -> (usize, Vec<String>) {
+    let folder = with_designs();
+    let (mut count, mut faults) = (0, Vec::new());
+    for command in examples(page) {
+        let left_out = LEFT_OUT.iter().any(|(start, _)| command.starts_with(start));
+        // what writes is run again on another page, whose later commands may read it
+        if left_out || (!command.contains(" -o ") && !done.insert(command.clone())) {
+            continue;
+        }
+        count += 1;
+        let (code, shown) = run(&command, folder.path(), &mut faults);
+        if !matches!(code, Some(0 | 1 | 3)) {
+            faults.push(format!("{command}: exit {code:?}\n{shown}"));
+        }
+    }
+    (count, faults)
+}
+
+#[test]
+fn commands_left_out_are_named_and_stand_in_a_page() {
+    let all: Vec<String> = pages().iter().flat_map(|(_, text)| examples(text)).collect();
+    assert!(all.len() > 80, "{}", all.len());
+    for (start, why) in LEFT_OUT {
+        assert!(all.iter().any(|c| c.starts_with(start)), "{start} stands in no page");
+        assert!(why.len() > 10, "{start}: {why}");
+    }
+}
+
+#[test]
+#[ignore = "slow evidence"]
+fn no_command_of_the_pages_calls_a_design_good_that_assess_refuses() {
+    let (mut done, mut count, mut all) = (BTreeSet::new(), 0, Vec::new());
+    for (name, text) in pages() {
+        let (run, faults) = faults_of_examples(&text, &mut done);
+        count += run;
+        all.extend(faults.into_iter().map(|fault| format!("{name}: {fault}")));
+    }
+    assert!(count > 60, "{count}");
+    assert!(all.is_empty(), "{}", all.join("\n\n"));
 }

@@ -13,6 +13,7 @@ use super::telescope::{LegKind, Telescope, kind_suffix};
 use super::text::rounded;
 use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
 use crate::geom::{Pose, any_across};
+use crate::requirements::Housing;
 
 /// The format `step`.
 #[derive(Debug)]
@@ -28,7 +29,7 @@ impl Writer for StepFile {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "joints as constraints: the parts stand at home; a joint is drawn as a ball whatever its kind and housing, which its part names; legs that share a ball run into each other near it"
+        "joints as constraints: the parts stand at home; a joint is drawn as a ball whatever its kind, which its part names, and inside the box of its housing where it has one; legs that share a ball run into each other near it"
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
@@ -74,6 +75,14 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Part
             let at = Pose { rotation: Rotation3::identity(), position: joint.at.coords };
             a.place(&mut group, ball, &joint.name, &at);
         }
+        // the box that distances of joints and envelopes take, along the axes of the body
+        let Some(Housing::Box(edges)) = sort.housing else { continue };
+        let name = format!("housing of the {name}");
+        let block = a.part((&name, ""), |b| solids::block(b, &name, &(edges * mm)));
+        for joint in body.joints.iter().filter(|j| joints.contains(&j.name.as_str())) {
+            let at = Pose { rotation: Rotation3::identity(), position: joint.at.coords };
+            a.place(&mut group, block, &format!("housing of {}", joint.name), &at);
+        }
     }
     for hole in plate.holes.iter().filter(|h| h.post > 0.0) {
         let name = format!("post of {}", hole.joints.join("/"));
@@ -90,10 +99,10 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Part
 fn stroke(kind: &LegKind, t: &Telescope, mm: f64) -> String {
     let [least, greatest] = t.range.map(|l| rounded(l * mm));
     let (name, numbers, rod) = (kind.name("leg"), kind.numbers(), rounded(t.rod * mm));
-    let held = if t.held() > 0.0 {
-        format!("in its cylinder by {} or more", rounded(t.held() * mm))
-    } else {
-        format!("out of its cylinder by up to {}", rounded(-t.held() * mm))
+    let held = match t.held() {
+        x if x > 0.0 => format!("in its cylinder by {} or more", rounded(x * mm)),
+        x if x < 0.0 => format!("out of its cylinder by up to {}", rounded(-x * mm)),
+        _ => "just in its cylinder at the greatest length".to_owned(),
     };
     let met = if t.room() < 0.0 {
         format!("; the cylinder meets the platform joint by up to {}", rounded(-t.room() * mm))
@@ -103,26 +112,43 @@ fn stroke(kind: &LegKind, t: &Telescope, mm: f64) -> String {
     format!("Part {name} ({numbers}), {least} to {greatest} long: the rod of {rod} is {held}{met}")
 }
 
+/// Cylinders and rods, each shape once: legs that differ in length alone may have the same ones.
+#[derive(Default)]
+struct LegParts {
+    cylinder: Option<Part>,
+    rods: Vec<(f64, Part)>,
+}
+
 /// A leg of a kind from the origin along the third axis.
-fn leg(a: &mut StepAssembly, export: &Export, kind: &LegKind, t: &Telescope) -> Part {
+fn leg(
+    a: &mut StepAssembly,
+    export: &Export,
+    (kind, t): (&LegKind, &Telescope),
+    (parts, rod_name): (&mut LegParts, &str),
+) -> Part {
     let mm = export.unit.millimetres;
     let (thick, thin) = export.legs[kind.legs[0]].diameters;
     let mut group = Group::default();
     let up = |z: f64| Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, z) };
     let height = (t.mouth - t.foot) * mm;
-    // parts of different shapes have names of their own: programs keep parts by their names
-    let name = kind.name("cylinder");
-    let part = a.part((&name, ""), |b| {
-        if t.floor < t.mouth {
-            solids::sleeve(b, &name, (thick * mm, thin * mm), ((t.floor - t.foot) * mm, height))
-        } else {
-            solids::cylinder(b, &name, thick * mm, height)
-        }
+    // sizes of cylinders are those of the machine
+    let cylinder = *parts.cylinder.get_or_insert_with(|| {
+        a.part(("cylinder", ""), |b| {
+            if t.floor < t.mouth {
+                solids::sleeve(b, "cylinder", (thick * mm, thin * mm), ((t.floor - t.foot) * mm, height))
+            } else {
+                solids::cylinder(b, "cylinder", thick * mm, height)
+            }
+        })
     });
-    a.place(&mut group, part, "cylinder", &up(t.foot));
-    let name = kind.name("rod");
-    let part = a.part((&name, ""), |b| solids::cylinder(b, &name, thin * mm, t.rod * mm));
-    a.place(&mut group, part, "rod", &up(t.tail(kind.length)));
+    a.place(&mut group, cylinder, "cylinder", &up(t.foot));
+    let known = parts.rods.iter().find(|(length, _)| length.total_cmp(&t.rod).is_eq());
+    let rod = known.map(|(_, part)| *part).unwrap_or_else(|| {
+        let part = a.part((rod_name, ""), |b| solids::cylinder(b, rod_name, thin * mm, t.rod * mm));
+        parts.rods.push((t.rod, part));
+        part
+    });
+    a.place(&mut group, rod, "rod", &up(t.tail(kind.length)));
     a.assembled(&kind.name("leg"), "", &group)
 }
 
@@ -140,8 +166,13 @@ fn assembly(export: &Export) -> Result<String, Unsupported> {
         a.place(&mut whole, part, of.body.name(), &placed);
     }
     let mut legs: Vec<(usize, Part)> = Vec::new();
+    let mut parts = LegParts::default();
+    // parts of different shapes have names of their own: programs keep parts by their names
+    let first = kinds[0].1.rod;
+    let one_rod = kinds.iter().all(|(_, t)| t.rod.total_cmp(&first).is_eq());
     for (kind, t) in &kinds {
-        let part = leg(&mut a, export, kind, t);
+        let name = if one_rod { "rod".to_owned() } else { kind.name("rod") };
+        let part = leg(&mut a, export, (kind, t), (&mut parts, &name));
         legs.extend(kind.legs.iter().map(|i| (*i, part)));
     }
     legs.sort_unstable_by_key(|(i, _)| *i);

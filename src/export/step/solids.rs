@@ -141,6 +141,44 @@ pub(super) fn sleeve(
     b.solid(name, &[sides[0], sides[1], top, ground, bottom])
 }
 
+/// A box about the origin with edges along the axes, millimetres.
+pub(super) fn block(b: &mut Builder, name: &str, edges: &Vector3<f64>) -> Id {
+    let corner =
+        |c: usize| Point3::from(Vector3::from_fn(|k, _| if c >> k & 1 == 0 { -0.5 } else { 0.5 } * edges[k]));
+    let corners: Vec<Id> = (0..8).map(|c| b.vertex(&corner(c))).collect();
+    // the edge along an axis from each corner that is below it
+    let mut along = [[None; 8]; 3];
+    for (k, row) in along.iter_mut().enumerate() {
+        for c in (0..8).filter(|c| c >> k & 1 == 0) {
+            let d = c | 1 << k;
+            row[c] = Some(b.straight((corners[c], corners[d]), &corner(c), &corner(d)));
+        }
+    }
+    let mut faces = Vec::new();
+    for k in 0..3 {
+        // the two other axes in the order that makes the loop turn about axis k
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        for upper in [true, false] {
+            let c = if upper { 1 << k } else { 0 };
+            let around = [(i, c, true), (j, c | 1 << i, true), (i, c | 1 << j, false), (j, c, false)];
+            let mut edges: Vec<(Id, bool)> = around
+                .iter()
+                .filter_map(|(axis, from, forwards)| along[*axis][*from].map(|edge| (edge, *forwards)))
+                .collect();
+            if !upper {
+                edges.reverse();
+                edges.iter_mut().for_each(|(_, forwards)| *forwards = !*forwards);
+            }
+            let around = b.edge_loop(&edges);
+            let axis = |k: usize| Vector3::from_fn(|r, _| if r == k { 1.0 } else { 0.0 });
+            let normal = if upper { axis(k) } else { -axis(k) };
+            let surface = b.plane(&corner(c), &normal, &axis(i));
+            faces.push(b.face(around, &[], surface, true));
+        }
+    }
+    b.solid(name, &faces)
+}
+
 /// A ball about the origin, two half spheres, millimetres.
 pub(super) fn ball(b: &mut Builder, name: &str, diameter: f64) -> Id {
     let radius = 0.5 * diameter;

@@ -3,6 +3,8 @@
 //! The distance of two convex hulls of points is at least `min u . (x - y)` over the points `x` of one and `y` of the other, for every unit vector `u`. Which `u` is good depends on the
 //! pose: for two segments that are nearest inside both it is normal to both, for an end and the inside of a segment it leaves that segment at a right angle, for two ends it
 //! joins them. As functions of the pose these directions make the bound exact to second order; a constant one serves where they are not defined.
+//!
+//! A direction is a vector `n` with polynomials as coordinates and is not divided by its length, whose second derivatives would be known badly ([`along_direction`]).
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -22,6 +24,15 @@ use crate::requirements::plate::PlateSolid;
 pub(super) struct Hull {
     points: Vec<JetVector>,
     radius: Interval,
+    /// Of a part of a leg: base joint and line of the leg, which the part lies on.
+    axis: Option<(JetVector, JetVector)>,
+}
+
+impl Hull {
+    /// A point of the line through its first two points, and a vector along it.
+    fn line(&self) -> (JetVector, JetVector) {
+        self.axis.unwrap_or_else(|| (self.points[0], less(&self.points[1], &self.points[0])))
+    }
 }
 
 fn halved(x: f64) -> Interval {
@@ -34,7 +45,12 @@ fn halved(x: f64) -> Interval {
 pub(super) fn leg_parts(frame: &CellFrame<'_>, m: &Manipulator, i: usize, body: &LegBody) -> Vec<Hull> {
     let leg = frame.leg(m, i);
     let end: JetVector = std::array::from_fn(|k| leg.base[k] + leg.line[k]);
-    let whole = |radius: f64| vec![Hull { points: vec![leg.base, end], radius: halved(radius) }];
+    let part = |from: JetVector, to: JetVector, diameter: f64| Hull {
+        points: vec![from, to],
+        radius: halved(diameter),
+        axis: Some((leg.base, leg.line)),
+    };
+    let whole = |diameter: f64| vec![part(leg.base, end, diameter)];
     let Some((cylinder, rod)) = body.rod else { return whole(body.diameter) };
     let square = Interval::from(cylinder).square();
     if leg.square.value.hi() <= square.lo() {
@@ -44,10 +60,7 @@ pub(super) fn leg_parts(frame: &CellFrame<'_>, m: &Manipulator, i: usize, body: 
         Some(inverse) if leg.square.value.lo() > square.hi() => {
             let share = inverse.times(Interval::from(cylinder));
             let top: JetVector = std::array::from_fn(|k| leg.base[k] + leg.line[k] * share);
-            vec![
-                Hull { points: vec![leg.base, top], radius: halved(body.diameter) },
-                Hull { points: vec![top, end], radius: halved(rod) },
-            ]
+            vec![part(leg.base, top, body.diameter), part(top, end, rod)]
         }
         _ => whole(body.diameter.max(rod)),
     }
@@ -207,7 +220,8 @@ pub(super) fn shape_part(frame: &CellFrame<'_>, shape: &KeepOutShape, fixed_to: 
         KeepOutShape::Box { center, size } => 4.0 * f64::EPSILON * (center.coords.amax() + size.amax()),
         _ => 0.0,
     };
-    Hull { points: points.iter().map(place).collect(), radius: halved(diameter) + Interval::from(rounding) }
+    let radius = halved(diameter) + Interval::from(rounding);
+    Hull { points: points.iter().map(place).collect(), radius, axis: None }
 }
 
 fn middle(v: &JetVector) -> Vector3<f64> {
@@ -264,28 +278,100 @@ fn less(a: &JetVector, b: &JetVector) -> JetVector {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-/// The direction for two segments, from the second to the first, up to sign and length; and which points have to be compared.
-fn direction(a: &[JetVector], b: &[JetVector], on: (On, On)) -> (JetVector, Vec<(usize, usize)>) {
-    let every = |a: &[JetVector], b: &[JetVector]| -> Vec<(usize, usize)> {
-        (0..a.len()).flat_map(|i| (0..b.len()).map(move |j| (i, j))).collect()
-    };
+/// A direction for two segments up to sign and length, and the differences of points whose least part along it is no more than the gap.
+fn direction(a: &Hull, b: &Hull, on: (On, On)) -> (JetVector, Vec<JetVector>) {
     // v less its part along f, times f . f
     let across = |v: JetVector, f: JetVector| -> JetVector {
         let (square, along) = (norm_squared(&f), dot(&v, &f));
         std::array::from_fn(|k| v[k] * square - f[k] * along)
     };
     match on {
-        (On::Inside, On::Inside) => (cross(&less(&a[1], &a[0]), &less(&b[1], &b[0])), vec![(0, 0)]),
+        (On::Inside, On::Inside) => {
+            let ((p, f), (q, g)) = (a.line(), b.line());
+            (cross(&f, &g), vec![less(&p, &q)])
+        }
         (On::End(i), On::Inside) => {
-            let u = across(less(&a[i], &b[0]), less(&b[1], &b[0]));
-            (u, (0..a.len()).map(|i| (i, 0)).collect())
+            let (q, g) = b.line();
+            (across(less(&a.points[i], &q), g), a.points.iter().map(|x| less(x, &q)).collect())
         }
         (On::Inside, On::End(j)) => {
-            let u = across(less(&a[0], &b[j]), less(&a[1], &a[0]));
-            (u, (0..b.len()).map(|j| (0, j)).collect())
+            let (p, f) = a.line();
+            (across(less(&p, &b.points[j]), f), b.points.iter().map(|y| less(&p, y)).collect())
         }
-        (On::End(i), On::End(j)) => (less(&a[i], &b[j]), every(a, b)),
+        (On::End(i), On::End(j)) => {
+            let every = a.points.iter().flat_map(|x| b.points.iter().map(move |y| less(x, y)));
+            (less(&a.points[i], &b.points[j]), every.collect())
+        }
     }
+}
+
+/// A lower bound of `n . d / |n|` over a cell, from `n` and `d` at its point `z` and over it; `None` where `n` may be at a right angle to what it is at `z`.
+///
+/// With `e` the direction of `n` at `z`, `r` the value there, `c` a lower bound of `n . e` over the cell that is positive, and `m = n - e (n . e)`,
+///
+/// ```text
+/// |n| <= n . e + |m|^2 / (2 n . e) <= n . e + |m|^2 / (2 c),
+/// n . d / |n| = r + (n . d - r |n|) / |n| >= r + min(K, 0) / c,   K = n . (d - r e) - |m|^2 r / (2 c),
+/// ```
+///
+/// where the last term of `K` is left out for a negative `r`, since then `-r |n| >= -r n . e`. `K` vanishes at `z`, and is a polynomial of what `n` and `d` are: its second derivatives are
+/// known better than those of the quotient, in which large parts cancel.
+fn along_direction(
+    chart: &Chart,
+    cell: &ChartCell,
+    z: &[f64; 6],
+    at: (&JetVector, &JetVector),
+    over: (&JetVector, &JetVector),
+) -> Option<Bounded> {
+    let (towards, length) = (middle(at.0), middle(at.0).norm());
+    let r = towards.dot(&middle(at.1)) / length;
+    if !(length > 0.0 && r.is_finite()) {
+        return None;
+    }
+    let one = Interval::from(1.0);
+    let e: IntervalVector = std::array::from_fn(|k| Interval::from(towards[k]));
+    let square = e[0].square() + e[1].square() + e[2].square();
+    let (by_length, by_square) = (one.checked_div(square.sqrt()?)?, one.checked_div(square)?);
+    // n . e with e as long as it is
+    let along = |n: &JetVector| n[0].times(e[0]) + n[1].times(e[1]) + n[2].times(e[2]);
+    let least = (along(over.0).value * by_length).lo();
+    if !(least > 0.0) {
+        return None;
+    }
+    let share = Interval::from(r.max(0.0)).checked_div(Interval::from(2.0) * Interval::from(least))?;
+    let surplus = |(n, d): (&JetVector, &JetVector)| {
+        let left: JetVector =
+            std::array::from_fn(|k| d[k] - d[k].alike(Interval::from(r) * e[k] * by_length));
+        let part = along(n).times(by_square);
+        let across: JetVector = std::array::from_fn(|k| n[k] - part.times(e[k]));
+        dot(n, &left) - norm_squared(&across).times(share)
+    };
+    let bounded = local::below(chart, cell, z, &surplus(at), &surplus(over));
+    if !bounded.below.is_finite() {
+        return None;
+    }
+    let lost = Interval::from(bounded.below.min(0.0)).checked_div(Interval::from(least))?;
+    Some(Bounded { below: (Interval::from(r) + lost).lo(), ..bounded })
+}
+
+/// Where the nearest points lie, and the same with lines in place of segments (`second`: the second body is a segment).
+///
+/// The line through a segment is no farther than the segment. Where a nearest point comes to an end of its segment within the cell, the direction that belongs to the end turns with the pose, by an
+/// angle that the whole length of the segment multiplies, and its bound is exact to first order only; that of the line is exact to second order there, since a line gets nearer than its segment by
+/// the square of how far its nearest point is beyond the end.
+fn lines_instead((a, b): (On, On), second: bool) -> Vec<(On, On)> {
+    let mut out = vec![(a, b)];
+    let mut also = |kind: (On, On)| {
+        if !out.contains(&kind) {
+            out.push(kind);
+        }
+    };
+    also((On::Inside, b));
+    if second {
+        also((a, On::Inside));
+        also((On::Inside, On::Inside));
+    }
+    out
 }
 
 /// A lower bound of the gap of two hulls over a cell, and an upper bound of the gap at the point `z`.
@@ -330,19 +416,25 @@ pub(super) fn gap(
         best = best.max(least(&bound, &every));
     }
     if ours.len() == 2 && theirs.len() <= 2 {
-        let kind = (on(&weights.0), if theirs.len() == 1 { On::End(0) } else { on(&weights.1) });
-        let (u_at, pairs) = direction(&at.0.points, &at.1.points, kind);
-        let (u_over, _) = direction(ours, theirs, kind);
-        let flip = if middle(&u_at).dot(&apart) < 0.0 { -1.0 } else { 1.0 };
-        let value = |u: &JetVector, a: &JetVector, b: &JetVector| {
-            let inverse = norm_squared(u).inverse_root()?;
-            Some((dot(u, &less(a, b)) * inverse).times(Interval::from(flip)))
-        };
-        let bound = |(i, j): (usize, usize)| {
-            let here = value(&u_at, &at.0.points[i], &at.1.points[j])?;
-            Some(local::below(chart, cell, z, &here, &value(&u_over, &ours[i], &theirs[j])?))
-        };
-        best = best.max(least(&bound, &pairs));
+        let nearest_on = (on(&weights.0), if theirs.len() == 1 { On::End(0) } else { on(&weights.1) });
+        for kind in lines_instead(nearest_on, theirs.len() == 2) {
+            let (mut n_at, d_at) = direction(at.0, at.1, kind);
+            let (mut n_over, d_over) = direction(over.0, over.1, kind);
+            if middle(&n_at).dot(&apart) < 0.0 {
+                (n_at, n_over) = (n_at.map(|x| -x), n_over.map(|x| -x));
+            }
+            // no bound is above the least value at z
+            let towards = middle(&n_at);
+            let there = d_at.iter().map(|d| towards.dot(&middle(d)) / towards.norm());
+            if there.fold(f64::INFINITY, f64::min) <= best.below {
+                continue;
+            }
+            let each = d_at.iter().zip(&d_over).map(|(d_at, d_over)| {
+                along_direction(chart, cell, z, (&n_at, d_at), (&n_over, d_over))
+                    .unwrap_or_else(|| Bounded::nothing(cell))
+            });
+            best = best.max(each.reduce(Bounded::min).unwrap_or_else(|| Bounded::nothing(cell)));
+        }
     }
     best.below = (Interval::from(best.below) - radii_over).lo();
     if best.below.is_nan() {

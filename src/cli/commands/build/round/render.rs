@@ -43,15 +43,18 @@ impl RoundReport<'_> {
     }
 }
 
-fn judged(out: &mut String, what: &str, j: &JudgementRecord, units: &str) {
+/// A line about a design; `met`: what is known of its requirements over the whole workspace, where it was judged there.
+fn judged(out: &mut String, what: &str, j: &JudgementRecord, met: Option<bool>, units: &str) {
+    let requirements = match (met, j.met) {
+        (Some(true), true) => "met",
+        (None, true) => "met at the sampled poses",
+        _ => "violated",
+    };
     let det = j.det.map_or(String::new(), |d| format!(", det A = {:.6}", d.0));
     let _ = writeln!(
         out,
-        "{what:<8} worst inverse condition number {:.6}{det}; joints at least {:.4} and {:.4} {units} apart; requirements {}",
-        j.objective.0,
-        j.least_distances[0].0,
-        j.least_distances[1].0,
-        if j.met { "met at the sampled poses" } else { "violated" }
+        "{what:<8} worst inverse condition number {:.6}{det}; joints at least {:.4} and {:.4} {units} apart; requirements {requirements}",
+        j.objective.0, j.least_distances[0].0, j.least_distances[1].0,
     );
 }
 
@@ -84,11 +87,14 @@ pub(super) fn text(r: &RoundAnswer) -> String {
     if let Some(design) = &r.design {
         out = requirements::lead(design.name(), r.assessment.as_ref()) + "\n";
     }
+    // the design that is written was judged at every pose; a line of its own poses must not say more
+    let written = r.chosen.or(r.least_missed);
+    let known = |way: VariantWord| r.assessment.as_ref().filter(|_| written == Some(way)).and_then(|a| a.met);
     let _ = writeln!(out, "{}", r.name);
-    judged(&mut out, "wanted", &r.wanted, units);
+    judged(&mut out, "wanted", &r.wanted, None, units);
     match &r.exact {
         ExactRoundingOutcome::Found(e) => {
-            judged(&mut out, "exact", &e.judgement, units);
+            judged(&mut out, "exact", &e.judgement, known(VariantWord::Exact), units);
             let proof = if e.proved { "proved in exact arithmetic" } else { "NOT proved" };
             let _ = writeln!(
                 out,
@@ -106,7 +112,7 @@ pub(super) fn text(r: &RoundAnswer) -> String {
     }
     match &r.nearest {
         NearestRoundingOutcome::Found(n) => {
-            judged(&mut out, "nearest", &n.judgement, units);
+            judged(&mut out, "nearest", &n.judgement, known(VariantWord::Nearest), units);
             let e = &n.pose_error;
             let _ = writeln!(
                 out,
