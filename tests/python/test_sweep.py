@@ -37,10 +37,10 @@ def by_command(source, folder, shards):
 
 @pytest.fixture(scope="module")
 def swept(tmp_path_factory):
-    """A finished sweep of a few hundred designs, by the command line."""
+    """A finished sweep of some hundred designs a shard, so that parts have columns of all kinds of writing, by the command line."""
     folder = tmp_path_factory.mktemp("swept")
     source = folder / "plan.json"
-    source.write_text(json.dumps(plan(300, keep=["base_spacing > 0.5"])))
+    source.write_text(json.dumps(plan(900, keep=["base_spacing > 0.5"])))
     by_command(source, folder / "out", 3)
     return folder / "out"
 
