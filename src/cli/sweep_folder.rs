@@ -5,7 +5,9 @@
 
 use std::fs::{self, File};
 use std::io::{BufWriter, ErrorKind, Write};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -308,13 +310,14 @@ impl SweepFolder {
         Ok(reader)
     }
 
-    /// Writes the part of a shard from its rows, then its manifest; `None` where the rows ended early (`rows` says so by an `Err`).
+    /// Writes the part of a shard from its rows, then its manifest; `None` where `go_on`, which hears of all candidates that are done, ends it.
     pub(crate) fn write_part(
         &self,
         sweep: &Sweep,
         shard: u64,
         (first, candidates): (u64, u64),
-        rows: impl Iterator<Item = Result<RowChunk, ()>>,
+        mut rows: impl Iterator<Item = RowChunk>,
+        mut go_on: impl FnMut(u64) -> ControlFlow<()>,
     ) -> Result<Option<SweepManifestRecord>, Failure> {
         let (path, manifest) = (self.part(shard), self.manifest(shard));
         // a manifest never speaks of a part that is not there yet
@@ -322,7 +325,7 @@ impl SweepFolder {
             Err(error) if error.kind() != ErrorKind::NotFound => return Err(failed(&manifest)(error)),
             _ => {}
         }
-        let began = std::time::Instant::now();
+        let (began, mut waited) = (Instant::now(), Duration::ZERO);
         let error_column = sweep.columns.len() - 1;
         let written = write_whole(&path, |to| {
             let mut writer = PartWriter::new(
@@ -333,8 +336,13 @@ impl SweepFolder {
             )
             .map_err(|e| part_failed(&path, &e))?;
             let (mut kept, mut failed) = (0, 0);
-            for chunk in rows {
-                let Ok(mut chunk) = chunk else { return Ok(None) };
+            loop {
+                let asked = Instant::now();
+                let Some(mut chunk) = rows.next() else { break };
+                waited += asked.elapsed();
+                if go_on(chunk.candidates).is_break() {
+                    return Ok(None);
+                }
                 for row in chunk.rows() {
                     kept += 1;
                     failed += u64::from(row[error_column] != SweepCell::Empty);
@@ -345,6 +353,7 @@ impl SweepFolder {
             Ok(Some((to, (kept, failed, bytes, sha256))))
         })?;
         let Some((rows, failed, bytes, sha256)) = written else { return Ok(None) };
+        let took = began.elapsed();
         let r = &self.record;
         let record = SweepManifestRecord {
             schema_version: SCHEMA_VERSION,
@@ -360,7 +369,8 @@ impl SweepFolder {
             part: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             bytes,
             sha256,
-            seconds: began.elapsed().as_secs_f64().into(),
+            seconds: took.as_secs_f64().into(),
+            writing_seconds: took.saturating_sub(waited).as_secs_f64().into(),
         };
         write_text(&manifest, &json(&record)?)?;
         Ok(Some(record))

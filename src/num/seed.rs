@@ -134,6 +134,8 @@ impl Purpose {
     pub(crate) const SWEPT_ORDERS: Self = Self::family(0x5358);
     /// Candidates of a sweep that are computed again, or first to tell how long it takes.
     pub(crate) const SWEPT_AGAIN: Self = Self::single(0x5359);
+    /// Cells of a column of a sweep that are looked at to tell whether its numbers repeat.
+    pub(crate) const SWEPT_CELLS: Self = Self::single(0x535a);
     /// Matrices of the times of reference.
     pub(crate) const REFERENCE_MATRICES: Self = Self::single(69);
 

@@ -91,6 +91,16 @@ fn roomy(values: &[f64]) -> (f64, f64) {
     (low - room, high + room)
 }
 
+/// What stands behind a point or a line: the candidate of the row, and its values to five digits.
+fn behind(figure: &SweptFigure, k: usize) -> String {
+    let value = |c: &SweptColumn| {
+        let rounded = format!("{:.4e}", c.values[k]).parse().ok().filter(|x: &f64| x.is_finite());
+        format!("{} = {}", c.label, rounded.map_or_else(|| "none".into(), |x| x.to_string()))
+    };
+    let values: Vec<String> = figure.columns.iter().map(value).collect();
+    escape(&format!("candidate {}: {}", figure.candidates[k], values.join(", ")))
+}
+
 fn opened(figure: &SweptFigure, what: &str, width: f64) -> Svg {
     let names: Vec<&str> = figure.columns.iter().map(|c| c.label.as_str()).collect();
     let description =
@@ -277,7 +287,7 @@ pub(crate) fn best_rows(figure: &SweptFigure, gain: [bool; 2]) -> Vec<usize> {
     rows
 }
 
-/// Points over the first two columns, coloured by the third; with `gain` the front of rows of which none is better in both. Each point has the number of its candidate as its title.
+/// Points over the first two columns, coloured by the third; with `gain` the front of rows of which none is better in both. The title of a point is what stands behind it.
 pub(crate) fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> String {
     let (x, y) = (&figure.columns[0], &figure.columns[1]);
     let (rx, ry) = (roomy(&x.values), roomy(&y.values));
@@ -293,11 +303,11 @@ pub(crate) fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> Stri
         let (px_, py_) = (ax.at(x.values[k]), ay.at(y.values[k]));
         let fill = fill.map_or(String::new(), |f| format!(" fill=\"{f}\""));
         svg.raw(&format!(
-            "<circle class=\"{class}\"{fill} cx=\"{}\" cy=\"{}\" r=\"{}\"><title>candidate {}</title></circle>",
+            "<circle class=\"{class}\"{fill} cx=\"{}\" cy=\"{}\" r=\"{}\"><title>{}</title></circle>",
             px(px_),
             px(py_),
             px(r),
-            figure.candidates[k]
+            behind(figure, k)
         ));
     };
     let both = |k: &usize| x.values[*k].is_finite() && y.values[*k].is_finite();
@@ -352,10 +362,10 @@ pub(crate) fn swept_parallel(figure: &SweptFigure) -> String {
         let (low, high) = ranges[n - 1];
         let share = (figure.columns[n - 1].values[*k] - low) / (high - low);
         svg.raw(&format!(
-            "<polyline class=\"strand\" stroke=\"{}\" points=\"{}\"><title>candidate {}</title></polyline>",
+            "<polyline class=\"strand\" stroke=\"{}\" points=\"{}\"><title>{}</title></polyline>",
             colour(share),
             points.join(" "),
-            figure.candidates[*k]
+            behind(figure, *k)
         ));
     }
     for (c, column) in figure.columns.iter().enumerate() {
@@ -420,14 +430,22 @@ mod tests {
         assert_eq!(best_rows(&curve, [true, true]), [5, 4, 3, 2, 1, 0]);
         let drawn = swept_cloud(&curve, Some([true, true]));
         assert_eq!(drawn.matches("class=\"best\"").count(), 6);
-        assert_eq!(swept_cloud(&figure, None).matches("class=\"dot\"").count(), 36);
+        let mut points = figure.clone();
+        assert_eq!(swept_cloud(&points, None).matches("class=\"dot\"").count(), 36);
+        // what a point is of stands behind it
+        points.columns[0] = SweptColumn { label: "r<s> [mm]".into(), values: vec![1.0 / 3.0; 36] };
+        points.columns.push(SweptColumn { label: "c".into(), values: vec![f64::NAN; 36] });
+        let drawn = swept_cloud(&points, None);
+        assert!(drawn.contains("<title>candidate 35: r&lt;s&gt; [mm] = 0.33333, c1 = 5, c = none</title>"));
     }
 
     #[test]
     fn parallel_axes_have_a_line_for_each_whole_row() {
         let mut figure = figure(4);
         figure.columns[2].values[7] = f64::NAN;
-        assert_eq!(swept_parallel(&figure).matches("class=\"strand\"").count(), 35);
+        let drawn = swept_parallel(&figure);
+        assert_eq!(drawn.matches("class=\"strand\"").count(), 35);
+        assert!(drawn.contains("<title>candidate 8: c0 = 2, c1 = 1, c2 = 64, c3 = 1.5</title>"));
     }
 
     #[test]

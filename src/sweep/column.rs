@@ -1,5 +1,8 @@
 //! Columns of the table of a sweep, and what their cells hold.
 
+/// The first column: the numbers of the candidates.
+pub(crate) const CANDIDATE: &str = "candidate";
+
 /// What the cells of a column hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ColumnKind {

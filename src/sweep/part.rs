@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::sync::Arc;
 
-use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::ColumnReader;
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::{ByteArray, DataType};
@@ -12,12 +12,13 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
+use parquet::schema::types::{ColumnPath, Type};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::column::{ColumnKind, SweepCell, SweepColumn};
+use super::column::{CANDIDATE, ColumnKind, SweepCell, SweepColumn};
 use super::rows::SweepRow;
+use crate::num::Purpose;
 
 /// Rows that are held before they are written.
 const ROWS: usize = 1 << 14;
@@ -25,6 +26,10 @@ const ROWS: usize = 1 << 14;
 /// Bytes of the dictionary of a column in a group of rows, at most: 1024 numbers. A column with more different values is written plainly from there on, since a table of
 /// values that hardly repeat makes the file larger and takes most of the time of writing.
 const DICTIONARY: usize = 1 << 13;
+
+/// Cells of a column that are looked at to tell whether anything repeats in it, one of each of so many equal parts of the column. Among so
+/// many of 1024 numbers there is a repetition in all but some of ten thousand cases.
+const LOOKED_AT: usize = 128;
 
 /// The key under which the columns are described.
 const COLUMNS_KEY: &str = "equipod.columns";
@@ -134,6 +139,23 @@ impl WaitingColumn {
         true
     }
 
+    /// Whether a table of values or a compressor may find something: of the numbers that are looked at two have equal lower halves, as
+    /// equal numbers have them, and whole numbers. Numbers that are computed hardly ever do, and then both are half of the time of
+    /// writing for nothing.
+    fn repeats(&self) -> bool {
+        let WaitingValues::Numbers(values) = &self.values else { return true };
+        let each = values.len() / LOOKED_AT;
+        if each == 0 {
+            return true;
+        }
+        // places at equal distances would not see numbers that come in turn
+        let mut rng = Purpose::SWEPT_CELLS.rng(0);
+        let half = |part: &[f64]| part[(rng.next_u64() % part.len() as u64) as usize].to_bits() as u32;
+        let mut halves: Vec<u32> = values.chunks(each).map(half).collect();
+        halves.sort_unstable();
+        halves.windows(2).any(|w| w[0] == w[1])
+    }
+
     /// Writes the cells and forgets them; the room for the next ones stays. `full` are the levels of a column without empty cells. `false` for a column of another type.
     fn write(&mut self, to: &mut ColumnWriter<'_>, full: &[i16]) -> Result<bool, ParquetError> {
         let levels = Some(if self.levels.is_empty() { full } else { &self.levels });
@@ -161,9 +183,19 @@ impl WaitingColumn {
     }
 }
 
+/// What a file is begun with, once the first rows say how their columns are best written.
+struct PartHead<W> {
+    to: W,
+    schema: Arc<Type>,
+    notes: Vec<KeyValue>,
+}
+
 /// Writes rows; what it writes depends on columns, notes and rows alone.
 pub(crate) struct PartWriter<W: Write + Send> {
-    writer: SerializedFileWriter<W>,
+    /// Until the first rows are written.
+    head: Option<PartHead<W>>,
+    /// From then on.
+    writer: Option<SerializedFileWriter<W>>,
     columns: Vec<SweepColumn>,
     waiting: Vec<WaitingColumn>,
     rows: usize,
@@ -198,16 +230,10 @@ impl<W: Write + Send> PartWriter<W> {
         let schema = Arc::new(Type::group_type_builder("sweep").with_fields(fields).build()?);
         let own = (COLUMNS_KEY.to_owned(), described(columns));
         let notes = notes.iter().chain([&own]).map(|(k, v)| KeyValue::new(k.clone(), v.clone())).collect();
-        let properties = WriterProperties::builder()
-            .set_compression(Compression::SNAPPY)
-            .set_dictionary_page_size_limit(DICTIONARY)
-            .set_created_by(format!("equipod {}", env!("CARGO_PKG_VERSION")))
-            .set_key_value_metadata(Some(notes))
-            .build();
-        let writer = SerializedFileWriter::new(to, schema, Arc::new(properties))?;
         let room = ROWS.min(usize::try_from(room).unwrap_or(ROWS));
         let waiting = columns.iter().map(|c| WaitingColumn::new(c.kind, room)).collect();
-        Ok(Self { writer, columns: columns.to_vec(), waiting, rows: 0 })
+        let head = Some(PartHead { to, schema, notes });
+        Ok(Self { head, writer: None, columns: columns.to_vec(), waiting, rows: 0 })
     }
 
     /// Adds a row, whose texts are taken out of it.
@@ -228,11 +254,44 @@ impl<W: Write + Send> PartWriter<W> {
         if self.rows == ROWS { self.write_group() } else { Ok(()) }
     }
 
+    /// How the columns are written: as the rows that wait are best written.
+    fn properties(&self, notes: Vec<KeyValue>) -> WriterProperties {
+        let mut properties = WriterProperties::builder()
+            .set_compression(Compression::SNAPPY)
+            .set_dictionary_page_size_limit(DICTIONARY)
+            .set_created_by(format!("equipod {}", env!("CARGO_PKG_VERSION")))
+            .set_key_value_metadata(Some(notes));
+        for (column, waiting) in self.columns.iter().zip(&self.waiting) {
+            let path = || ColumnPath::from(column.name.clone());
+            if !waiting.repeats() {
+                properties = properties
+                    .set_column_dictionary_enabled(path(), false)
+                    .set_column_compression(path(), Compression::UNCOMPRESSED);
+            } else if column.name == CANDIDATE && self.rows >= LOOKED_AT {
+                // numbers that grow, mostly by one
+                properties = properties
+                    .set_column_dictionary_enabled(path(), false)
+                    .set_column_encoding(path(), Encoding::DELTA_BINARY_PACKED);
+            }
+        }
+        properties.build()
+    }
+
+    /// Begins the file, unless it is begun.
+    fn begin(&mut self) -> Result<(), PartError> {
+        if let Some(PartHead { to, schema, notes }) = self.head.take() {
+            let properties = Arc::new(self.properties(notes));
+            self.writer = Some(SerializedFileWriter::new(to, schema, properties)?);
+        }
+        Ok(())
+    }
+
     fn write_group(&mut self) -> Result<(), PartError> {
         if self.rows == 0 {
             return Ok(());
         }
-        let mut group = self.writer.next_row_group()?;
+        self.begin()?;
+        let mut group = self.writer.as_mut().ok_or_else(not_begun)?.next_row_group()?;
         let full = vec![1; self.rows];
         let mut k = 0;
         while let Some(mut column) = group.next_column()? {
@@ -253,8 +312,14 @@ impl<W: Write + Send> PartWriter<W> {
     /// Those of the file.
     pub(crate) fn finish(mut self) -> Result<W, PartError> {
         self.write_group()?;
-        Ok(self.writer.into_inner()?)
+        // there may be no rows at all
+        self.begin()?;
+        Ok(self.writer.ok_or_else(not_begun)?.into_inner()?)
     }
+}
+
+fn not_begun() -> PartError {
+    PartError::Foreign("the file could not be begun".into())
 }
 
 fn other_type(column: &SweepColumn) -> PartError {
@@ -433,6 +498,41 @@ mod tests {
             let value = |k: usize| SweepCell::Number(1.0 / (1.5 + (k % different) as f64));
             assert!(back.iter().enumerate().all(|(k, row)| row[0].is_same(&value(k))));
         }
+    }
+
+    #[test]
+    fn numbers_that_come_in_turn_are_seen_to_repeat_and_computed_ones_not_to() {
+        let columns =
+            [SweepColumn::new(CANDIDATE, ColumnKind::Integer, None, ""), SweepColumn::number("x", None, "")];
+        let described = |n: usize, value: &dyn Fn(usize) -> f64| {
+            let mut writer = PartWriter::new(Vec::new(), &columns, &[], 0).unwrap();
+            for k in 0..n {
+                writer.push(&mut [SweepCell::Integer(k as i64), SweepCell::Number(value(k))]).unwrap();
+            }
+            let reader = opened(&writer.finish().unwrap()).unwrap();
+            let back = reader.group(0, &[0, 1]).unwrap();
+            assert!(back.iter().enumerate().all(|(k, row)| {
+                row[0] == SweepCell::Integer(k as i64) && row[1].is_same(&SweepCell::Number(value(k)))
+            }));
+            let [candidate, x] = [0, 1].map(|k| reader.reader.metadata().row_group(0).column(k).clone());
+            let delta = candidate.encodings().any(|e| e == Encoding::DELTA_BINARY_PACKED);
+            (delta, x.compression(), x.encodings().any(|e| e == Encoding::RLE_DICTIONARY))
+        };
+        let computed = |k: usize| 1.0 / (1.5 + k as f64);
+        let plain = (true, Compression::UNCOMPRESSED, false);
+        assert_eq!([200, 5000, ROWS].map(|n| described(n, &computed)), [plain; 3]);
+        // with few rows nothing is known
+        assert_eq!(described(LOOKED_AT - 1, &computed), (false, Compression::SNAPPY, true));
+        // in turn, with lengths that have factors in common with everything here and with nothing; whole numbers; the same number always
+        for turn in [2, 64, 127, 128, 625, 1000, 1009, 1024] {
+            let repeated = |k: usize| computed(k % turn);
+            assert_eq!(
+                [5000, ROWS].map(|n| described(n, &repeated)),
+                [(true, Compression::SNAPPY, true); 2],
+                "{turn}"
+            );
+        }
+        assert_eq!(described(5000, &|k| k as f64), (true, Compression::SNAPPY, true));
     }
 
     #[test]

@@ -73,6 +73,13 @@ fn parts_are_the_same_bytes_for_any_threads_and_any_order_of_shards() {
     }
     let bytes = parts(&one);
     assert_eq!((bytes.len(), &bytes), (4, &parts(&two)));
+    // what went into the part is some of the time that its shard took
+    for (name, _) in &bytes {
+        let manifest = std::fs::read(Path::new(&one).join(name).with_extension("json")).unwrap();
+        let manifest: Value = serde_json::from_slice(&manifest).unwrap();
+        let [all, writing] = ["seconds", "writing_seconds"].map(|key| manifest[key].as_f64().unwrap());
+        assert!(0.0 < writing && writing < all, "{manifest}");
+    }
     assert_eq!(bytes, parts(&three));
     // one part per shard whatever is done twice
     let (code, doc) = asked(&[&plan, "-o", &three]);

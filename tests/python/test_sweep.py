@@ -37,10 +37,10 @@ def by_command(source, folder, shards):
 
 @pytest.fixture(scope="module")
 def swept(tmp_path_factory):
-    """A finished sweep of a few hundred designs, by the command line."""
+    """A finished sweep of some hundred designs a shard, so that parts have columns of all kinds of writing, by the command line."""
     folder = tmp_path_factory.mktemp("swept")
     source = folder / "plan.json"
-    source.write_text(json.dumps(plan(300, keep=["base_spacing > 0.5"])))
+    source.write_text(json.dumps(plan(900, keep=["base_spacing > 0.5"])))
     by_command(source, folder / "out", 3)
     return folder / "out"
 
@@ -95,6 +95,20 @@ def test_a_sweep_goes_on_where_another_engine_ended(tmp_path):
     with pytest.raises(equipod.DesignError) as refused:
         equipod.sweep.run({**plan(5), "compute": ["det_b"]}, output=tmp_path / "bad", shards=1)
     assert "det_a" in str(refused.value) or refused.value.code == "sweep::bad_plan"
+
+
+def test_the_time_of_a_plan_is_estimated_and_a_bad_plan_refused_before_anything_is_written(tmp_path):
+    told = equipod.sweep.estimate(plan(5000), shards=7, threads=2)
+    assert (told["candidates"], told["shards"], told["threads"]) == (5000, 7, 2)
+    assert told["seconds"] == pytest.approx(told["seconds_each"] * 5000 / 2) and told["seconds"] > 0
+    assert [c["name"] for c in told["columns"]][:2] == ["candidate", "offsets_1"]
+    source = tmp_path / "plan.json"
+    source.write_text(json.dumps(plan(5000)))
+    assert equipod.sweep.estimate(source)["columns"] == told["columns"]
+    assert list(tmp_path.iterdir()) == [source]
+    with pytest.raises(equipod.DesignError) as refused:
+        equipod.sweep.estimate({**plan(5), "compute": ["det_b"]})
+    assert refused.value.code == "sweep::bad_plan"
 
 
 def expected(folder):

@@ -3,6 +3,8 @@
 A plan and its parts are those of ``equipod sweep``: parts computed here are the bytes that the command line writes, and one may go on where the other ended.
 
     >>> import equipod.sweep                                                  # doctest: +SKIP
+    >>> equipod.sweep.estimate("plan.toml", threads=64)["seconds"]            # doctest: +SKIP
+    4200.0
     >>> status = equipod.sweep.run("plan.toml", output="sweep", shards=64)    # doctest: +SKIP
     >>> status["missing"]                                                     # doctest: +SKIP
     []
@@ -18,9 +20,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from ._errors import CommandError, DesignError
-from ._program import ask
+from ._program import Workshop, ask
 
-__all__ = ["parts", "run", "status"]
+__all__ = ["estimate", "parts", "run", "status"]
 
 #: A plan: a file, or the same structure as a mapping, with an absolute path (or one relative to the working directory) as its ``design``.
 Plan = str | os.PathLike[str] | Mapping[str, Any]
@@ -77,6 +79,18 @@ def _written(plan: Plan, folder: pathlib.Path) -> str:
         raise DesignError(f"{folder} holds another plan", code="sweep::other_sweep")
     path.write_text(text, encoding="utf-8")
     return str(path)
+
+
+def estimate(plan: Plan, *, shards: int | None = None, seed: int = 1, threads: int = 1) -> dict[str, Any]:
+    """How long a sweep takes and which columns it has, from a sample of its candidates, as ``equipod sweep run --estimate``: nothing is written.
+
+    `threads` is how many processors share the work; ``seconds`` is the time on so many, ``seconds_each`` that of a candidate on one.
+
+    :raises DesignError: a plan that is refused
+    """
+    with Workshop() as place:
+        words = ["sweep", "run", _written(plan, place.path), "--estimate", "--seed", str(seed), "--threads", str(threads)]
+        return ask(words if shards is None else [*words, "--shards", str(shards)])
 
 
 def run(

@@ -17,7 +17,7 @@ pub(in crate::sweep) use read::pose_of;
 pub(crate) use read::{files_named, read};
 pub(crate) use values::{AxisValues, PlanAxis, PlanBlock, Spreading};
 
-use super::column::{ColumnKind, SweepColumn};
+use super::column::{CANDIDATE, ColumnKind, SweepColumn};
 
 /// Candidates of a plan, at most.
 const MOST_CANDIDATES: u64 = 1 << 53;
@@ -429,7 +429,7 @@ impl SweepPlan {
     /// All columns of the table: the number of the candidate, what varies, what is computed, the error.
     pub(crate) fn columns(&self, base: &BasePlan) -> Vec<SweepColumn> {
         let mut columns =
-            vec![SweepColumn::new("candidate", ColumnKind::Integer, None, "number of the candidate, from 0")];
+            vec![SweepColumn::new(CANDIDATE, ColumnKind::Integer, None, "number of the candidate, from 0")];
         columns.extend(self.blocks.iter().flat_map(|b| b.axes.iter().map(|a| a.column.clone())));
         columns.extend(self.tasks.iter().flat_map(|task| task.columns(base)));
         columns.push(SweepColumn::new("error", ColumnKind::Text, None, "why the rest of the row is empty"));

@@ -136,12 +136,12 @@ fn compute(
     for shard in open {
         let range = range(shard);
         let cancel = Cancel::new();
-        let rows = sweep.rows(range.clone(), threads, &cancel).map(|chunk| {
-            done += chunk.candidates;
+        let rows = sweep.rows(range.clone(), threads, &cancel);
+        let written = folder.write_part(sweep, shard, (range.start, range.end - range.start), rows, |n| {
+            done += n;
             progress.part("candidates", done as usize, total as usize);
-            if interrupt.flow().is_break() { Err(()) } else { Ok(chunk) }
+            interrupt.flow()
         });
-        let written = folder.write_part(sweep, shard, (range.start, range.end - range.start), rows);
         cancel.cancel();
         let manifest = match written {
             Ok(Some(manifest)) => manifest,

@@ -119,7 +119,8 @@ submit)
         jobs=$jobs:${job%%;*}
         echo "shards $offset to $((offset + last)): job ${job%%;*}"
     done
-    job=$(sbatch --parsable "${options[@]}" --dependency="afterok$jobs" "$0" merge)
+    # after shards that failed too: it says which are missing
+    job=$(sbatch --parsable "${options[@]}" --output="$folder/slurm-%j-merge.log" --dependency="afterany$jobs" "$0" merge)
     echo "check and merge: job ${job%%;*}, $folder/merged.parquet"
     ;;
 shard)
@@ -127,7 +128,10 @@ shard)
         --threads "$threads" --output "$folder"
     ;;
 merge)
-    "$equipod" sweep verify "$folder"
+    if ! "$equipod" sweep verify "$folder"; then
+        echo "not merged: once the reason is mended, the same script submits what is missing" >&2
+        exit 1
+    fi
     exec "$equipod" sweep merge "$folder" --output "$folder/merged.parquet"
     ;;
 *)
