@@ -37,7 +37,11 @@ const LINES: &[Line] = &[
         ],
     ),
     ("geom", &["num", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
-    ("poly", &["num"], &[INTEGERS, COMPLEX, ("num_integer", None), ("num_traits", None), ERRORS]),
+    (
+        "poly",
+        &["num"],
+        &[INTEGERS, COMPLEX, ("num_integer", None), ("num_traits", None), ("pulp", Some("roots.rs")), ERRORS],
+    ),
     ("manipulator", &["num", "geom"], &[MATRICES, ERRORS]),
     (
         "solve",
