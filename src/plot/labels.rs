@@ -17,7 +17,7 @@ impl PageBox {
             && other.top < self.bottom
     }
 
-    /// Whether a part of a segment is inside (Liang, Barsky 1984: the shares of the segment between the sides).
+    /// Whether a part of a segment is inside: the shares of it between the sides of either axis have a part in common.
     fn is_crossed(&self, [from, to]: &Segment) -> bool {
         let sides = [(from.0, to.0, self.left, self.right), (from.1, to.1, self.top, self.bottom)];
         let mut inside = (0.0_f64, 1.0_f64);

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
 
 /// What a page tells its reader to do.
 #[derive(Debug, PartialEq)]
@@ -102,8 +103,8 @@ fn run(command: &str, folder: &Path, faults: &mut Vec<String>) -> (Option<i32>, 
     if subjects.is_empty() {
         subjects = after.keys().filter(|path| words.contains(path)).collect();
     }
-    let judged = subjects.into_iter().filter(|path| !words[1].starts_with("assess") || words.contains(path));
-    let judged: Vec<(String, bool)> = judged.map(|path| (path.clone(), !is_refused(path, folder))).collect();
+    let judged: Vec<(String, bool)> =
+        subjects.into_iter().map(|path| (path.clone(), !is_refused(path, folder))).collect();
     faults.extend(contradictions(&shown, &judged).into_iter().map(|fault| format!("{command}: {fault}")));
     (code, shown)
 }
@@ -164,12 +165,21 @@ fn is_judge(command: &str) -> bool {
         && !command.contains(" --move ")
 }
 
+/// What `assess` has said of the designs with these texts: many commands are about the same one.
+static SAID: Mutex<BTreeMap<String, bool>> = Mutex::new(BTreeMap::new());
+
 /// Whether `assess` does not call a design good; one that requires nothing cannot be bad.
 fn is_refused(design: &str, folder: &Path) -> bool {
+    let text = fs::read_to_string(folder.join(design)).unwrap();
+    if let Some(said) = SAID.lock().unwrap().get(&text) {
+        return *said;
+    }
     let mut program = Command::new(env!("CARGO_BIN_EXE_equipod"));
     let out = program.current_dir(folder).args(["assess", design]).output().unwrap();
     let nothing = String::from_utf8(out.stderr).unwrap().contains("nothing_required");
-    out.status.code() != Some(0) && !nothing
+    let refused = out.status.code() != Some(0) && !nothing;
+    SAID.lock().unwrap().insert(text, refused);
+    refused
 }
 
 /// Where an answer calls designs good that `assess` refuses: the only one or all of them, or one to which a line belongs, by its path or its number.

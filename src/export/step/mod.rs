@@ -142,8 +142,8 @@ fn leg(
         })
     });
     a.place(&mut group, cylinder, "cylinder", &up(t.foot));
-    let known = parts.rods.iter().find(|(length, _)| length.total_cmp(&t.rod).is_eq());
-    let rod = known.map(|(_, part)| *part).unwrap_or_else(|| {
+    let known = parts.rods.iter().find(|(length, _)| length.total_cmp(&t.rod).is_eq()).map(|(_, part)| *part);
+    let rod = known.unwrap_or_else(|| {
         let part = a.part((rod_name, ""), |b| solids::cylinder(b, rod_name, thin * mm, t.rod * mm));
         parts.rods.push((t.rod, part));
         part

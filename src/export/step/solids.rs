@@ -167,7 +167,9 @@ pub(super) fn block(b: &mut Builder, name: &str, edges: &Vector3<f64>) -> Id {
                 .collect();
             if !upper {
                 edges.reverse();
-                edges.iter_mut().for_each(|(_, forwards)| *forwards = !*forwards);
+                for (_, forwards) in &mut edges {
+                    *forwards = !*forwards;
+                }
             }
             let around = b.edge_loop(&edges);
             let axis = |k: usize| Vector3::from_fn(|r, _| if r == k { 1.0 } else { 0.0 });
