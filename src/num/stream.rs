@@ -137,8 +137,11 @@ impl<I, T> Iterator for Stream<I, T> {
 
     fn next(&mut self) -> Option<T> {
         let Some(arriving) = &self.arriving else {
-            let (_, input) = self.shared.next()?;
-            self.shared.hand_out();
+            // nobody waits for room
+            if self.shared.cancel.is_cancelled() {
+                return None;
+            }
+            let input = self.shared.lock().inputs.next()?;
             return Some((self.job)(input));
         };
         if self.shared.cancel.is_cancelled() {

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 use super::column::SweepCell;
 use super::evaluate::Sweep;
@@ -11,8 +13,23 @@ use crate::num::stream::Stream;
 /// A row as the columns of its sweep have it.
 pub(crate) type SweepRow = Vec<SweepCell>;
 
-/// Candidates that a thread takes at a time: many are done in some microseconds each.
+/// Candidates that a thread takes at a time, at most: many are done in some microseconds each.
 const AT_ONCE: u64 = 32;
+
+/// What they may take together: below the first more are taken, above the second fewer, so that slow candidates are spread over all
+/// threads, and an interrupt waits for few of them.
+const TOGETHER: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(20)];
+
+/// How many candidates are taken next, after so many took this time. Rows do not depend on it.
+fn next_at_once(n: u64, took: Duration) -> u64 {
+    if took < TOGETHER[0] {
+        (2 * n).min(AT_ONCE)
+    } else if took > TOGETHER[1] {
+        (n / 2).max(1)
+    } else {
+        n
+    }
+}
 
 /// What came of some candidates that follow one another: the rows that are kept, in one piece, which takes less time than rows that
 /// are allocated and freed one by one.
@@ -41,18 +58,25 @@ impl Sweep {
         cancel: &Cancel,
     ) -> impl Iterator<Item = RowChunk> + use<> {
         let sweep = Arc::clone(self);
-        let end = range.end;
-        let starts = (0..range.end.saturating_sub(range.start).div_ceil(AT_ONCE))
-            .map(move |n| range.start + n * AT_ONCE);
-        let chunk = move |start: u64| {
-            let (candidates, columns) = (end.min(start + AT_ONCE) - start, sweep.columns.len());
+        // one at first: nothing is known of their time
+        let at_once = Arc::new(AtomicU64::new(1));
+        let (asked, mut next) = (Arc::clone(&at_once), range.start);
+        let ranges = std::iter::from_fn(move || {
+            let start = next;
+            next = range.end.min(start + asked.load(Ordering::Relaxed));
+            (start < range.end).then_some(start..next)
+        });
+        let chunk = move |range: Range<u64>| {
+            let began = Instant::now();
+            let (candidates, columns) = (range.end - range.start, sweep.columns.len());
             let mut cells = Vec::with_capacity(columns * candidates as usize);
-            for k in start..start + candidates {
+            for k in range {
                 sweep.row_onto(k, &mut cells);
             }
+            at_once.store(next_at_once(candidates, began.elapsed()), Ordering::Relaxed);
             RowChunk { candidates, cells, columns }
         };
-        Stream::new(starts, threads, cancel.clone(), chunk)
+        Stream::new(ranges, threads, cancel.clone(), chunk)
     }
 }
 
@@ -65,6 +89,18 @@ pub(crate) fn shard_range(count: u64, shard: u64, shards: u64) -> Range<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn slow_candidates_are_taken_one_by_one_and_fast_ones_together() {
+        let after = |n: u64, each: f64| {
+            (0..20).fold(n, |n, _| next_at_once(n, Duration::from_secs_f64(each * n as f64)))
+        };
+        assert_eq!([1e-6, 30e-6].map(|each| after(1, each)), [AT_ONCE; 2]);
+        assert_eq!([0.05, 30.0].map(|each| after(AT_ONCE, each)), [1; 2]);
+        // between both as many as take some milliseconds
+        let some = after(1, 4e-4);
+        assert!(1 < some && some < AT_ONCE && after(AT_ONCE, 4e-4) > 1, "{some}");
+    }
 
     #[test]
     fn shards_follow_one_another_and_are_nearly_equal() {
