@@ -357,7 +357,11 @@ fn housings_that_are_boxes_are_drawn_around_their_balls() {
     let joints = export.bodies[0].joints.len();
     // one part, a place beside each ball, and a box of six faces with all corners at half the edges
     assert_eq!(text.matches("PRODUCT('housing of the").count(), 1);
-    assert_eq!(text.matches(",'housing of ").count() - 1, joints + 1, "places, a description and a solid");
+    assert_eq!(
+        text.matches(",'housing of ").count(),
+        joints + 1,
+        "a place at each joint, and the second name of the part"
+    );
     for sign in 0..8 {
         let side = |k: usize, half: f64| if sign >> k & 1 == 0 { -half } else { half };
         let corner = [side(0, 15.0), side(1, 20.0), side(2, 25.0)].map(super::text::step_real).join(",");

@@ -225,27 +225,38 @@ mod tests {
     }
 
     #[test]
-    fn leaders_cross_no_label() {
+    fn leaders_cross_no_text() {
+        let page = |left: f64, right: f64, top: f64, bottom: f64| PageBox { left, top, right, bottom };
+        // texts on all sides of a point, with a passage to the left that is too low for a label
+        let kept =
+            [page(104.0, 150.0, 60.0, 140.0), page(60.0, 104.0, 80.0, 96.0), page(60.0, 104.0, 104.0, 120.0)];
         let mut labels = Labels::on((300.0, 300.0), 9.0);
-        for k in 0..30 {
-            labels.put_beside((120.0 + 3.0 * f64::from(k % 3), 150.0), 5.0, &format!("A{k}_B{k}"));
-        }
+        kept.iter().for_each(|text| labels.keep(*text));
+        labels.put_beside((100.0, 100.0), 5.0, "A1_B1");
         let placed = labels.finish();
-        let crossings = |placed: &[PlacedLabel]| -> usize {
-            let leaders = placed.iter().enumerate().filter_map(|(i, l)| Some((i, l.leader?)));
-            leaders
-                .map(|(i, line)| {
-                    let others = placed.iter().enumerate().filter(|(j, _)| *j != i);
-                    others.filter(|(_, l)| text_box(l.at, &l.text, 9.0).is_crossed(&line)).count()
-                })
-                .sum()
+        let (own, line) = (text_box(placed[0].at, "A1_B1", 9.0), placed[0].leader.unwrap());
+        assert!(own.right <= 60.0 && own.top < 100.0 && own.bottom > 100.0, "{placed:?}");
+        assert!(!kept.iter().any(|text| text.meets(&own) || text.is_crossed(&line)), "{placed:?}");
+        // right above, as far away, is room for it, but a leader would cross a text on the way
+        let (height, away) = ((ASCENT + DESCENT) * 9.0, 100.0 - own.right);
+        let wide = width("A1_B1", 9.0);
+        let above = page(100.0 - 0.5 * wide, 100.0 + 0.5 * wide, 100.0 - away - height, 100.0 - away);
+        assert!(!kept.iter().any(|text| text.meets(&above)));
+        assert!(kept.iter().any(|text| text.is_crossed(&[(100.0, 100.0), (100.0, above.bottom)])));
+    }
+
+    #[test]
+    fn labels_cover_no_leader() {
+        let put = |leader: Option<Segment>| {
+            let mut labels = Labels::on((300.0, 300.0), 9.0);
+            labels.placed.push(PlacedLabel { text: String::new(), at: (0.0, 0.0), leader });
+            labels.put_beside((100.0, 100.0), 5.0, "A1_B1");
+            text_box(labels.finish()[1].at, "A1_B1", 9.0)
         };
-        assert!(placed.iter().filter(|l| l.leader.is_some()).count() > 5);
-        assert_eq!(crossings(&placed), 0, "{placed:?}");
-        // a leader through a label is found
-        let mut through = placed.clone();
-        through[29].leader = Some([(0.0, through[3].at.1 - 2.0), (300.0, through[3].at.1 - 2.0)]);
-        assert!(crossings(&through) > 0);
+        let line = [(20.0, 92.0), (250.0, 92.0)];
+        assert!(!put(Some(line)).is_crossed(&line));
+        // where it would be without it is on the line
+        assert!(put(None).is_crossed(&line));
     }
 
     #[test]
