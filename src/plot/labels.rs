@@ -231,7 +231,9 @@ mod tests {
         let kept =
             [page(104.0, 150.0, 60.0, 140.0), page(60.0, 104.0, 80.0, 96.0), page(60.0, 104.0, 104.0, 120.0)];
         let mut labels = Labels::on((300.0, 300.0), 9.0);
-        kept.iter().for_each(|text| labels.keep(*text));
+        for text in kept {
+            labels.keep(text);
+        }
         labels.put_beside((100.0, 100.0), 5.0, "A1_B1");
         let placed = labels.finish();
         let (own, line) = (text_box(placed[0].at, "A1_B1", 9.0), placed[0].leader.unwrap());
