@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use super::leg_lines::{HeldPose, LegLines};
 use super::model::{ConstraintGroup, Model, Task};
 use super::outcome::{ConstraintConflict, Demand, Give};
-use super::search::{RefinedRun, ShapeSearchOptions, population, refine};
+use super::population::is_close;
+use super::search::{DISTINCT_GAINS, DISTINCT_STARTS, RefinedRun, ShapeSearchOptions, Stage, Watch, are_near, population, refine};
 use super::terms::Item;
 use crate::num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
 use crate::num::farkas::{EnclosedRow, refuted};
@@ -20,13 +21,35 @@ fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> Task {
 }
 
 /// Least violation, objectives left out, from where the runs ended.
-pub(crate) fn elastic(model: &Model<'_>, from: &[RefinedRun], threads: usize) -> Vec<RefinedRun> {
-    settle(model, &no_objective(model, Vec::new()), from, threads)
+pub(crate) fn elastic(
+    model: &Model<'_>,
+    from: &[RefinedRun],
+    threads: usize,
+    watch: &mut Watch<'_, '_, '_>,
+) -> Vec<RefinedRun> {
+    settle(model, &no_objective(model, Vec::new()), &starts(from), threads, watch)
 }
 
-fn settle(model: &Model<'_>, task: &Task, from: &[RefinedRun], threads: usize) -> Vec<RefinedRun> {
-    let run = |k: usize| refine(model, task, &from[k].run.x, from[k].poses.clone(), k as u64);
-    let mut out = parallel(from.len(), threads, run, &mut |_, _| ());
+/// A point with the poses at which the requirements are held first.
+type SettleStart<'r> = (&'r [f64], &'r [HeldPose]);
+
+/// Where runs ended.
+fn starts(from: &[RefinedRun]) -> Vec<SettleStart<'_>> {
+    from.iter().map(|r| (r.run.x.as_slice(), r.poses.as_slice())).collect()
+}
+
+/// Runs from some points, those with the least violation first.
+fn settle(
+    model: &Model<'_>,
+    task: &Task,
+    from: &[SettleStart<'_>],
+    threads: usize,
+    watch: &mut Watch<'_, '_, '_>,
+) -> Vec<RefinedRun> {
+    let run = |k: usize| refine(model, task, from[k].0, from[k].1.to_vec(), k as u64);
+    // what leaves requirements out says nothing of the best platform
+    let tick = &mut |done: usize, _: &RefinedRun| watch.tell(Stage::Conflict, (done, from.len()), None);
+    let mut out = parallel(from.len(), threads, run, tick);
     out.sort_by(|a, b| by_violation(task, a, b));
     out
 }
@@ -42,6 +65,9 @@ const POPULATIONS: usize = 3000;
 /// a population together may hold the compromise that is to be left.
 const FRESH: (usize, usize) = (6, 5);
 
+/// Runs of an attempt that are made before it is asked whether one of them is enough.
+const BATCH: usize = 4;
+
 /// Tries to meet what a task does not drop, from where other runs ended and from a population of its own: the ends are where all
 /// requirements together led, which need not be near to where fewer of them can be met.
 pub(crate) fn attempt(
@@ -50,20 +76,48 @@ pub(crate) fn attempt(
     from: &[RefinedRun],
     o: &ShapeSearchOptions,
     k: usize,
+    watch: &mut Watch<'_, '_, '_>,
 ) -> Result<RefinedRun, Vec<RefinedRun>> {
-    let mut runs = settle(model, task, from, o.threads);
-    if !runs.iter().any(|r| r.run.is_feasible(model)) {
-        let few = ShapeSearchOptions { starts: FRESH.0, generations: FRESH.1, ..*o };
-        let starts = population(model, task, &[], POPULATIONS + 3 * k, &few);
-        let run = |i: usize| refine(model, task, &starts[i].x, model.first_poses(), i as u64);
-        runs.extend(parallel(starts.len(), o.threads, run, &mut |_, _| ()));
-        runs.sort_by(|a, b| by_violation(task, a, b));
-        runs.truncate(from.len());
+    let mut runs: Vec<RefinedRun> = Vec::new();
+    let mut meets = |all: &[SettleStart<'_>]| {
+        for batch in all.chunks(BATCH) {
+            let mut found = settle(model, task, batch, o.threads, watch);
+            if found.first().is_some_and(|r| r.run.is_feasible(model)) {
+                return Some(found.swap_remove(0));
+            }
+            runs.append(&mut found);
+        }
+        None
+    };
+    if let Some(met) = meets(&starts(from)) {
+        return Ok(met);
     }
-    match runs.iter().position(|r| r.run.is_feasible(model)) {
-        Some(met) => Ok(runs.swap_remove(met)),
-        None => Err(runs),
+    let few = ShapeSearchOptions { starts: FRESH.0, generations: FRESH.1, ..*o };
+    let fresh = population(model, task, &[], POPULATIONS + 3 * k, &few);
+    let poses = model.first_poses();
+    let fresh: Vec<SettleStart<'_>> = fresh.iter().map(|s| (s.x.as_slice(), poses.as_slice())).collect();
+    if let Some(met) = meets(&fresh) {
+        return Ok(met);
     }
+    runs.sort_by(|a, b| by_violation(task, a, b));
+    runs.truncate(from.len().max(BATCH));
+    Err(runs)
+}
+
+/// Runs whose ends differ, the first of each end kept: what is tried from all of them would be tried again from the same end. Ends with one violation count as one, because symmetric platforms have the
+/// same end many times.
+fn apart(task: &Task, runs: &[RefinedRun]) -> Vec<RefinedRun> {
+    let violation = |r: &RefinedRun| r.run.judged.total_violation(task);
+    let is_one = |a: &RefinedRun, b: &RefinedRun| {
+        is_close(violation(a), violation(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT_STARTS)
+    };
+    let mut out: Vec<RefinedRun> = Vec::new();
+    for run in runs {
+        if !out.iter().any(|known| is_one(known, run)) {
+            out.push(run.clone());
+        }
+    }
+    out
 }
 
 /// What becomes of requirements that no run met.
@@ -72,18 +126,23 @@ pub(crate) enum Clash {
     Conflict(ConstraintConflict),
     /// Looking for one, a point was found that meets all of them.
     Met(Box<RefinedRun>),
-    /// The elastic problem did not settle, or the set that was left could be met after all.
+    /// The elastic problem did not settle, the search was told to end, or the set that was left could be met after all.
     Unsettled,
 }
 
 /// Looks for an irreducible set of constraints that could not be met together.
 ///
 /// Deletion filter (Chinneck, Dravnieks 1991): constraints are left out one kind at a time, and stay out when the others still cannot be met.
-pub(crate) fn conflict(model: &Model<'_>, settled: &[RefinedRun], o: &ShapeSearchOptions) -> Clash {
+pub(crate) fn conflict(
+    model: &Model<'_>,
+    settled: &[RefinedRun],
+    o: &ShapeSearchOptions,
+    watch: &mut Watch<'_, '_, '_>,
+) -> Clash {
     let Some(best) = settled.first().filter(|best| best.run.converged) else { return Clash::Unsettled };
     let all: Vec<ConstraintGroup> = best.run.judged.violations.keys().copied().collect();
     let mut dropped: Vec<ConstraintGroup> = Vec::new();
-    let mut from: Vec<RefinedRun> = settled.to_vec();
+    let mut from = apart(&no_objective(model, Vec::new()), settled);
     // those that hold at the least violation go first: they are most likely to take no part
     let mut order = all.clone();
     order.sort_by(|a, b| best.run.judged.violations[a].total_cmp(&best.run.judged.violations[b]));
@@ -91,19 +150,23 @@ pub(crate) fn conflict(model: &Model<'_>, settled: &[RefinedRun], o: &ShapeSearc
     for (k, group) in order.into_iter().enumerate() {
         let mut without = dropped.clone();
         without.push(group);
-        if without.len() == all.len() {
+        if without.len() == all.len() || model.is_stopped() {
             break;
         }
-        match attempt(model, &no_objective(model, without.clone()), &from, o, k) {
+        match attempt(model, &no_objective(model, without.clone()), &from, o, k, watch) {
             Ok(met) => {
                 alone.insert(group, met);
             }
             Err(runs) => (dropped, from) = (without, runs),
         }
     }
+    // runs that were told to end show nothing, here and below
+    if model.is_stopped() {
+        return Clash::Unsettled;
+    }
     let kept: Vec<ConstraintGroup> = all.into_iter().filter(|g| !dropped.contains(g)).collect();
     let task = no_objective(model, dropped);
-    let together = settle(model, &task, &from, o.threads);
+    let together = settle(model, &task, &starts(&from), o.threads, watch);
     let Some(least) = together.first().filter(|least| !least.run.is_feasible(model)) else {
         return Clash::Unsettled;
     };
@@ -130,6 +193,9 @@ pub(crate) fn conflict(model: &Model<'_>, settled: &[RefinedRun], o: &ShapeSearc
             found = Some(found.map_or(of(&group), |x| x.min(of(&group))));
         }
         demands.push(Give { demand: demand(model, group), alone: found, together: of(&group) });
+    }
+    if model.is_stopped() {
+        return Clash::Unsettled;
     }
     Clash::Conflict(ConstraintConflict { demands, proved })
 }

@@ -49,6 +49,8 @@ pub enum Stage {
     Climbs,
     /// Polished runs, or steps of a front.
     Polishing,
+    /// Runs that look for what excludes each other where nothing meets the requirements.
+    Conflict,
 }
 
 /// How far the search is.
@@ -83,6 +85,7 @@ impl std::fmt::Display for Progress {
             Stage::Populations => "population",
             Stage::Climbs => "climb",
             Stage::Polishing => "polish",
+            Stage::Conflict => "conflict, run",
         };
         write!(f, "{stage} {} of {}", self.done, self.total)
     }
@@ -105,9 +108,11 @@ const SHORT_ROUNDS: usize = 3;
 /// Rounds of adding poses.
 const ROUNDS: usize = 12;
 /// Members that differ by more in some variable are starts of their own.
-const DISTINCT_STARTS: f64 = 0.1;
+pub(super) const DISTINCT_STARTS: f64 = 0.1;
 /// Ends whose values differ by less, relatively, count as one.
-const DISTINCT_GAINS: f64 = 1e-4;
+pub(super) const DISTINCT_GAINS: f64 = 1e-4;
+/// The same for ends of the first pass, which are climbed to roughly.
+const SAME_END: f64 = 1e-3;
 
 /// A polished run with the poses it ended with.
 #[derive(Debug, Clone)]
@@ -173,7 +178,7 @@ pub(crate) fn population(
     out
 }
 
-fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
+pub(super) fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < within)
 }
 
@@ -329,8 +334,7 @@ pub(crate) fn search_task(
     let without_axes = model.without_axes();
     let coarse = without_axes.as_ref().unwrap_or(model);
     let search = Search { model, coarse, task, options };
-    let starts = search.starts(search.given(given), watch);
-    let runs = search.first_pass(&starts, watch);
+    let runs = search.first_pass(&search.given(given), watch);
     let (climbed, feasible) = (runs.len(), runs.iter().filter(|r| r.is_feasible(coarse)).count());
     let points = runs.into_iter().map(|run| End::new(model, without_axes.is_some(), run)).collect();
     let ends = FirstPass { poses: model.first_poses(), points, tried: Vec::new() };
@@ -363,24 +367,47 @@ impl Search<'_, '_> {
         out
     }
 
-    /// The best members of all populations, of which the first knows what is given, and what is given itself.
-    fn starts(&self, given: Vec<Vec<f64>>, watch: &mut Watch<'_, '_, '_>) -> Vec<SearchStart> {
-        let (o, total) = (self.options, self.options.populations.max(1));
-        let evolved = |k: usize| population(self.coarse, self.task, if k == 0 { &given } else { &[] }, k, o);
-        let tick =
-            &mut |done: usize, _: &Vec<SearchStart>| watch.tell(Stage::Populations, (done, total), None);
-        let members = parallel(total, o.threads, evolved, tick);
+    /// The best members of some populations, of which the first of all knows what is given, and what is given itself.
+    fn starts(
+        &self,
+        populations: std::ops::Range<usize>,
+        given: &[Vec<f64>],
+        watch: &mut Watch<'_, '_, '_>,
+    ) -> Vec<SearchStart> {
+        let o = self.options;
+        let (first, last) = (populations.start, populations.end);
+        let given = if first == 0 { given } else { &[] };
+        // the long ones, which are the last of their batches, begin first
+        let number = |i: usize| last - 1 - i;
+        let evolved = |i: usize| {
+            let known = if number(i) == 0 { given } else { &[] };
+            population(self.coarse, self.task, known, number(i), o)
+        };
+        let total = o.populations.max(1);
+        let tick = &mut |done: usize, _: &Vec<SearchStart>| {
+            watch.tell(Stage::Populations, (first + done, total), None);
+        };
+        let mut members = parallel(last - first, o.threads, evolved, tick);
+        members.reverse();
         let few: Vec<HeldPose> =
             members.first().and_then(|m| m.first()).map_or(Vec::new(), |s| s.few.clone());
-        let given = given.into_iter().map(|x| SearchStart { x, few: few.clone() });
+        let given = given.iter().map(|x| SearchStart { x: x.clone(), few: few.clone() });
         members.into_iter().flatten().chain(given).collect()
     }
 
-    /// Short climbs from the starts, then from mixtures of the ends they led to.
-    fn first_pass(&self, starts: &[SearchStart], watch: &mut Watch<'_, '_, '_>) -> Vec<ShapeRun> {
-        let mixtures = starts.len().div_ceil(STARTS_PER_MIXTURE);
-        let total = starts.len() + GENERATIONS_OF_ENDS * mixtures;
-        let mut runs = self.climbs(starts, (0, total), watch);
+    /// Short climbs from the best members of the populations, batch after batch while other ends are to be expected, then from mixtures of the ends they led to.
+    fn first_pass(&self, given: &[Vec<f64>], watch: &mut Watch<'_, '_, '_>) -> Vec<ShapeRun> {
+        let populations = self.options.populations.max(1);
+        let mut runs: Vec<ShapeRun> = Vec::new();
+        for first in (0..populations).step_by(LONG_EVERY) {
+            let batch = first..populations.min(first + LONG_EVERY);
+            let starts = self.starts(batch, given, watch);
+            runs.extend(self.climbs(&starts, runs.len(), watch));
+            if self.are_all_found(&runs) {
+                return runs;
+            }
+        }
+        let mixtures = runs.len().div_ceil(STARTS_PER_MIXTURE);
         let mut rng = Purpose::MIXTURES.rng(self.options.seed);
         for _ in 0..GENERATIONS_OF_ENDS {
             let mut judge = Judge::new(self.coarse, self.task);
@@ -388,18 +415,38 @@ impl Search<'_, '_> {
             let trials = offspring(&mut judge, &ends, mixtures, &mut rng);
             let with_poses = |x: Vec<f64>| SearchStart { few: judge.worst(&x, FEW_POSES), x };
             let mixed: Vec<SearchStart> = trials.into_iter().map(with_poses).collect();
-            runs.extend(self.climbs(&mixed, (runs.len(), total), watch));
+            runs.extend(self.climbs(&mixed, runs.len(), watch));
+            if self.are_all_found(&runs) {
+                break;
+            }
         }
         runs
+    }
+
+    /// Whether hardly another end is to be expected from further climbs.
+    ///
+    /// Of `n` climbs that led to `w` ends the Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)`, and no other is expected where that is below `w + 1/2` (Boender, Rinnooy Kan 1987).
+    /// Its premise, starts drawn independently, holds for populations apart from each other but not within one. Ends count as one by their worth over the same poses.
+    fn are_all_found(&self, runs: &[ShapeRun]) -> bool {
+        let mut judge = Judge::new(self.coarse, self.task);
+        let mut ends: Vec<Worth> = Vec::new();
+        for worth in runs.iter().filter_map(|r| judge.worth(&r.x, usize::MAX, None)) {
+            if !ends.iter().any(|known| known.is_close(&worth, SAME_END)) {
+                ends.push(worth);
+            }
+        }
+        let (n, w) = (runs.len() as f64, ends.len() as f64);
+        n > w + 2.0 && w * (n - 1.0) / (n - w - 2.0) < w + 0.5
     }
 
     /// A short climb from each start; `known` climbs of `total` were done before.
     fn climbs(
         &self,
         starts: &[SearchStart],
-        (known, total): (usize, usize),
+        known: usize,
         watch: &mut Watch<'_, '_, '_>,
     ) -> Vec<ShapeRun> {
+        let total = known + starts.len();
         let climbed = |k: usize| rank(self.coarse, self.task, &starts[k]);
         let tick = &mut |done: usize, run: &ShapeRun| {
             watch.see(run);
@@ -516,7 +563,7 @@ pub(crate) fn meet(
     if refined.is_empty() || model.is_stopped() {
         return Ok(None);
     }
-    let settled = elastic(&model, &refined, options.threads);
+    let settled = elastic(&model, &refined, options.threads, &mut watch);
     let Some(k) = is_met(&settled) else { return Ok(None) };
     let again = refine(&model, &task, &settled[k].run.x, settled[k].poses.clone(), options.seed);
     let best = if again.run.is_feasible(&model) { &again } else { &settled[k] };
@@ -549,7 +596,7 @@ fn concluded(
         return unmet(DimensionalOutcome::Undecided(None), &refined);
     }
     if !is_met(&refined)
-        && let Some(conflict) = met_or_conflict(model, &task, &mut refined, options, explains)
+        && let Some(conflict) = met_or_conflict(model, &task, &mut refined, (options, explains), watch)
     {
         return unmet(DimensionalOutcome::Infeasible(conflict), &refined);
     }
@@ -587,17 +634,17 @@ fn met_or_conflict(
     model: &Model<'_>,
     task: &Task,
     refined: &mut Vec<RefinedRun>,
-    options: &ShapeSearchOptions,
-    explains: bool,
+    (options, explains): (&ShapeSearchOptions, bool),
+    watch: &mut Watch<'_, '_, '_>,
 ) -> Option<ConstraintConflict> {
-    let settled = elastic(model, refined, options.threads);
+    let settled = elastic(model, refined, options.threads, watch);
     let mut met = settled.iter().find(|r| r.run.is_feasible(model)).cloned();
     if met.is_none() && !explains {
         among(model, task, refined, settled);
         return None;
     }
     if met.is_none() {
-        match conflict(model, &settled, options) {
+        match conflict(model, &settled, options, watch) {
             Clash::Conflict(conflict) => {
                 among(model, task, refined, settled);
                 return Some(conflict);

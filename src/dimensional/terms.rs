@@ -88,12 +88,36 @@ impl<'a> RequirementTerms<'a> {
         self.lengths(l, see);
         self.swing(l, ends, x, see);
         self.hinges(l, ends, see);
-        self.clearances(l, see);
+        self.leg_clearances(l, see);
+        self.keep_outs(l, see);
+        self.payload_clearances(l, see);
         self.plate_clearances(l, ends, see);
         self.forces(l, see);
         self.speeds(l, see);
         self.machine(l, see);
         self.stiffness(l, see);
+    }
+
+    /// The requirements at a pose among which are those of a kind, a leg and another leg (keep-out, load), by a small part of the work of [`visit`](Self::visit): what is computed together with
+    /// them is seen too.
+    pub(crate) fn visit_some<P: Gradient>(
+        &self,
+        l: &LegLines,
+        (ends, x): (&JointEnds, &[f64]),
+        (kind, first, second): (TermKind, usize, usize),
+        see: &mut impl FnMut(Item<P>),
+    ) {
+        match kind {
+            TermKind::LegTooShort | TermKind::LegTooLong => self.lengths(l, see),
+            TermKind::BaseSwing | TermKind::PlatformSwing => self.swing(l, ends, x, see),
+            kind if kind.hinge().is_some() => self.hinges(l, ends, see),
+            TermKind::LegClearance => self.leg_clearance(l, (first, second), see),
+            TermKind::LegForce => self.forces(l, see),
+            TermKind::LegSpeed => self.speeds(l, see),
+            TermKind::MachineEnvelope => self.machine(l, see),
+            kind if kind.is_of_platform() => self.stiffness(l, see),
+            _ => self.visit(l, ends, x, see),
+        }
     }
 
     /// Stiffness over the least one asked for, and half of the square of the natural frequency over its least one, each less what it has to be.
@@ -269,47 +293,65 @@ impl<'a> RequirementTerms<'a> {
         first.cross(&l.line[leg]).norm()
     }
 
-    fn clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+    fn leg_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        for (i, j) in self.separate_legs() {
+            self.leg_clearance(l, (i, j), see);
+        }
+    }
+
+    fn leg_clearance<P: Gradient>(
+        &self,
+        l: &LegLines,
+        (i, j): (usize, usize),
+        see: &mut impl FnMut(Item<P>),
+    ) {
         let h = &self.required.hardware;
         let Some(body) = h.leg_body else { return };
         let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(TermKind::LegClearance);
-        for (i, j) in self.separate_legs() {
-            l.leg_gaps(&body, i, j, &mut |gap: Gap<P>| {
-                see(Item {
-                    id: (TermKind::LegClearance, i, j, gap.part),
-                    value: (gap.value - clearance) / self.size,
-                    pull: gap.pull.scaled(1.0 / self.size),
-                    exact: None,
-                });
+        l.leg_gaps(&body, i, j, &mut |gap: Gap<P>| {
+            see(Item {
+                id: (TermKind::LegClearance, i, j, gap.part),
+                value: (gap.value - clearance) / self.size,
+                pull: gap.pull.scaled(1.0 / self.size),
+                exact: None,
             });
-        }
-        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(TermKind::KeepOut);
+        });
+    }
+
+    fn keep_outs<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
             for i in 0..6 {
-                l.keep_out_gaps(&body, i, keep_out, &mut |gap: Gap<P>| {
-                    see(Item {
-                        id: (TermKind::KeepOut, i, k, gap.part),
-                        value: (gap.value - clearance) / self.size,
-                        pull: gap.pull.scaled(1.0 / self.size),
-                        exact: None,
-                    });
-                });
+                self.shape_clearance(l, (TermKind::KeepOut, i, k), keep_out, see);
             }
         }
+    }
+
+    fn payload_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         let Some(shape) = self.required.payload_shape else { return };
         let payload = KeepOut { name: String::new(), fixed_to: Body::Platform, shape };
-        let kind = TermKind::PayloadClearance;
-        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
         for i in 0..6 {
-            l.keep_out_gaps(&body, i, &payload, &mut |gap: Gap<P>| {
-                see(Item {
-                    id: (kind, i, i, gap.part),
-                    value: (gap.value - clearance) / self.size,
-                    pull: gap.pull.scaled(1.0 / self.size),
-                    exact: None,
-                });
-            });
+            self.shape_clearance(l, (TermKind::PayloadClearance, i, i), &payload, see);
         }
+    }
+
+    fn shape_clearance<P: Gradient>(
+        &self,
+        l: &LegLines,
+        (kind, i, k): (TermKind, usize, usize),
+        shape: &KeepOut,
+        see: &mut impl FnMut(Item<P>),
+    ) {
+        let h = &self.required.hardware;
+        let Some(body) = h.leg_body else { return };
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
+        l.keep_out_gaps(&body, i, shape, &mut |gap: Gap<P>| {
+            see(Item {
+                id: (kind, i, k, gap.part),
+                value: (gap.value - clearance) / self.size,
+                pull: gap.pull.scaled(1.0 / self.size),
+                exact: None,
+            });
+        });
     }
 
     /// Legs clear of both plates: at the plate of an end a leg counts from the housing of its joint on.

@@ -12,7 +12,7 @@ use super::model::{ConstraintGroup, Model, Task};
 use super::shape::JointEnds;
 use super::terms::Item;
 use crate::num::{Purpose, Rng};
-use crate::requirements::Objective;
+use crate::requirements::{Objective, TermKind};
 
 /// Points looked at.
 const POINTS: usize = 150;
@@ -27,7 +27,7 @@ const STEPS: (f64, f64) = (0.25, 1e-5);
 /// worst of all legs end again and again at the one that is held already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum PoseQuantity {
-    Constraint(ConstraintGroup, usize, usize),
+    Constraint(TermKind, usize, usize),
     Objective(usize),
     /// Length of a leg for the stroke; with `true` the greatest one.
     Length(usize, bool),
@@ -61,9 +61,8 @@ impl Look<'_> {
             *least = f64::min(*least, value);
         };
         self.model.terms.visit(l, &self.ends, self.x, &mut |item: Item<()>| {
-            let group = ConstraintGroup::Term(item.id.0);
-            if !self.task.dropped.contains(&group) {
-                keep(PoseQuantity::Constraint(group, item.id.1, item.id.2), item.value);
+            if !self.task.dropped.contains(&ConstraintGroup::Term(item.id.0)) {
+                keep(PoseQuantity::Constraint(item.id.0, item.id.1, item.id.2), item.value);
             }
         });
         for (m, o) in self.model.objectives.iter().enumerate() {
@@ -101,10 +100,10 @@ impl Look<'_> {
                 self.model.merit.at_pose(self.model.objectives[m], &self.model.terms, &l)
             }
             PoseQuantity::Length(leg, longest) => self.length(&l, leg, longest),
-            PoseQuantity::Constraint(group, first, second) => {
-                let mut least = f64::INFINITY;
-                self.model.terms.visit(&l, &self.ends, self.x, &mut |item: Item<()>| {
-                    if (ConstraintGroup::Term(item.id.0), item.id.1, item.id.2) == (group, first, second) {
+            PoseQuantity::Constraint(kind, first, second) => {
+                let (mut least, ends) = (f64::INFINITY, (&self.ends, self.x));
+                self.model.terms.visit_some(&l, ends, (kind, first, second), &mut |item: Item<()>| {
+                    if (item.id.0, item.id.1, item.id.2) == (kind, first, second) {
                         least = least.min(item.value);
                     }
                 });

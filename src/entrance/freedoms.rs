@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::optimizing::{Checked, checked, dimensional_problem};
+use super::platform_search::keeps_symmetry_of_start;
 use crate::design::Design;
 use crate::dimensional::{
-    Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, Progress, ShapeSearchOptions, meet,
+    Demand, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Progress, ShapeSearchOptions, meet,
 };
 use crate::equivalence::VerifyError;
 use crate::manipulator::Octahedral;
@@ -328,16 +329,40 @@ impl FreedomSearch<'_, '_> {
         })
     }
 
-    /// The search for a design with more freedom, and what `assess` says of what it finds; `None` where it cannot be asked.
+    /// The search for a design with more freedom, and what `assess` says of what it finds; `None` where it cannot be asked. A design that has three-fold symmetry and names none is searched with it
+    /// first, which has few variables.
     fn search(
         &mut self,
         freedom: ConflictFreedom,
         design: &Design,
     ) -> Result<Option<AttemptFlow>, VerifyError> {
-        let problem = dimensional_problem(design, self.extension);
+        let free = dimensional_problem(design, self.extension);
+        let symmetric = keeps_symmetry_of_start(design, &free);
+        let mut best = None;
+        for problem in symmetric.iter().chain([&free]) {
+            match self.search_problem(freedom, design, problem)? {
+                Some(ControlFlow::Continue(found)) => best = found.or(best),
+                Some(ControlFlow::Break(())) if best.is_none() => return Ok(Some(ControlFlow::Break(()))),
+                Some(ControlFlow::Break(())) => break,
+                None => return Ok(None),
+            }
+            if best.as_ref().is_some_and(|c: &Box<Checked>| c.met() == Some(true)) {
+                break;
+            }
+        }
+        Ok(Some(ControlFlow::Continue(best)))
+    }
+
+    /// See [`search`](Self::search), for one of its problems.
+    fn search_problem(
+        &mut self,
+        freedom: ConflictFreedom,
+        design: &Design,
+        problem: &DimensionalProblem,
+    ) -> Result<Option<AttemptFlow>, VerifyError> {
         let known = self.report.nearest.as_deref().map_or(&[][..], |s| &s.variables);
         let mut ended = false;
-        let found = meet(&problem, known, &smaller(&self.options), &mut |p| {
+        let found = meet(problem, known, &smaller(&self.options), &mut |p| {
             let flow = (self.progress)(freedom, p);
             ended |= flow.is_break();
             flow
@@ -350,7 +375,7 @@ impl FreedomSearch<'_, '_> {
         if ended && found.is_none() {
             return Ok(Some(ControlFlow::Break(())));
         }
-        let judged = found.map(|s| checked(design, &problem, &s, self.options.seed)).transpose()?;
+        let judged = found.map(|s| checked(design, problem, &s, self.options.seed)).transpose()?;
         let met = judged.filter(|c| c.met() != Some(false));
         Ok(Some(ControlFlow::Continue(met.map(Box::new))))
     }

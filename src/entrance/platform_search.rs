@@ -17,7 +17,10 @@ use crate::requirements::{KeptSymmetry, StartSymmetry};
 
 /// Whether the search keeps the three-fold symmetry of a design that names no symmetry: the design has it at home, the variables of `free`, the problem without it, could break it, and the holes that
 /// the design states turn with it.
-fn keeps_symmetry_of_start(design: &Design, free: &DimensionalProblem) -> Option<DimensionalProblem> {
+pub(super) fn keeps_symmetry_of_start(
+    design: &Design,
+    free: &DimensionalProblem,
+) -> Option<DimensionalProblem> {
     let v = &free.variables;
     let could_break = v.offsets && !v.symmetric || v.triangles == Triangles::Shapes;
     if design.search.symmetry.is_some() || !could_break {

@@ -95,12 +95,14 @@ impl Interval {
     #[must_use]
     #[inline]
     pub fn square(self) -> Self {
-        let square = self * self;
-        if self.lo > 0.0 || self.hi < 0.0 || self == Self::ZERO {
-            let (small, large) = (self.lo.abs().min(self.hi.abs()), self.magnitude());
-            return Self::raw(mul_down(small, small).max(0.0), mul_up(large, large));
-        }
-        Self::raw(0.0, square.hi)
+        let large = self.magnitude();
+        let least = if self.lo > 0.0 || self.hi < 0.0 {
+            let small = self.lo.abs().min(self.hi.abs());
+            mul_down(small, small).max(0.0)
+        } else {
+            0.0
+        };
+        Self::raw(least, mul_up(large, large))
     }
 
     /// Encloses the square roots of the non-negative numbers in it; `None` when it holds none.
@@ -126,16 +128,29 @@ impl Interval {
         }
         let ends =
             [(self.lo, divisor.lo), (self.lo, divisor.hi), (self.hi, divisor.lo), (self.hi, divisor.hi)];
-        let quotient = |(x, y): (f64, f64)| if x == 0.0 { 0.0 } else { x / y };
-        // inf / inf: both operands unbounded there, quotients near that corner reach down to zero and up to inf
-        let lo = ends
-            .map(|e| if quotient(e).is_nan() { corner(e, true) } else { down_unless_zero(quotient(e), e.0) });
-        let hi = ends
-            .map(|e| if quotient(e).is_nan() { corner(e, false) } else { up_unless_zero(quotient(e), e.0) });
-        Some(Self::raw(
-            lo.into_iter().fold(f64::INFINITY, f64::min),
-            hi.into_iter().fold(f64::NEG_INFINITY, f64::max),
-        ))
+        let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (x, y) in ends {
+            let quotient = if x == 0.0 { 0.0 } else { x / y };
+            // inf / inf: both operands unbounded there, quotients near that corner reach down to zero and up to inf
+            let (down, up) = if quotient.is_nan() {
+                (corner((x, y), true), corner((x, y), false))
+            } else {
+                (down_unless_zero(quotient, x), up_unless_zero(quotient, x))
+            };
+            (lo, hi) = (lo.min(down), hi.max(up));
+        }
+        Some(Self::raw(lo, hi))
+    }
+
+    /// The product, each of the products of two ends rounded outward.
+    #[cold]
+    fn product_by_ends(self, other: Self) -> Self {
+        let pairs = [(self.lo, other.lo), (self.lo, other.hi), (self.hi, other.lo), (self.hi, other.hi)];
+        let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (x, y) in pairs {
+            (lo, hi) = (lo.min(mul_down(x, y)), hi.max(mul_up(x, y)));
+        }
+        Self::raw(lo, hi)
     }
 
     #[inline]
@@ -218,14 +233,28 @@ impl Mul for Interval {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        let pairs = [(self.lo, other.lo), (self.lo, other.hi), (self.hi, other.lo), (self.hi, other.hi)];
-        let lo = pairs.map(|(x, y)| mul_down(x, y));
-        let hi = pairs.map(|(x, y)| mul_up(x, y));
-        Self::raw(
-            lo.into_iter().fold(f64::INFINITY, f64::min),
-            hi.into_iter().fold(f64::NEG_INFINITY, f64::max),
-        )
+        let (a, b, c, d) =
+            (self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi);
+        let (lo, hi) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
+        // rounding is monotone, so that the ends alone are rounded; zeros, which may be exact or an underflow, and unbounded ends are told apart product by product
+        if lo != 0.0 && hi != 0.0 && lo > f64::NEG_INFINITY && hi < f64::INFINITY {
+            return Self::raw(below(lo), above(hi));
+        }
+        self.product_by_ends(other)
     }
+}
+
+/// The largest double below a finite one that is not zero.
+#[inline]
+fn below(x: f64) -> f64 {
+    let bits = x.to_bits();
+    f64::from_bits(if x > 0.0 { bits - 1 } else { bits + 1 })
+}
+
+/// The smallest double above a finite one that is not zero.
+#[inline]
+fn above(x: f64) -> f64 {
+    -below(-x)
 }
 
 #[cfg(test)]

@@ -135,8 +135,7 @@ type RegionPoint = (f64, Vector6<f64>);
 
 /// The least margin of a kind at a pose.
 fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
-    let own = terms.at(pose).into_iter().filter(|(t, _)| t.kind == kind);
-    own.map(|(_, x)| x).fold(f64::INFINITY, f64::min)
+    terms.of_kind(pose, kind).map(|(_, x)| x).fold(f64::INFINITY, f64::min)
 }
 
 /// Evaluates every requirement at home, densely over the region, at the listed poses and along the trajectory, then

@@ -216,7 +216,7 @@ impl TermKind {
     /// `true` for what the platform as a whole has, and no leg or joint of its own.
     #[must_use]
     pub fn is_of_platform(self) -> bool {
-        matches!(self, Self::LinearStiffness | Self::AngularStiffness | Self::NaturalFrequency)
+        Self::OF_PLATFORM.contains(&self)
     }
 
     /// For the angles of universal joints: of which body, and about which axis.
@@ -233,6 +233,25 @@ impl TermKind {
     /// The kinds of the angles of universal joints.
     pub(crate) const HINGES: [Self; 4] =
         [Self::BaseFirstAngle, Self::BaseSecondAngle, Self::PlatformFirstAngle, Self::PlatformSecondAngle];
+
+    /// The kinds that the lines of single legs decide.
+    const OF_LEG_LINES: [Self; 8] = [
+        Self::LegTooShort,
+        Self::LegTooLong,
+        Self::BaseSwing,
+        Self::PlatformSwing,
+        Self::BaseFirstAngle,
+        Self::BaseSecondAngle,
+        Self::PlatformFirstAngle,
+        Self::PlatformSecondAngle,
+    ];
+
+    /// The kinds of gaps between legs and other bodies.
+    const CLEARANCES: [Self; 4] =
+        [Self::LegClearance, Self::KeepOut, Self::PlateClearance, Self::PayloadClearance];
+
+    /// The kinds of stiffness and frequency.
+    const OF_PLATFORM: [Self; 3] = [Self::LinearStiffness, Self::AngularStiffness, Self::NaturalFrequency];
 
     /// `true` when the pose does not matter.
     #[must_use]
@@ -393,7 +412,7 @@ impl<'a> Terms<'a> {
     #[must_use]
     pub fn least_leg_gap(&self, pose: &Pose) -> Option<f64> {
         let clearance = self.required.hardware.leg_clearance.unwrap_or(0.0);
-        let gaps = self.at(pose).into_iter().filter(|(term, _)| term.kind == TermKind::LegClearance);
+        let gaps = self.of_kind(pose, TermKind::LegClearance);
         gaps.map(|(_, margin)| margin + clearance).reduce(f64::min)
     }
 
@@ -485,6 +504,16 @@ impl<'a> Terms<'a> {
     /// Margins of all requirements at a pose: positive where they are met. Forces at a singular pose have the margin minus infinity, and the platform has no stiffness there.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Vec<(Term, f64)> {
+        self.some_at(pose, |_| true)
+    }
+
+    /// The margins of one kind at a pose, as [`at`](Self::at) gives them.
+    pub(super) fn of_kind(&self, pose: &Pose, kind: TermKind) -> impl Iterator<Item = (Term, f64)> + use<> {
+        self.some_at(pose, |kinds| kinds.contains(&kind)).into_iter().filter(move |(t, _)| t.kind == kind)
+    }
+
+    /// The margins at a pose of what is computed together, where `wanted` says of its kinds that it is.
+    fn some_at(&self, pose: &Pose, wanted: impl Fn(&[TermKind]) -> bool) -> Vec<(Term, f64)> {
         let mut out = Vec::new();
         if let Some(cranks) = &self.required.cranks {
             self.cranks(cranks, pose, &mut out);
@@ -493,17 +522,27 @@ impl<'a> Terms<'a> {
         let joints: [(Point3<f64>, Point3<f64>); 6] =
             self.manipulator.legs().map(|l| (l.base, pose.transform(&l.platform)));
         let legs = self.legs_at(&joints, pose);
-        self.lengths_and_swing(&legs, pose, &mut out);
-        self.clearances(&legs.ends, pose, &mut out);
+        if wanted(&TermKind::OF_LEG_LINES) {
+            self.lengths_and_swing(&legs, pose, &mut out);
+        }
+        if wanted(&TermKind::CLEARANCES) {
+            self.clearances(&legs.ends, pose, &mut out);
+        }
         for (term, margin) in &mut out {
             let two = term.kind == TermKind::LegClearance && legs.missing[term.second];
             if legs.missing[term.first] || two {
                 *margin = f64::NEG_INFINITY;
             }
         }
-        self.drives(&legs, pose, &mut out);
-        self.machine(&joints, &mut out);
-        self.stiffness(pose, &mut out);
+        if wanted(&[TermKind::LegForce, TermKind::LegSpeed]) {
+            self.drives(&legs, pose, &mut out);
+        }
+        if wanted(&[TermKind::MachineEnvelope]) {
+            self.machine(&joints, &mut out);
+        }
+        if wanted(&TermKind::OF_PLATFORM) {
+            self.stiffness(pose, &mut out);
+        }
         out
     }
 

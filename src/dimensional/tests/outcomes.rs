@@ -6,7 +6,7 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::super::conflict::attempt;
 use super::super::model::Task;
-use super::super::search::refine;
+use super::super::search::{Watch, refine};
 use super::super::*;
 use super::{ConstraintGroup, Model, everything, problem, quick};
 use crate::manipulator::Manipulator;
@@ -184,7 +184,9 @@ fn what_other_starts_can_meet_is_no_conflict() {
     let middle = [0.5, 0.55, 0.6, 0.45, 0.3, 0.6];
     let stuck = refine(&model, &task, &middle, model.first_poses(), 1);
     assert!(!stuck.run.is_feasible(&model));
-    let met = attempt(&model, &task, &[stuck], &quick(), 0);
+    let mut silent = |_| ControlFlow::Continue(());
+    let mut watch = Watch::new(&model, &mut silent);
+    let met = attempt(&model, &task, &[stuck], &quick(), 0, &mut watch);
     assert!(met.is_ok_and(|r| r.run.is_feasible(&model) && r.complete));
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };

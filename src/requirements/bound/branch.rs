@@ -9,6 +9,7 @@ use super::function::Function;
 use super::verdict::{MarginBound, verdict};
 use crate::geom::{Chart, ChartCell, Covered};
 use crate::num::{Purpose, Rng};
+use crate::requirements::TermKind;
 use crate::requirements::assess::Margin;
 
 /// A cell that waits.
@@ -75,9 +76,9 @@ struct State {
 
 impl CellJudge<'_> {
     /// The least margin of a function in doubles.
-    fn plain(&self, function: Function, chart: usize, x: &[f64; 6]) -> f64 {
-        let all = self.terms.at(&self.charts[chart].pose(x));
-        all.iter().filter(|(t, _)| function.has(t)).map(|(_, v)| *v).fold(f64::INFINITY, f64::min)
+    fn plain(&self, (kind, function): (TermKind, Function), chart: usize, x: &[f64; 6]) -> f64 {
+        let all = self.terms.of_kind(&self.charts[chart].pose(x), kind);
+        all.filter(|(t, _)| function.has(t)).map(|(_, v)| v).fold(f64::INFINITY, f64::min)
     }
 
     /// The least margin of a kind over all charts, decided against `reserve`; the bound below is that of the margin less the reserve.
@@ -125,7 +126,7 @@ impl CellJudge<'_> {
                 break;
             }
             let key = (open.function, open.chart);
-            self.search(&mut state, &functions, key, &mut rng);
+            self.search(&mut state, (kind, functions[open.function]), key, &mut rng);
             slack = rounding(&state);
             if open.axis == SECTOR {
                 for sector in open.sector.halves() {
@@ -140,7 +141,7 @@ impl CellJudge<'_> {
         }
         if let Some((chart, z)) = state.worst {
             let pose = self.charts[chart].pose(&z);
-            let there = self.terms.at(&pose).into_iter().filter(|(t, _)| t.kind == kind);
+            let there = self.terms.of_kind(&pose, kind);
             let least = there.reduce(|a, b| if b.1 < a.1 { b } else { a });
             if let Some((term, value)) = least.filter(|l| l.1 < found.value) {
                 let standing = self.terms.standing(kind, value, Some(&pose));
@@ -198,8 +199,14 @@ impl CellJudge<'_> {
     }
 
     /// A local search in doubles from the worst point known of a function.
-    fn search(&self, state: &mut State, functions: &[Function], key: (usize, usize), rng: &mut Rng) {
-        let (f, c) = key;
+    fn search(
+        &self,
+        state: &mut State,
+        function: (TermKind, Function),
+        key: (usize, usize),
+        rng: &mut Rng,
+    ) {
+        let c = key.1;
         let chart = &self.charts[c];
         let (tried, last): &mut (usize, f64) = state.searches.entry(key).or_insert((0, f64::INFINITY));
         let Some((mut x, start)) = state.points.get(&key).copied() else { return };
@@ -207,7 +214,7 @@ impl CellJudge<'_> {
             return;
         }
         *tried += 1;
-        let value = |x: &[f64; 6]| self.plain(functions[f], c, x);
+        let value = |x: &[f64; 6]| self.plain(function, c, x);
         let inside = |x: [f64; 6]| {
             let held = std::array::from_fn(|k| x[k].clamp(chart.root.lo[k], chart.root.hi[k]));
             chart.pulled_inside(held)
@@ -232,7 +239,7 @@ impl CellJudge<'_> {
                 step /= 3.0;
             }
         }
-        let found = self.evaluate(functions[f], c, &ChartCell::point(x), &Sector::ALL, None);
+        let found = self.evaluate(function.1, c, &ChartCell::point(x), &Sector::ALL, None);
         if found.upper < state.upper {
             (state.upper, state.worst) = (found.upper, Some((c, x)));
         }

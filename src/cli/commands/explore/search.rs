@@ -92,6 +92,7 @@ fn part(progress: &mut ProgressLine, p: &Progress) {
         Stage::Populations => "populations",
         Stage::Climbs => "climbs",
         Stage::Polishing => "polishing",
+        Stage::Conflict => "conflict",
     };
     progress.part(what, p.done, p.total);
 }
