@@ -7,7 +7,10 @@ use super::leg_lines::{HeldPose, LegLines};
 use super::model::{ConstraintGroup, Model, Task};
 use super::outcome::{ConstraintConflict, Demand, Give};
 use super::population::is_close;
-use super::search::{DISTINCT_GAINS, DISTINCT_STARTS, RefinedRun, ShapeSearchOptions, Stage, Watch, are_near, population, refine};
+use super::search::{
+    DISTINCT_GAINS, DISTINCT_STARTS, RefinedRun, ShapeSearchOptions, Stage, Watch, are_near, population,
+    refine,
+};
 use super::terms::Item;
 use crate::num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
 use crate::num::farkas::{EnclosedRow, refuted};
@@ -20,14 +23,15 @@ fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> Task {
     Task { weights: vec![0.0; n], floors: vec![None; n], dropped, soft: None }
 }
 
-/// Least violation, objectives left out, from where the runs ended.
+/// Least violation, objectives left out, from where the runs of a task ended, once from each end.
 pub(crate) fn elastic(
     model: &Model<'_>,
+    task: &Task,
     from: &[RefinedRun],
     threads: usize,
     watch: &mut Watch<'_, '_, '_>,
 ) -> Vec<RefinedRun> {
-    settle(model, &no_objective(model, Vec::new()), &starts(from), threads, watch)
+    settle(model, &no_objective(model, Vec::new()), &starts(&apart(task, from)), threads, watch)
 }
 
 /// A point with the poses at which the requirements are held first.
@@ -132,14 +136,15 @@ pub(crate) enum Clash {
 
 /// Looks for an irreducible set of constraints that could not be met together.
 ///
-/// Deletion filter (Chinneck, Dravnieks 1991): constraints are left out one kind at a time, and stay out when the others still cannot be met.
+/// Deletion filter (Chinneck, Dravnieks 1991): constraints are left out one kind at a time, and stay out when the others still cannot be met. Those that hold at the least violation are left out
+/// together first, and stay out at once where the others still cannot be met.
 pub(crate) fn conflict(
     model: &Model<'_>,
     settled: &[RefinedRun],
     o: &ShapeSearchOptions,
     watch: &mut Watch<'_, '_, '_>,
 ) -> Clash {
-    let Some(best) = settled.first().filter(|best| best.run.converged) else { return Clash::Unsettled };
+    let Some(best) = settled.first().filter(|best| best.run.is_settled()) else { return Clash::Unsettled };
     let all: Vec<ConstraintGroup> = best.run.judged.violations.keys().copied().collect();
     let mut dropped: Vec<ConstraintGroup> = Vec::new();
     let mut from = apart(&no_objective(model, Vec::new()), settled);
@@ -147,6 +152,15 @@ pub(crate) fn conflict(
     let mut order = all.clone();
     order.sort_by(|a, b| best.run.judged.violations[a].total_cmp(&best.run.judged.violations[b]));
     let mut alone: BTreeMap<ConstraintGroup, RefinedRun> = BTreeMap::new();
+    // all of these at once where the others cannot be met even then
+    let idle: Vec<ConstraintGroup> =
+        order.iter().copied().filter(|group| best.run.judged.violations[group] <= 0.0).collect();
+    if idle.len() > 1
+        && let Err(runs) = attempt(model, &no_objective(model, idle.clone()), &from, o, order.len(), watch)
+    {
+        (dropped, from) = (idle, runs);
+        order.retain(|group| !dropped.contains(group));
+    }
     for (k, group) in order.into_iter().enumerate() {
         let mut without = dropped.clone();
         without.push(group);

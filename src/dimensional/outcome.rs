@@ -149,14 +149,10 @@ impl DimensionalReport {
     }
 }
 
-/// Sizes of the stationarity that count as none.
-const STATIONARY: f64 = 1e-3;
-
 /// The first of the refined runs as an answer.
 pub(crate) fn outcome(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> DimensionalOutcome {
     let Some(solution) = solution(model, task, refined) else { return DimensionalOutcome::Undecided(None) };
-    let settled = refined.run.converged || refined.run.stationarity.abs() < STATIONARY;
-    if settled && refined.complete {
+    if refined.run.is_settled() && refined.complete {
         DimensionalOutcome::Optimal(Box::new(solution))
     } else {
         DimensionalOutcome::NotConverged(Box::new(solution))

@@ -64,6 +64,8 @@ const LARGEST_PENALTY: f64 = 1e6;
 const FIRST_RADIUS: f64 = 0.15;
 const LARGEST_RADIUS: f64 = 0.5;
 const SMALLEST_RADIUS: f64 = 1e-9;
+/// Sizes of the stationarity that count as none.
+const STATIONARY: f64 = 1e-3;
 /// Radius at which stationarity is measured.
 const PROBE_RADIUS: f64 = 1e-3;
 
@@ -72,6 +74,11 @@ impl ShapeRun {
     pub(crate) fn after(mut self, mut earlier: Vec<HistoryStep>) -> Self {
         earlier.append(&mut self.history);
         Self { history: earlier, ..self }
+    }
+
+    /// Whether nothing more is to be gained near the end: the model promised nothing, or less than can be told from the accuracy of its steps.
+    pub(crate) fn is_settled(&self) -> bool {
+        self.converged || self.stationarity.abs() < STATIONARY
     }
 
     /// Violations below half of the spare are inside it.
@@ -304,9 +311,9 @@ struct Held {
 }
 
 impl Held {
-    /// What is violated, and of every group and objective those with the least values.
-    fn first(near: &Linearised, backoff: f64) -> Self {
-        let mut items: Vec<bool> = near.items.iter().map(|i| i.value < backoff).collect();
+    /// Of every group and objective those with the least values.
+    fn first(near: &Linearised) -> Self {
+        let mut items = vec![false; near.items.len()];
         let mut pieces = vec![false; near.pieces.len()];
         let mut groups: BTreeMap<ConstraintGroup, Vec<usize>> = BTreeMap::new();
         near.items.iter().enumerate().for_each(|(k, i)| groups.entry(i.group).or_default().push(k));
@@ -361,7 +368,7 @@ impl ShapeSubproblem<'_> {
     /// Few rows bind. The program is written with those that are nearest to it, and rows that its point violates are added until there are
     /// none: the point is then that of the program with all rows.
     pub(crate) fn solve(&self) -> Result<ShapeStep, SolverFailure> {
-        let mut held = Held::first(self.near, self.model.backoff);
+        let mut held = Held::first(self.near);
         loop {
             let (draft, rows) = self.write(&held);
             let point = match draft.p.solve() {

@@ -297,6 +297,7 @@ impl FirstPass {
         let mut judge = Judge::over(model, task, self.poses.clone());
         let worths: Vec<Option<Worth>> =
             self.points.iter().map(|e| judge.worth(&e.run.x, usize::MAX, None)).collect();
+        let tried: Vec<Worth> = self.tried.iter().filter_map(|k| worths[*k]).collect();
         let mut order: Vec<(usize, Worth)> =
             worths.into_iter().enumerate().filter_map(|(k, w)| Some((k, w?))).collect();
         // the merit of the climbs: an end that misses little at poses it did not know is worth more than a poor one that misses nothing
@@ -304,9 +305,10 @@ impl FirstPass {
         let mut chosen: Vec<(usize, Worth)> = Vec::new();
         for (k, worth) in order {
             // symmetric platforms have the same optimum many times
-            let known = chosen.iter().any(|(_, w)| w.is_close(&worth, DISTINCT_GAINS));
+            let known = chosen.iter().map(|c| &c.1).chain(&tried);
+            let is_known = known.into_iter().any(|w| w.is_close(&worth, DISTINCT_GAINS));
             let promises_more = worth.merit(PENALTY) > best;
-            if chosen.len() < count && promises_more && !known && !self.tried.contains(&k) {
+            if chosen.len() < count && promises_more && !is_known {
                 chosen.push((k, worth));
             }
         }
@@ -440,12 +442,7 @@ impl Search<'_, '_> {
     }
 
     /// A short climb from each start; `known` climbs of `total` were done before.
-    fn climbs(
-        &self,
-        starts: &[SearchStart],
-        known: usize,
-        watch: &mut Watch<'_, '_, '_>,
-    ) -> Vec<ShapeRun> {
+    fn climbs(&self, starts: &[SearchStart], known: usize, watch: &mut Watch<'_, '_, '_>) -> Vec<ShapeRun> {
         let total = known + starts.len();
         let climbed = |k: usize| rank(self.coarse, self.task, &starts[k]);
         let tick = &mut |done: usize, run: &ShapeRun| {
@@ -563,7 +560,7 @@ pub(crate) fn meet(
     if refined.is_empty() || model.is_stopped() {
         return Ok(None);
     }
-    let settled = elastic(&model, &refined, options.threads, &mut watch);
+    let settled = elastic(&model, &task, &refined, options.threads, &mut watch);
     let Some(k) = is_met(&settled) else { return Ok(None) };
     let again = refine(&model, &task, &settled[k].run.x, settled[k].poses.clone(), options.seed);
     let best = if again.run.is_feasible(&model) { &again } else { &settled[k] };
@@ -637,7 +634,7 @@ fn met_or_conflict(
     (options, explains): (&ShapeSearchOptions, bool),
     watch: &mut Watch<'_, '_, '_>,
 ) -> Option<ConstraintConflict> {
-    let settled = elastic(model, refined, options.threads, watch);
+    let settled = elastic(model, task, refined, options.threads, watch);
     let mut met = settled.iter().find(|r| r.run.is_feasible(model)).cloned();
     if met.is_none() && !explains {
         among(model, task, refined, settled);

@@ -6,7 +6,8 @@ use super::optimizing::{Checked, checked, dimensional_problem};
 use super::platform_search::keeps_symmetry_of_start;
 use crate::design::Design;
 use crate::dimensional::{
-    Demand, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Progress, ShapeSearchOptions, meet,
+    Demand, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Progress,
+    ShapeSearchOptions, meet,
 };
 use crate::equivalence::VerifyError;
 use crate::manipulator::Octahedral;

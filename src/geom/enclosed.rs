@@ -53,9 +53,7 @@ pub(crate) fn exact_rotation(home: &Pose) -> Rotation {
 /// `Y J`.
 pub(crate) fn times(y: &Matrix6<f64>, j: &IntervalMatrix) -> IntervalMatrix {
     std::array::from_fn(|r| {
-        std::array::from_fn(|c| {
-            (0..6).fold(Interval::ZERO, |sum, k| sum + Interval::from(y[(r, k)]) * j[k][c])
-        })
+        std::array::from_fn(|c| (0..6).fold(Interval::ZERO, |sum, k| sum + j[k][c].scaled(y[(r, k)])))
     })
 }
 

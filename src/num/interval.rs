@@ -105,6 +105,18 @@ impl Interval {
         Self::raw(least, mul_up(large, large))
     }
 
+    /// Encloses the products with a double; nothing is known of them where it is not finite.
+    #[must_use]
+    #[inline]
+    pub fn scaled(self, factor: f64) -> Self {
+        let (a, b) = (self.lo * factor, self.hi * factor);
+        let (lo, hi) = (a.min(b), a.max(b));
+        if lo != 0.0 && hi != 0.0 && lo > f64::NEG_INFINITY && hi < f64::INFINITY {
+            return Self::raw(below(lo), above(hi));
+        }
+        self * Self::from(factor)
+    }
+
     /// Encloses the square roots of the non-negative numbers in it; `None` when it holds none.
     #[must_use]
     #[inline]
@@ -145,6 +157,9 @@ impl Interval {
     /// The product, each of the products of two ends rounded outward.
     #[cold]
     fn product_by_ends(self, other: Self) -> Self {
+        if self == Self::ZERO || other == Self::ZERO {
+            return Self::ZERO;
+        }
         let pairs = [(self.lo, other.lo), (self.lo, other.hi), (self.hi, other.lo), (self.hi, other.hi)];
         let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
         for (x, y) in pairs {
@@ -233,8 +248,7 @@ impl Mul for Interval {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        let (a, b, c, d) =
-            (self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi);
+        let (a, b, c, d) = (self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi);
         let (lo, hi) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
         // rounding is monotone, so that the ends alone are rounded; zeros, which may be exact or an underflow, and unbounded ends are told apart product by product
         if lo != 0.0 && hi != 0.0 && lo > f64::NEG_INFINITY && hi < f64::INFINITY {

@@ -153,8 +153,7 @@ impl Jet {
 
     /// A multiple.
     pub(crate) fn times(&self, factor: Interval) -> Self {
-        let mut out = *self;
-        out.value = factor * self.value;
+        let mut out = Self::constant(factor * self.value, self.variables, self.second);
         for k in 0..self.variables {
             out.slope[k] = factor * self.slope[k];
         }
@@ -164,44 +163,30 @@ impl Jet {
         out
     }
 
-    fn combined(mut self, other: &Self, f: impl Fn(Interval, Interval) -> Interval) -> Self {
-        self.value = f(self.value, other.value);
+    /// Entry by entry.
+    #[inline]
+    fn combined(&self, other: &Self, f: impl Fn(Interval, Interval) -> Interval) -> Self {
+        let mut out = Self::constant(f(self.value, other.value), self.variables, self.second);
         for k in 0..self.variables {
-            self.slope[k] = f(self.slope[k], other.slope[k]);
+            out.slope[k] = f(self.slope[k], other.slope[k]);
         }
         if self.second {
-            for (x, y) in self.curve.iter_mut().zip(&other.curve) {
-                *x = f(*x, *y);
+            for (x, (a, b)) in out.curve.iter_mut().zip(self.curve.iter().zip(&other.curve)) {
+                *x = f(*a, *b);
             }
         }
-        self
+        out
     }
-}
 
-impl Add for Jet {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        self.combined(&other, |x, y| x + y)
+    fn sum(&self, other: &Self) -> Self {
+        self.combined(other, |x, y| x + y)
     }
-}
 
-impl Sub for Jet {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self.combined(&other, |x, y| x - y)
+    fn difference(&self, other: &Self) -> Self {
+        self.combined(other, |x, y| x - y)
     }
-}
 
-impl Neg for Jet {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self::constant(Interval::ZERO, self.variables, self.second).combined(&self, |x, y| x - y)
-    }
-}
-
-impl Mul for Jet {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
+    fn product(&self, other: &Self) -> Self {
         let mut out = Self::constant(self.value * other.value, self.variables, self.second);
         // most factors depend on few variables: products with zero are left out
         let product = |x: Interval, y: Interval| {
@@ -220,6 +205,40 @@ impl Mul for Jet {
             }
         }
         out
+    }
+}
+
+// the operators are inlined and what they do is not, so that operands, which are large, are not copied
+
+impl Add for Jet {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        self.sum(&other)
+    }
+}
+
+impl Sub for Jet {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        self.difference(&other)
+    }
+}
+
+impl Neg for Jet {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        self.alike(Interval::ZERO).difference(&self)
+    }
+}
+
+impl Mul for Jet {
+    type Output = Self;
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        self.product(&other)
     }
 }
 

@@ -92,6 +92,8 @@ impl Purpose {
     pub(crate) const NEAREST_POSES: Self = Self::single(0x6e70);
     /// Poses with which the bounds of requirements begin.
     pub(crate) const BOUNDED_POSES: Self = Self::single(0x626e);
+    /// Steps of the local searches that go on from cells of the bounds of requirements; one stream a search.
+    pub(crate) const CELL_SEARCHES: Self = Self::family(0x626f);
     /// Offsets of a cell of the search for the best offsets; one stream a cell.
     pub(crate) const OFFSETS_OF_CELL: Self = Self::single(0);
     /// Further offsets of a cell to climb from; one stream a cell.

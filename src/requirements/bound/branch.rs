@@ -8,6 +8,7 @@ use super::cone::Sector;
 use super::function::Function;
 use super::verdict::{MarginBound, verdict};
 use crate::geom::{Chart, ChartCell, Covered};
+use crate::num::parallel::parallel;
 use crate::num::{Purpose, Rng};
 use crate::requirements::TermKind;
 use crate::requirements::assess::Margin;
@@ -61,23 +62,73 @@ const ROUNDS: usize = 60;
 /// Bounds need not come closer to the least margin than this part of it.
 const CLOSE: f64 = 0.8;
 
+/// Cells that are halved before the next ones are chosen, whatever the number of threads.
+const BATCH: usize = 16;
+
+/// A function, by its number, on a chart.
+type Place = (usize, usize);
+
 /// Progress of one kind.
 struct State {
     heap: BinaryHeap<Open>,
+    /// Cells that came to the heap, which is the number of the next one.
+    kept: usize,
     cells: usize,
     upper: f64,
     /// Chart and point of the upper bound.
     worst: Option<(usize, [f64; 6])>,
-    /// Worst point by function and chart.
-    points: BTreeMap<(usize, usize), ([f64; 6], f64)>,
+    /// Worst point of each function on each chart.
+    points: BTreeMap<Place, ([f64; 6], f64)>,
     /// Number of local searches by function and chart, and the bound that the last one started from.
-    searches: BTreeMap<(usize, usize), (usize, f64)>,
+    searches: BTreeMap<Place, (usize, f64)>,
+    /// Local searches begun.
+    searched: u64,
+}
+
+impl State {
+    /// Learns of a point with an upper bound.
+    fn see(&mut self, place: Place, z: [f64; 6], upper: f64) {
+        if upper < self.upper {
+            (self.upper, self.worst) = (upper, Some((place.1, z)));
+        }
+        let point = self.points.entry(place).or_insert((z, f64::INFINITY));
+        if upper < point.1 {
+            *point = (z, upper);
+        }
+    }
+}
+
+/// A cell that is to be bounded.
+struct Job {
+    place: Place,
+    cell: ChartCell,
+    sector: Sector,
+    /// What is known already.
+    below: f64,
+}
+
+/// What became of it.
+struct Done {
+    cells: usize,
+    /// The point with the least upper bound.
+    worst: ([f64; 6], f64),
+    below: f64,
+    /// What is left of the cell, and the axis to halve.
+    rest: Option<(ChartCell, usize)>,
+}
+
+/// A local search in doubles from the worst point known of a function.
+struct CellSearch {
+    place: Place,
+    from: [f64; 6],
+    number: u64,
 }
 
 impl CellJudge<'_> {
-    /// The least margin of a function in doubles.
-    fn plain(&self, (kind, function): (TermKind, Function), chart: usize, x: &[f64; 6]) -> f64 {
-        let all = self.terms.of_kind(&self.charts[chart].pose(x), kind);
+    /// The least margin of a function of a kind in doubles.
+    fn plain(&self, kind: TermKind, function: Function, chart: usize, x: &[f64; 6]) -> f64 {
+        let pose = self.charts[chart].pose(x);
+        let all = self.terms.of_kind(&pose, kind);
         all.filter(|(t, _)| function.has(t)).map(|(_, v)| v).fold(f64::INFINITY, f64::min)
     }
 
@@ -95,21 +146,15 @@ impl CellJudge<'_> {
         });
         let mut state = State {
             heap: BinaryHeap::new(),
+            kept: 0,
             cells: 0,
             upper,
             worst: None,
             points: BTreeMap::new(),
             searches: BTreeMap::new(),
+            searched: 0,
         };
-        let mut rng = Purpose::BOUNDED_POSES.rng(seed);
-        for chart in 0..self.charts.len() {
-            for f in 0..functions.len() {
-                for sector in self.sectors(functions[f], &self.charts[chart]) {
-                    let root = self.charts[chart].root;
-                    self.push(&mut state, &functions, (f, chart), root, sector, f64::NEG_INFINITY);
-                }
-            }
-        }
+        self.look_at(&mut state, &functions, self.roots(&functions));
         let rounding = |s: &State| {
             let pose = s.worst.map(|(c, z)| self.charts[c].pose(&z)).or(found.pose);
             self.terms.rounding(kind, pose.as_ref())
@@ -117,27 +162,27 @@ impl CellJudge<'_> {
         let mut slack = rounding(&state);
         let (most, enough) = (state.cells + cells, state.cells + cells.min(WORSE));
         let mut below = f64::INFINITY;
-        while let Some(open) = state.heap.pop() {
-            below = open.below - reserve;
+        while let Some(first) = state.heap.pop() {
+            below = first.below - reserve;
             let upper = state.upper - reserve;
-            let close = !self.close || below >= CLOSE * upper.abs() || below >= upper - slack;
-            let decided = (upper < -slack && state.cells >= enough) || (close && below >= -slack);
-            if decided || state.cells >= most {
-                break;
+            // a cell with this bound need not be halved
+            let settles = |below: f64| {
+                let close = !self.close || below >= CLOSE * upper.abs() || below >= upper - slack;
+                close && below >= -slack
+            };
+            let decided = (upper < -slack && state.cells >= enough) || settles(below);
+            // a cell that cannot be halved keeps its bound
+            let Some(jobs) = jobs(&first).filter(|_| !decided && state.cells < most) else { break };
+            let (mut jobs, mut places) = (jobs, vec![(first.function, first.chart)]);
+            for _ in 1..BATCH {
+                let next = state.heap.peek().filter(|next| !settles(next.below - reserve));
+                let Some(halves) = next.and_then(|next| self::jobs(next)) else { break };
+                jobs.extend(halves);
+                places.extend(state.heap.pop().map(|next| (next.function, next.chart)));
             }
-            let key = (open.function, open.chart);
-            self.search(&mut state, (kind, functions[open.function]), key, &mut rng);
+            self.search(&mut state, (kind, &functions), &places, seed);
             slack = rounding(&state);
-            if open.axis == SECTOR {
-                for sector in open.sector.halves() {
-                    self.push(&mut state, &functions, key, open.cell, sector, open.below);
-                }
-                continue;
-            }
-            let Some(parts) = open.cell.halves(open.axis) else { break };
-            for part in parts {
-                self.push(&mut state, &functions, key, part, open.sector, open.below);
-            }
+            self.look_at(&mut state, &functions, jobs);
         }
         if let Some((chart, z)) = state.worst {
             let pose = self.charts[chart].pose(&z);
@@ -152,34 +197,59 @@ impl CellJudge<'_> {
         MarginBound { found, below, verdict, cells: state.cells, reserve: None }
     }
 
-    /// Bounds a cell and keeps it, unless it cannot hold a least margin.
-    fn push(
-        &self,
-        state: &mut State,
-        functions: &[Function],
-        (f, c): (usize, usize),
-        cell: ChartCell,
-        sector: Sector,
-        parent: f64,
-    ) {
-        let chart = &self.charts[c];
-        if chart.covers(&cell, 1.0) == Covered::Outside {
-            return;
+    /// The whole charts, for every function.
+    fn roots(&self, functions: &[Function]) -> Vec<Job> {
+        let mut out = Vec::new();
+        for (chart, own) in self.charts.iter().enumerate() {
+            for (f, function) in functions.iter().enumerate() {
+                let job =
+                    |sector| Job { place: (f, chart), cell: own.root, sector, below: f64::NEG_INFINITY };
+                out.extend(self.sectors(*function, own).into_iter().map(job));
+            }
         }
-        let (mut cell, mut below) = (cell, parent);
+        out
+    }
+
+    /// Bounds cells, and keeps those that can hold a least margin.
+    fn look_at(&self, state: &mut State, functions: &[Function], jobs: Vec<Job>) {
+        let known = &state.points;
+        let bounded = |k: usize| {
+            let job = &jobs[k];
+            self.bounded(functions[job.place.0], job, known.get(&job.place).copied())
+        };
+        let found = parallel(jobs.len(), self.threads, bounded, &mut |_, _| ());
+        for (job, done) in jobs.into_iter().zip(found) {
+            state.cells += done.cells;
+            if done.cells > 0 {
+                state.see(job.place, done.worst.0, done.worst.1);
+            }
+            if let Some((cell, axis)) = done.rest {
+                let (function, chart) = job.place;
+                let (below, number) = (done.below, state.kept);
+                state.kept += 1;
+                state.heap.push(Open { below, number, function, chart, cell, sector: job.sector, axis });
+            }
+        }
+    }
+
+    /// Bounds a cell, and what is left of it as long as that gets smaller; `known` is the worst point known of the function with its upper bound.
+    fn bounded(&self, function: Function, job: &Job, known: Option<([f64; 6], f64)>) -> Done {
+        let chart = job.place.1;
+        let mut worst = known.unwrap_or(([0.0; 6], f64::INFINITY));
+        let mut done = Done { cells: 0, worst, below: job.below, rest: None };
+        if self.charts[chart].covers(&job.cell, 1.0) == Covered::Outside {
+            return done;
+        }
+        let mut cell = job.cell;
         loop {
-            state.cells += 1;
-            let known = state.points.get(&(f, c)).map(|p| p.0);
-            let found = self.evaluate(functions[f], c, &cell, &sector, known);
-            if found.upper < state.upper {
-                (state.upper, state.worst) = (found.upper, Some((c, found.z)));
+            let near = (done.cells > 0 || known.is_some()).then_some(worst.0);
+            let found = self.evaluate(function, chart, &cell, &job.sector, near);
+            if found.upper < worst.1 || near.is_none() {
+                worst = (found.z, found.upper);
             }
-            let point = state.points.entry((f, c)).or_insert((found.z, f64::INFINITY));
-            if found.upper < point.1 {
-                *point = (found.z, found.upper);
-            }
-            below = below.max(found.bounded.below);
-            let Some(rest) = found.rest else { return };
+            done.cells += 1;
+            (done.worst, done.below) = (worst, done.below.max(found.bounded.below));
+            let Some(rest) = found.rest else { return done };
             if rest != cell {
                 // what is left is smaller: its bound is better
                 cell = rest;
@@ -192,29 +262,52 @@ impl CellJudge<'_> {
             if found.loose_sector > if wide(axis) { loose[axis] } else { 0.0 } {
                 axis = SECTOR;
             }
-            let number = state.cells;
-            state.heap.push(Open { below, number, function: f, chart: c, cell, sector, axis });
-            return;
+            done.rest = Some((cell, axis));
+            return done;
         }
     }
 
-    /// A local search in doubles from the worst point known of a function.
+    /// Local searches from the worst points known of some functions, where these are worse than those of the last ones.
     fn search(
         &self,
         state: &mut State,
-        function: (TermKind, Function),
-        key: (usize, usize),
-        rng: &mut Rng,
+        (kind, functions): (TermKind, &[Function]),
+        places: &[Place],
+        seed: u64,
     ) {
-        let c = key.1;
-        let chart = &self.charts[c];
-        let (tried, last): &mut (usize, f64) = state.searches.entry(key).or_insert((0, f64::INFINITY));
-        let Some((mut x, start)) = state.points.get(&key).copied() else { return };
-        if *tried >= SEARCHES || chart.len() == 0 || (*tried > 0 && start >= *last) {
-            return;
+        let mut all: Vec<CellSearch> = Vec::new();
+        for place in places {
+            let Some((from, start)) = state.points.get(place).copied() else { continue };
+            let (tried, last) = state.searches.entry(*place).or_insert((0, f64::INFINITY));
+            let waits = all.iter().any(|s| s.place == *place) || self.charts[place.1].len() == 0;
+            if waits || *tried >= SEARCHES || (*tried > 0 && start >= *last) {
+                continue;
+            }
+            *tried += 1;
+            all.push(CellSearch { place: *place, from, number: state.searched });
+            state.searched += 1;
         }
-        *tried += 1;
-        let value = |x: &[f64; 6]| self.plain(function, c, x);
+        let searched = |k: usize| {
+            let s = &all[k];
+            let function = functions[s.place.0];
+            let x = self.searched(kind, function, s, &mut Purpose::CELL_SEARCHES.item(seed, s.number));
+            (x, self.evaluate(function, s.place.1, &ChartCell::point(x), &Sector::ALL, None).upper)
+        };
+        let found = parallel(all.len(), self.threads, searched, &mut |_, _| ());
+        for (search, (x, upper)) in all.into_iter().zip(found) {
+            let start = state.points.get(&search.place).map_or(f64::INFINITY, |p| p.1);
+            state.see(search.place, x, upper);
+            if let Some(last) = state.searches.get_mut(&search.place) {
+                last.1 = upper.min(start);
+            }
+        }
+    }
+
+    /// Where a local search ends.
+    fn searched(&self, kind: TermKind, function: Function, search: &CellSearch, rng: &mut Rng) -> [f64; 6] {
+        let (c, mut x) = (search.place.1, search.from);
+        let chart = &self.charts[c];
+        let value = |x: &[f64; 6]| self.plain(kind, function, c, x);
         let inside = |x: [f64; 6]| {
             let held = std::array::from_fn(|k| x[k].clamp(chart.root.lo[k], chart.root.hi[k]));
             chart.pulled_inside(held)
@@ -239,15 +332,16 @@ impl CellJudge<'_> {
                 step /= 3.0;
             }
         }
-        let found = self.evaluate(function.1, c, &ChartCell::point(x), &Sector::ALL, None);
-        if found.upper < state.upper {
-            (state.upper, state.worst) = (found.upper, Some((c, x)));
-        }
-        if state.points.get(&key).is_none_or(|p| found.upper < p.1) {
-            state.points.insert(key, (x, found.upper));
-        }
-        if let Some(search) = state.searches.get_mut(&key) {
-            search.1 = found.upper.min(start);
-        }
+        x
     }
+}
+
+/// The halves of a cell; `None` where it cannot be halved.
+fn jobs(open: &Open) -> Option<Vec<Job>> {
+    let place = (open.function, open.chart);
+    let job = |cell, sector| Job { place, cell, sector, below: open.below };
+    if open.axis == SECTOR {
+        return Some(open.sector.halves().into_iter().map(|sector| job(open.cell, sector)).collect());
+    }
+    Some(open.cell.halves(open.axis)?.into_iter().map(|part| job(part, open.sector)).collect())
 }

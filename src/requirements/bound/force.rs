@@ -104,11 +104,11 @@ impl System {
     }
 
     pub(super) fn values(&self) -> IntervalMatrix {
-        self.rows.map(|row| row.map(|x| x.value))
+        std::array::from_fn(|r| std::array::from_fn(|i| self.rows[r][i].value))
     }
 
     pub(super) fn slopes(&self, k: usize) -> IntervalMatrix {
-        self.rows.map(|row| row.map(|x| x.slope(k)))
+        std::array::from_fn(|r| std::array::from_fn(|i| self.rows[r][i].slope(k)))
     }
 }
 
@@ -121,7 +121,7 @@ pub(super) struct ForceSolver {
 }
 
 fn apply(k: &Matrix6<f64>, b: &[Interval; 6]) -> [Interval; 6] {
-    std::array::from_fn(|i| (0..6).fold(Interval::ZERO, |s, j| s + Interval::from(k[(i, j)]) * b[j]))
+    std::array::from_fn(|i| (0..6).fold(Interval::ZERO, |s, j| s + b[j].scaled(k[(i, j)])))
 }
 
 impl ForceSolver {
@@ -171,7 +171,7 @@ impl ForceSolver {
 
     /// The forces of a system, with slopes.
     fn forces(&self, system: &System, variables: usize) -> Option<[Jet; 6]> {
-        let value = self.solve(&system.right.map(|x| x.value))?;
+        let value = self.solve(&std::array::from_fn(|r| system.right[r].value))?;
         let mut slopes = [[Interval::ZERO; 6]; 6];
         for k in 0..variables {
             let a = system.slopes(k);

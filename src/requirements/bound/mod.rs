@@ -40,7 +40,6 @@ use crate::geom::enclosed::{IntervalVector, dot};
 use crate::geom::{Chart, PoseSpace};
 use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
-use crate::num::parallel::parallel;
 
 pub use crank::{RodRegularity, regular_rods};
 pub use verdict::{MarginBound, MarginProof, MarginVerdict};
@@ -65,26 +64,31 @@ pub fn prove(
     let joints = JointOffsets::new(m, required, &home);
     let joints = joints.as_ref();
     let axes = axes(m, required, cranks, joints, &home);
-    // more cells are for what is undecided, and need not come close
-    let patient =
-        CellJudge { m, required, terms: &terms, cranks, joints, axes, charts: charts.clone(), close: false };
-    let judge = CellJudge { charts, close: o.close, ..patient };
     let threads =
         o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    let proved = |k: usize| judge.proved(margins[k], cells, o.seed);
-    let mut bounds = parallel(margins.len(), threads, proved, &mut |_, _| ());
+    // more cells are for what is undecided, and need not come close
+    let patient = CellJudge {
+        m,
+        required,
+        terms: &terms,
+        cranks,
+        joints,
+        axes,
+        charts: charts.clone(),
+        threads,
+        close: false,
+    };
+    let judge = CellJudge { charts, close: o.close, ..patient };
+    let mut bounds: Vec<MarginBound> =
+        margins.iter().map(|margin| judge.proved(*margin, cells, o.seed)).collect();
     // of a design that misses something no more has to be known
     let missed = |b: &MarginBound| b.verdict == MarginVerdict::Violated || b.keeps_reserve() == Some(false);
     if o.patient_cells > cells && !bounds.iter().any(missed) {
-        let more = |k: usize| {
-            let bound: &MarginBound = &bounds[k];
-            if bound.is_decided() || bound.found.term.kind.is_fixed() {
-                return bound.clone();
-            }
+        for bound in bounds.iter_mut().filter(|b| !b.is_decided() && !b.found.term.kind.is_fixed()) {
             let more = patient.proved(bound.found, o.patient_cells, o.seed);
-            MarginBound { below: more.below.max(bound.below), cells: bound.cells + more.cells, ..more }
-        };
-        bounds = parallel(bounds.len(), threads, more, &mut |_, _| ());
+            *bound =
+                MarginBound { below: more.below.max(bound.below), cells: bound.cells + more.cells, ..more };
+        }
     }
     MarginProof { bounds, poses }
 }
@@ -139,6 +143,8 @@ struct CellJudge<'a> {
     joints: Option<&'a JointOffsets>,
     axes: Axes,
     charts: Vec<Chart>,
+    /// Threads among which the cells of a batch are shared; no answer depends on it.
+    threads: usize,
     /// Whether bounds go on when they have decided.
     close: bool,
 }
