@@ -8,8 +8,8 @@ use super::model::{ConstraintGroup, Model, Task};
 use super::outcome::{ConstraintConflict, Demand, Give};
 use super::population::is_close;
 use super::search::{
-    DISTINCT_GAINS, DISTINCT_STARTS, RefinedRun, ShapeSearchOptions, Stage, Watch, are_near, population,
-    refine,
+    DISTINCT_GAINS, DISTINCT_STARTS, RefinedRun, ShapeSearchOptions, Stage, Watch, are_near,
+    expects_no_other, population, refine,
 };
 use super::terms::Item;
 use crate::num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
@@ -23,7 +23,10 @@ fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> Task {
     Task { weights: vec![0.0; n], floors: vec![None; n], dropped, soft: None }
 }
 
-/// Least violation, objectives left out, from where the runs of a task ended, once from each end.
+/// Runs towards the least violation after which it is asked whether they are enough.
+const ELASTIC_BATCH: usize = 16;
+
+/// Least violation, objectives left out, from where the runs of a task ended, once from each end, as long as none meets the requirements and other ends are to be expected.
 pub(crate) fn elastic(
     model: &Model<'_>,
     task: &Task,
@@ -31,7 +34,18 @@ pub(crate) fn elastic(
     threads: usize,
     watch: &mut Watch<'_, '_, '_>,
 ) -> Vec<RefinedRun> {
-    settle(model, &no_objective(model, Vec::new()), &starts(&apart(task, from)), threads, watch)
+    let plain = no_objective(model, Vec::new());
+    let from = apart(task, from);
+    let mut runs: Vec<RefinedRun> = Vec::new();
+    for batch in starts(&from).chunks(ELASTIC_BATCH) {
+        runs.extend(settle(model, &plain, batch, threads, watch));
+        let is_met = runs.iter().any(|r| r.run.is_feasible(model));
+        if is_met || expects_no_other(runs.len(), apart(&plain, &runs).len()) {
+            break;
+        }
+    }
+    runs.sort_by(|a, b| by_violation(&plain, a, b));
+    runs
 }
 
 /// A point with the poses at which the requirements are held first.

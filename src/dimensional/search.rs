@@ -345,6 +345,15 @@ pub(crate) fn search_task(
     SearchedShape { refined, starts: climbed, feasible }
 }
 
+/// Whether `runs` climbs that led to `ends` different ends let expect no other.
+///
+/// The Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)` for `w` ends of `n` climbs, and no other is expected where that is below `w + 1/2` (Boender, Rinnooy Kan 1987).
+/// Its premise, starts drawn independently, holds for populations apart from each other but not within one.
+pub(super) fn expects_no_other(runs: usize, ends: usize) -> bool {
+    let (n, w) = (runs as f64, ends as f64);
+    n > w + 2.0 && w * (n - 1.0) / (n - w - 2.0) < w + 0.5
+}
+
 /// What the steps of a search for one task share.
 #[derive(Clone, Copy)]
 struct Search<'s, 'a> {
@@ -425,10 +434,7 @@ impl Search<'_, '_> {
         runs
     }
 
-    /// Whether hardly another end is to be expected from further climbs.
-    ///
-    /// Of `n` climbs that led to `w` ends the Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)`, and no other is expected where that is below `w + 1/2` (Boender, Rinnooy Kan 1987).
-    /// Its premise, starts drawn independently, holds for populations apart from each other but not within one. Ends count as one by their worth over the same poses.
+    /// Whether hardly another end is to be expected from further climbs; ends count as one by their worth over the same poses.
     fn are_all_found(&self, runs: &[ShapeRun]) -> bool {
         let mut judge = Judge::new(self.coarse, self.task);
         let mut ends: Vec<Worth> = Vec::new();
@@ -437,8 +443,7 @@ impl Search<'_, '_> {
                 ends.push(worth);
             }
         }
-        let (n, w) = (runs.len() as f64, ends.len() as f64);
-        n > w + 2.0 && w * (n - 1.0) / (n - w - 2.0) < w + 0.5
+        expects_no_other(runs.len(), ends.len())
     }
 
     /// A short climb from each start; `known` climbs of `total` were done before.

@@ -122,7 +122,7 @@ pub(crate) struct OpenedFreedom {
 }
 
 /// Multiples of the amount that the conflict names, tried one after the other.
-const ATTEMPTS: [f64; 4] = [1.02, 1.3, 2.0, 4.0];
+const ATTEMPTS: [f64; 4] = [1.1, 1.3, 2.0, 4.0];
 /// The first amount where the conflict names none, as a part of the limit.
 const FIRST: f64 = 0.02;
 
@@ -331,7 +331,7 @@ impl FreedomSearch<'_, '_> {
     }
 
     /// The search for a design with more freedom, and what `assess` says of what it finds; `None` where it cannot be asked. A design that has three-fold symmetry and names none is searched with it
-    /// first, which has few variables.
+    /// first, which has few variables, and without it where nothing is found.
     fn search(
         &mut self,
         freedom: ConflictFreedom,
@@ -339,19 +339,13 @@ impl FreedomSearch<'_, '_> {
     ) -> Result<Option<AttemptFlow>, VerifyError> {
         let free = dimensional_problem(design, self.extension);
         let symmetric = keeps_symmetry_of_start(design, &free);
-        let mut best = None;
         for problem in symmetric.iter().chain([&free]) {
             match self.search_problem(freedom, design, problem)? {
-                Some(ControlFlow::Continue(found)) => best = found.or(best),
-                Some(ControlFlow::Break(())) if best.is_none() => return Ok(Some(ControlFlow::Break(()))),
-                Some(ControlFlow::Break(())) => break,
-                None => return Ok(None),
-            }
-            if best.as_ref().is_some_and(|c: &Box<Checked>| c.met() == Some(true)) {
-                break;
+                Some(ControlFlow::Continue(None)) => {}
+                ended => return Ok(ended),
             }
         }
-        Ok(Some(ControlFlow::Continue(best)))
+        Ok(Some(ControlFlow::Continue(None)))
     }
 
     /// See [`search`](Self::search), for one of its problems.
