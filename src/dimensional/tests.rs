@@ -669,3 +669,31 @@ fn angles_of_universal_joints_are_those_of_the_margins() {
     }
     assert!(signs[0] > 0 && signs[1] > 0, "{signs:?}");
 }
+
+/// What is computed for one requirement is what it is among all.
+#[test]
+fn one_requirement_has_the_value_it_has_among_all() {
+    let p = crowded(&[VariableKind::Offsets, VariableKind::HomeHeight], JointAxes::Home);
+    let model = Model::new(&p).unwrap();
+    let mut rng = Rng::new(5);
+    let mut kinds = std::collections::BTreeSet::new();
+    for _ in 0..3 {
+        let x = model.random_point(&mut rng);
+        let ends = model.shape.ends(&x);
+        let l = super::leg_lines::LegLines::new(&ends, &tilted(&p, true));
+        let mut all = Vec::new();
+        model.terms.visit(&l, &ends, &x, &mut |item: super::terms::Item<()>| all.push((item.id, item.value)));
+        for (id, value) in &all {
+            let mut found = Vec::new();
+            let wanted = (id.0, id.1, id.2);
+            model.terms.visit_some(&l, (&ends, &x), wanted, &mut |item: super::terms::Item<()>| {
+                if item.id == *id {
+                    found.push(item.value);
+                }
+            });
+            assert_eq!(found, [*value], "{id:?}");
+            kinds.insert(id.0);
+        }
+    }
+    assert!(kinds.len() >= 11, "{kinds:?}");
+}

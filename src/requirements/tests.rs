@@ -265,3 +265,57 @@ fn limits_set_to_the_values_at_home_are_reached_and_not_violated() {
         assert_eq!(standing, Standing::Met);
     }
 }
+
+/// Requirements of `slanted` of several kinds, with a small workspace.
+fn several() -> (Manipulator, Requirements, PoseSpace) {
+    let (m, home) = slanted();
+    let mut r = Requirements::default();
+    r.hardware.leg_length = Some(LengthLimits::Range(8.0, 18.0));
+    r.hardware.leg_body = Some(LegBody { diameter: 0.4, rod: Some((6.0, 0.3)) });
+    r.hardware.leg_clearance = Some(0.05);
+    r.hardware.base_swing = Some(Swing::of_all(30.0, JointAxes::Home));
+    r.hardware.max_leg_speed = Some(3.0);
+    r.platform_speed = Some(PlatformSpeed { linear: 1.0, angular_deg: 2.0 });
+    let sphere = KeepOutShape::Sphere { center: Point3::new(0.0, 0.0, 3.0), diameter: 2.0 };
+    r.keep_outs.push(KeepOut { name: "post".into(), fixed_to: Body::Base, shape: sphere });
+    let space = PoseSpace {
+        translation: Vector3::new(0.5, 0.4, 0.3),
+        rotation_deg: Vector3::new(2.0, 3.0, 4.0),
+        ..PoseSpace::at(home)
+    };
+    (m, r, space)
+}
+
+#[test]
+fn a_kind_alone_has_the_margins_it_has_among_all() {
+    let (m, r, space) = several();
+    let terms = Terms::new(&m, &r, &space.home);
+    let pose = space.pose(&nalgebra::Vector6::new(0.3, -0.9, 0.5, 0.2, -0.7, 1.0));
+    let all = terms.at(&pose);
+    let kinds: std::collections::BTreeSet<TermKind> = all.iter().map(|t| t.0.kind).collect();
+    assert!(kinds.len() >= 6, "{kinds:?}");
+    for kind in kinds {
+        let among: Vec<(Term, f64)> = all.iter().copied().filter(|t| t.0.kind == kind).collect();
+        assert_eq!(terms.of_kind(&pose, kind).collect::<Vec<_>>(), among);
+    }
+}
+
+/// Cells are bounded by batches whose size has nothing to do with the threads.
+#[test]
+fn proofs_do_not_depend_on_the_number_of_threads() {
+    let (m, mut r, space) = several();
+    r.reserves.all = Some(0.02);
+    let of = |threads: usize, close: bool| {
+        let options = AssessOptions { threads: std::num::NonZeroUsize::new(threads), close, ..quick() };
+        prove(&m, &r, &space, &options, 400)
+    };
+    for close in [true, false] {
+        let one = of(1, close);
+        assert_eq!(one, of(3, close));
+        assert!(one.bounds.iter().map(|b| b.cells).max() > Some(40), "{one:?}");
+        assert_eq!((one.all_met(), one.all_reserved()), (Some(true), Some(true)), "{one:?}");
+    }
+    // a bound that only decides says as much of reserves as one that is close
+    let reserves = |p: &MarginProof| p.bounds.iter().map(|b| b.keeps_reserve()).collect::<Vec<_>>();
+    assert_eq!(reserves(&of(1, false)), reserves(&of(1, true)));
+}

@@ -6,7 +6,7 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::super::conflict::attempt;
 use super::super::model::Task;
-use super::super::search::{Watch, refine};
+use super::super::search::{Watch, expects_no_other, refine};
 use super::super::*;
 use super::{ConstraintGroup, Model, everything, problem, quick};
 use crate::manipulator::Manipulator;
@@ -198,4 +198,30 @@ fn what_other_starts_can_meet_is_no_conflict() {
             optimize(&long_struts(limits), &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
         assert!(found.solution().is_some(), "{limits:?}");
     }
+}
+
+/// An end of the search that is asked for while a conflict is looked for leaves no conflict behind: what was not tried to its end shows nothing.
+#[test]
+fn a_search_that_is_told_to_end_names_no_conflict() {
+    let mut p = problem(&[VariableKind::Offsets], Objective::WorstConditioning);
+    p.requirements.hardware.leg_length = Some(LengthLimits::Range(1e3, 1.1e3));
+    let ended = optimize(&p, &[], &quick(), &mut |now| match now.stage {
+        Stage::Conflict => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    });
+    let ended = ended.unwrap();
+    assert!(ended.interrupted && matches!(ended.outcome, DimensionalOutcome::Undecided(_)), "{ended:?}");
+    // and the least violation found is there
+    assert!(ended.nearest.is_some());
+    // negative control: without an end there is a conflict
+    let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
+    assert!(matches!(found.outcome, DimensionalOutcome::Infeasible(_)), "{found:?}");
+}
+
+/// Climbs that all lead to one end are enough when there are eight, and never where each leads to an end of its own.
+#[test]
+fn climbs_are_enough_when_their_ends_repeat() {
+    let first = |ends: usize| (1..1000).find(|n| expects_no_other(*n, ends));
+    assert_eq!([1, 2, 3, 8].map(first), [Some(8), Some(17), Some(30), Some(155)]);
+    assert!((1..1000).all(|n| !expects_no_other(n, n)));
 }

@@ -149,3 +149,19 @@ fn complex_products_and_quotients_enclose() {
     }
     assert_eq!(Interval::from(1.0).checked_div(Complex::<Interval>::from(Complex64::ZERO).norm_sqr()), None);
 }
+
+/// Ends rounded once are those of products rounded one by one, for numbers of all sizes, zeros, subnormals and unbounded intervals.
+#[test]
+fn products_are_as_narrow_as_their_ends_allow() {
+    let mut rng = Rng::new(22);
+    for _ in 0..20_000 {
+        let (a, b) = (random_interval(&mut rng), random_interval(&mut rng));
+        assert_eq!(a * b, a.product_by_ends(b), "{a:?} * {b:?}");
+        let x = random_double(&mut rng);
+        assert_eq!(a.scaled(x), a.product_by_ends(Interval::from(x)), "{a:?} * {x:e}");
+        // a square is not below zero and no wider than the product
+        assert!((a * a).encloses(a.square()) && a.square().lo >= 0.0, "{a:?}");
+    }
+    assert_eq!(Interval::WHOLE.scaled(0.0), Interval::ZERO);
+    assert_eq!(Interval::from(1.0).scaled(f64::NAN), Interval::WHOLE);
+}

@@ -152,27 +152,55 @@ struct CellJudge<'a> {
 impl CellJudge<'_> {
     /// A margin and its reserve by at most so many cells for each.
     fn proved(&self, found: Margin, cells: usize, seed: u64) -> MarginBound {
-        let fixed = found.term.kind.is_fixed();
-        let bound = if fixed { self.fixed(found) } else { self.bound(found, cells, seed, 0.0) };
-        let reserve = self.required.reserve(bound.found.term.kind);
+        let reserve = self.required.reserve(found.term.kind);
+        // what no pose changes is decided by its enclosure alone
+        if found.term.kind.is_fixed() {
+            return self.with_reserve(self.fixed(found), reserve);
+        }
+        // where bounds need not be close, a reserve that is kept decides both at once
+        let may_be_kept = found.value >= reserve - self.rounding(&found);
+        if self.close || reserve == 0.0 || !may_be_kept {
+            let bound = self.bound(found, cells, seed, 0.0);
+            let bound = self.with_reserve(bound, reserve);
+            if bound.keeps_reserve().is_some() {
+                return bound;
+            }
+            let more = self.bound(bound.found, cells, seed, reserve);
+            let kept = (more.below >= -self.rounding(&more.found)).then_some(true);
+            return MarginBound { reserve: Some(ReserveBound { reserve, kept }), ..bound };
+        }
+        let more = self.bound(found, cells, seed, reserve);
+        let rounding = self.rounding(&more.found);
+        if more.below >= -rounding {
+            let below = (more.below + reserve).next_down();
+            let kept = Some(ReserveBound { reserve, kept: Some(true) });
+            return MarginBound {
+                below,
+                verdict: verdict::verdict(below, f64::INFINITY, rounding),
+                reserve: kept,
+                ..more
+            };
+        }
+        let bound = self.bound(more.found, cells, seed, 0.0);
+        let cells = bound.cells + more.cells;
+        self.with_reserve(MarginBound { cells, ..bound }, reserve)
+    }
+
+    fn rounding(&self, found: &Margin) -> f64 {
+        self.terms.rounding(found.term.kind, found.pose.as_ref())
+    }
+
+    /// The same with what its own bounds say of a reserve.
+    fn with_reserve(&self, bound: MarginBound, reserve: f64) -> MarginBound {
         if reserve == 0.0 {
             return bound;
         }
-        MarginBound { reserve: Some(self.reserved(&bound, reserve, cells, seed)), ..bound }
-    }
-
-    /// Whether a margin keeps a reserve: by what is proved of it already, else by bounds of their own.
-    fn reserved(&self, bound: &MarginBound, reserve: f64, cells: usize, seed: u64) -> ReserveBound {
-        let rounding = self.terms.rounding(bound.found.term.kind, bound.found.pose.as_ref());
+        let rounding = self.rounding(&bound.found);
         let kept = if bound.found.value < reserve - rounding {
             Some(false)
-        } else if bound.below >= reserve - rounding {
-            Some(true)
         } else {
-            // what no pose changes is decided by its enclosure alone
-            let poses = !bound.found.term.kind.is_fixed();
-            (poses && self.bound(bound.found, cells, seed, reserve).below >= -rounding).then_some(true)
+            (bound.below >= reserve - rounding).then_some(true)
         };
-        ReserveBound { reserve, kept }
+        MarginBound { reserve: Some(ReserveBound { reserve, kept }), ..bound }
     }
 }
