@@ -316,6 +316,6 @@ fn proofs_do_not_depend_on_the_number_of_threads() {
         assert_eq!((one.all_met(), one.all_reserved()), (Some(true), Some(true)), "{one:?}");
     }
     // a bound that only decides says as much of reserves as one that is close
-    let reserves = |p: &MarginProof| p.bounds.iter().map(|b| b.keeps_reserve()).collect::<Vec<_>>();
+    let reserves = |p: &MarginProof| p.bounds.iter().map(MarginBound::keeps_reserve).collect::<Vec<_>>();
     assert_eq!(reserves(&of(1, false)), reserves(&of(1, true)));
 }

@@ -172,11 +172,11 @@ impl CellJudge<'_> {
             };
             let decided = (upper < -slack && state.cells >= enough) || settles(below);
             // a cell that cannot be halved keeps its bound
-            let Some(jobs) = jobs(&first).filter(|_| !decided && state.cells < most) else { break };
-            let (mut jobs, mut places) = (jobs, vec![(first.function, first.chart)]);
+            let Some(mut jobs) = halves_of(&first).filter(|_| !decided && state.cells < most) else { break };
+            let mut places = vec![(first.function, first.chart)];
             for _ in 1..BATCH {
                 let next = state.heap.peek().filter(|next| !settles(next.below - reserve));
-                let Some(halves) = next.and_then(|next| self::jobs(next)) else { break };
+                let Some(halves) = next.and_then(halves_of) else { break };
                 jobs.extend(halves);
                 places.extend(state.heap.pop().map(|next| (next.function, next.chart)));
             }
@@ -337,7 +337,7 @@ impl CellJudge<'_> {
 }
 
 /// The halves of a cell; `None` where it cannot be halved.
-fn jobs(open: &Open) -> Option<Vec<Job>> {
+fn halves_of(open: &Open) -> Option<Vec<Job>> {
     let place = (open.function, open.chart);
     let job = |cell, sector| Job { place, cell, sector, below: open.below };
     if open.axis == SECTOR {
