@@ -312,7 +312,8 @@ fn proofs_do_not_depend_on_the_number_of_threads() {
     for close in [true, false] {
         let one = of(1, close);
         assert_eq!(one, of(3, close));
-        assert!(one.bounds.iter().map(|b| b.cells).max() > Some(40), "{one:?}");
+        // more than a batch of one requirement, where bounds come close
+        assert!(!close || one.bounds.iter().map(|b| b.cells).max() > Some(40), "{one:?}");
         assert_eq!((one.all_met(), one.all_reserved()), (Some(true), Some(true)), "{one:?}");
     }
     // a bound that only decides says as much of reserves as one that is close
