@@ -6,10 +6,8 @@ use std::collections::BTreeMap;
 use super::leg_lines::{HeldPose, LegLines};
 use super::model::{ConstraintGroup, Model, Task};
 use super::outcome::{ConstraintConflict, Demand, Give};
-use super::population::is_close;
 use super::search::{
-    DISTINCT_GAINS, DISTINCT_STARTS, RefinedRun, ShapeSearchOptions, Stage, Watch, are_near,
-    expects_no_other, population, refine,
+    RefinedRun, ShapeSearchOptions, Stage, Watch, distinct, expects_no_other, population, refine,
 };
 use super::terms::Item;
 use crate::num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
@@ -122,20 +120,9 @@ pub(crate) fn attempt(
     Err(runs)
 }
 
-/// Runs whose ends differ, the first of each end kept: what is tried from all of them would be tried again from the same end. Ends with one violation count as one, because symmetric platforms have the
-/// same end many times.
+/// Runs whose ends differ by their violation or elsewhere: what is tried from all of them would be tried again from the same end.
 fn apart(task: &Task, runs: &[RefinedRun]) -> Vec<RefinedRun> {
-    let violation = |r: &RefinedRun| r.run.judged.total_violation(task);
-    let is_one = |a: &RefinedRun, b: &RefinedRun| {
-        is_close(violation(a), violation(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT_STARTS)
-    };
-    let mut out: Vec<RefinedRun> = Vec::new();
-    for run in runs {
-        if !out.iter().any(|known| is_one(known, run)) {
-            out.push(run.clone());
-        }
-    }
-    out
+    distinct(runs.iter(), |r| r.run.judged.total_violation(task)).into_iter().cloned().collect()
 }
 
 /// What becomes of requirements that no run met.

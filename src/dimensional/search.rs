@@ -108,9 +108,9 @@ const SHORT_ROUNDS: usize = 3;
 /// Rounds of adding poses.
 const ROUNDS: usize = 12;
 /// Members that differ by more in some variable are starts of their own.
-pub(super) const DISTINCT_STARTS: f64 = 0.1;
+const DISTINCT_STARTS: f64 = 0.1;
 /// Ends whose values differ by less, relatively, count as one.
-pub(super) const DISTINCT_GAINS: f64 = 1e-4;
+const DISTINCT_GAINS: f64 = 1e-4;
 /// The same for ends of the first pass, which are climbed to roughly.
 const SAME_END: f64 = 1e-3;
 
@@ -178,7 +178,7 @@ pub(crate) fn population(
     out
 }
 
-pub(super) fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
+fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < within)
 }
 
@@ -614,20 +614,29 @@ fn concluded(
     Conclusion { outcome: outcome(model, &last_task, &refined[0]), nearest: None, others }
 }
 
-/// Runs that meet the requirements, best first, and end elsewhere than the first and each other. Ends with one value count as one, because symmetric platforms have the
-/// same optimum many times, and so do ends with nearly the same variables, which are one optimum approached from two sides.
+/// Runs that meet the requirements, best first, and end elsewhere than the first and each other.
 fn other_optima<'r>(model: &Model<'_>, task: &Task, refined: &'r [RefinedRun]) -> Vec<&'r RefinedRun> {
-    let gain = |r: &RefinedRun| r.run.judged.gain(task);
+    let others = refined.iter().skip(1).filter(|r| r.run.is_feasible(model));
+    let mut kept = distinct(refined.iter().take(1).chain(others), |r| r.run.judged.gain(task));
+    kept.split_off(kept.len().min(1))
+}
+
+/// Runs whose ends differ, the first of each end kept. Ends with one value count as one, because symmetric platforms have the same end many times, and so do ends with nearly the same variables,
+/// which are one end approached from two sides.
+pub(super) fn distinct<'r>(
+    runs: impl Iterator<Item = &'r RefinedRun>,
+    value: impl Fn(&RefinedRun) -> f64,
+) -> Vec<&'r RefinedRun> {
     let is_one = |a: &RefinedRun, b: &RefinedRun| {
-        is_close(gain(a), gain(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT_STARTS)
+        is_close(value(a), value(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT_STARTS)
     };
-    let mut kept: Vec<&RefinedRun> = refined.iter().take(1).collect();
-    for run in refined.iter().skip(1).filter(|r| r.run.is_feasible(model)) {
-        if !kept.iter().any(|k| is_one(k, run)) {
+    let mut kept: Vec<&RefinedRun> = Vec::new();
+    for run in runs {
+        if !kept.iter().any(|known| is_one(known, run)) {
             kept.push(run);
         }
     }
-    kept.split_off(kept.len().min(1))
+    kept
 }
 
 /// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is returned where one `explains`. Runs that only lessen

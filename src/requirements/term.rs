@@ -234,17 +234,9 @@ impl TermKind {
     pub(crate) const HINGES: [Self; 4] =
         [Self::BaseFirstAngle, Self::BaseSecondAngle, Self::PlatformFirstAngle, Self::PlatformSecondAngle];
 
-    /// The kinds that the lines of single legs decide.
-    const OF_LEG_LINES: [Self; 8] = [
-        Self::LegTooShort,
-        Self::LegTooLong,
-        Self::BaseSwing,
-        Self::PlatformSwing,
-        Self::BaseFirstAngle,
-        Self::BaseSecondAngle,
-        Self::PlatformFirstAngle,
-        Self::PlatformSecondAngle,
-    ];
+    /// The kinds that the lines of single legs decide, besides [`HINGES`](Self::HINGES).
+    const OF_LEG_LINES: [Self; 4] =
+        [Self::LegTooShort, Self::LegTooLong, Self::BaseSwing, Self::PlatformSwing];
 
     /// The kinds of gaps between legs and other bodies.
     const CLEARANCES: [Self; 4] =
@@ -522,7 +514,7 @@ impl<'a> Terms<'a> {
         let joints: [(Point3<f64>, Point3<f64>); 6] =
             self.manipulator.legs().map(|l| (l.base, pose.transform(&l.platform)));
         let legs = self.legs_at(&joints, pose);
-        if wanted(&TermKind::OF_LEG_LINES) {
+        if wanted(&TermKind::OF_LEG_LINES) || wanted(&TermKind::HINGES) {
             self.lengths_and_swing(&legs, pose, &mut out);
         }
         if wanted(&TermKind::CLEARANCES) {

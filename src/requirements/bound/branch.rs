@@ -71,8 +71,6 @@ type Place = (usize, usize);
 /// Progress of one kind.
 struct State {
     heap: BinaryHeap<Open>,
-    /// Cells that came to the heap, which is the number of the next one.
-    kept: usize,
     cells: usize,
     upper: f64,
     /// Chart and point of the upper bound.
@@ -146,7 +144,6 @@ impl CellJudge<'_> {
         });
         let mut state = State {
             heap: BinaryHeap::new(),
-            kept: 0,
             cells: 0,
             upper,
             worst: None,
@@ -225,8 +222,7 @@ impl CellJudge<'_> {
             }
             if let Some((cell, axis)) = done.rest {
                 let (function, chart) = job.place;
-                let (below, number) = (done.below, state.kept);
-                state.kept += 1;
+                let (below, number) = (done.below, state.cells);
                 state.heap.push(Open { below, number, function, chart, cell, sector: job.sector, axis });
             }
         }
