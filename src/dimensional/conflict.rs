@@ -7,7 +7,8 @@ use super::leg_lines::{HeldPose, LegLines};
 use super::model::{ConstraintGroup, Model, Task};
 use super::outcome::{ConstraintConflict, Demand, Give};
 use super::search::{
-    RefinedRun, ShapeSearchOptions, Stage, Watch, distinct, expects_no_other, population, refine,
+    Adding, RefinedRun, ShapeSearchOptions, Stage, Watch, distinct, expects_no_other, population, refine,
+    refine_adding,
 };
 use super::terms::Item;
 use crate::num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
@@ -16,7 +17,7 @@ use crate::num::interval::Interval;
 use crate::num::parallel::parallel;
 use crate::requirements::{HingeAngle, TermKind};
 
-fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> Task {
+pub(crate) fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> Task {
     let n = model.objectives.len();
     Task { weights: vec![0.0; n], floors: vec![None; n], dropped, soft: None }
 }
@@ -35,34 +36,92 @@ pub(crate) fn elastic(
     let plain = no_objective(model, Vec::new());
     let from = apart(task, from);
     let mut runs: Vec<RefinedRun> = Vec::new();
-    for batch in starts(&from).chunks(ELASTIC_BATCH) {
-        runs.extend(settle(model, &plain, batch, threads, watch));
+    for batch in ends(&from).chunks(ELASTIC_BATCH) {
+        runs.extend(settle(Adding::WhileMet, model, &plain, batch, threads, watch));
         let is_met = runs.iter().any(|r| r.run.is_feasible(model));
         if is_met || expects_no_other(runs.len(), apart(&plain, &runs).len()) {
             break;
         }
     }
-    runs.sort_by(|a, b| by_violation(&plain, a, b));
-    runs
+    with_least_whole(model, &plain, runs)
+}
+
+/// Runs in the order of their violations, poses added to the first until it is worse at none. More poses only add to a violation, so that the run with the least is among those whose violation without
+/// them is no greater.
+fn with_least_whole(model: &Model<'_>, task: &Task, mut runs: Vec<RefinedRun>) -> Vec<RefinedRun> {
+    let violation = |r: &RefinedRun| r.run.judged.total_violation(task);
+    runs.sort_by(|a, b| by_violation(task, a, b));
+    let mut whole: Vec<RefinedRun> = Vec::new();
+    while !runs.is_empty() && whole.first().is_none_or(|least| violation(&runs[0]) < violation(least)) {
+        let next = runs.remove(0);
+        let complete = next.complete || model.is_stopped();
+        let seed = whole.len() as u64;
+        whole.push(if complete { next } else { refine(model, task, &next.run.x, next.poses, seed) });
+        whole.sort_by(|a, b| by_violation(task, a, b));
+    }
+    whole.append(&mut runs);
+    whole.sort_by(|a, b| by_violation(task, a, b));
+    whole
+}
+
+/// Runs towards the least violation of all requirements where these are not to be met from any of some points, which are all looked at; `None` where that is not shown.
+///
+/// From the point that misses least the least violation is looked for. The requirements that are missed there are part of what is wanted, so that what cannot meet those cannot meet all: they alone are
+/// tried from the points, without the others, which have optima of their own between them. Where every run misses them, and ends so alike that no other end is to be expected
+/// ([`expects_no_other`]), the requirements count as not to be met, as far as local searches can tell.
+pub(crate) fn unmet(
+    model: &Model<'_>,
+    points: &[Vec<f64>],
+    threads: usize,
+    watch: &mut Watch<'_, '_, '_>,
+) -> Option<Vec<RefinedRun>> {
+    let plain = no_objective(model, Vec::new());
+    let poses = model.first_poses();
+    let missed = |x: &Vec<f64>| model.judge(&poses, x, &plain, model.sign(x)).total_violation(&plain);
+    let mut order: Vec<(f64, &Vec<f64>)> = points.iter().map(|x| (missed(x), x)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let starts: Vec<SettleStart<'_>> = order.iter().map(|(_, x)| (x.as_slice(), poses.as_slice())).collect();
+    let least = settle(Adding::WhileMet, model, &plain, starts.get(..1)?, threads, watch).pop()?;
+    if least.run.is_feasible(model) {
+        return None;
+    }
+    let violations = &least.run.judged.violations;
+    let held = violations.iter().filter(|(_, v)| **v <= 0.0).map(|(group, _)| *group).collect();
+    let fewer = no_objective(model, held);
+    let mut runs: Vec<RefinedRun> = Vec::new();
+    for batch in starts.chunks(ELASTIC_BATCH) {
+        runs.extend(settle(Adding::WhileMet, model, &fewer, batch, threads, watch));
+        if model.is_stopped() || runs.iter().any(|r| r.run.is_feasible(model)) {
+            return None;
+        }
+        if expects_no_other(runs.len(), apart(&fewer, &runs).len()) {
+            let mut from = apart(&fewer, &runs);
+            from.push(least);
+            let whole = settle(Adding::WhileMet, model, &plain, &ends(&from), threads, watch);
+            return Some(with_least_whole(model, &plain, whole));
+        }
+    }
+    None
 }
 
 /// A point with the poses at which the requirements are held first.
 type SettleStart<'r> = (&'r [f64], &'r [HeldPose]);
 
 /// Where runs ended.
-fn starts(from: &[RefinedRun]) -> Vec<SettleStart<'_>> {
+fn ends(from: &[RefinedRun]) -> Vec<SettleStart<'_>> {
     from.iter().map(|r| (r.run.x.as_slice(), r.poses.as_slice())).collect()
 }
 
 /// Runs from some points, those with the least violation first.
 fn settle(
+    adding: Adding,
     model: &Model<'_>,
     task: &Task,
     from: &[SettleStart<'_>],
     threads: usize,
     watch: &mut Watch<'_, '_, '_>,
 ) -> Vec<RefinedRun> {
-    let run = |k: usize| refine(model, task, from[k].0, from[k].1.to_vec(), k as u64);
+    let run = |k: usize| refine_adding(adding, model, task, from[k].0, from[k].1.to_vec(), k as u64);
     // what leaves requirements out says nothing of the best platform
     let tick = &mut |done: usize, _: &RefinedRun| watch.tell(Stage::Conflict, (done, from.len()), None);
     let mut out = parallel(from.len(), threads, run, tick);
@@ -97,7 +156,7 @@ pub(crate) fn attempt(
     let mut runs: Vec<RefinedRun> = Vec::new();
     let mut meets = |all: &[SettleStart<'_>]| {
         for batch in all.chunks(BATCH) {
-            let mut found = settle(model, task, batch, o.threads, watch);
+            let mut found = settle(Adding::WhileMet, model, task, batch, o.threads, watch);
             if found.first().is_some_and(|r| r.run.is_feasible(model)) {
                 return Some(found.swap_remove(0));
             }
@@ -105,7 +164,7 @@ pub(crate) fn attempt(
         }
         None
     };
-    if let Some(met) = meets(&starts(from)) {
+    if let Some(met) = meets(&ends(from)) {
         return Ok(met);
     }
     let few = ShapeSearchOptions { starts: FRESH.0, generations: FRESH.1, ..*o };
@@ -181,7 +240,7 @@ pub(crate) fn conflict(
     }
     let kept: Vec<ConstraintGroup> = all.into_iter().filter(|g| !dropped.contains(g)).collect();
     let task = no_objective(model, dropped);
-    let together = settle(model, &task, &starts(&from), o.threads, watch);
+    let together = settle(Adding::UntilNoneIsWorse, model, &task, &ends(&from), o.threads, watch);
     let Some(least) = together.first().filter(|least| !least.run.is_feasible(model)) else {
         return Clash::Unsettled;
     };

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::conflict::{Clash, conflict, demand, elastic};
+use super::conflict::{Clash, conflict, demand, elastic, no_objective, unmet};
 use super::leg_lines::HeldPose;
 use super::model::{Model, Task};
 use super::outcome::{
@@ -122,8 +122,29 @@ pub(crate) struct RefinedRun {
     pub(crate) complete: bool,
 }
 
+/// How long poses are added to a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Adding {
+    /// Until the result is worse at none.
+    UntilNoneIsWorse,
+    /// As long as the run meets the requirements too: more poses only make worse what misses one already.
+    WhileMet,
+}
+
 /// Climbs, adds the poses at which the result is worse, and climbs again.
 pub(crate) fn refine(
+    model: &Model<'_>,
+    task: &Task,
+    start: &[f64],
+    poses: Vec<HeldPose>,
+    seed: u64,
+) -> RefinedRun {
+    refine_adding(Adding::UntilNoneIsWorse, model, task, start, poses, seed)
+}
+
+/// See [`refine`].
+pub(crate) fn refine_adding(
+    adding: Adding,
     model: &Model<'_>,
     task: &Task,
     start: &[f64],
@@ -131,11 +152,12 @@ pub(crate) fn refine(
     seed: u64,
 ) -> RefinedRun {
     let mut run = climb(model, &poses, task, start, ShapeEffort::POLISH);
-    // more poses only make worse what misses a requirement already
+    // a run with an objective is given up if it misses a requirement at the first poses, one without goes on to what can be met
     let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible(model);
     let mut complete = false;
     for round in 0..ROUNDS {
-        if hopeless || model.is_stopped() {
+        let given_up = hopeless || adding == Adding::WhileMet && !run.is_feasible(model);
+        if given_up || model.is_stopped() {
             break;
         }
         let sign = model.sign(&run.x);
@@ -336,11 +358,13 @@ pub(crate) fn search_task(
     let without_axes = model.without_axes();
     let coarse = without_axes.as_ref().unwrap_or(model);
     let search = Search { model, coarse, task, options };
-    let runs = search.first_pass(&search.given(given), watch);
+    let (runs, unmet) = search.first_pass(&search.given(given), watch);
     let (climbed, feasible) = (runs.len(), runs.iter().filter(|r| r.is_feasible(coarse)).count());
-    let points = runs.into_iter().map(|run| End::new(model, without_axes.is_some(), run)).collect();
-    let ends = FirstPass { poses: model.first_poses(), points, tried: Vec::new() };
-    let mut refined = search.polished(ends, watch);
+    let mut refined = unmet.unwrap_or_else(|| {
+        let points = runs.into_iter().map(|run| End::new(model, without_axes.is_some(), run)).collect();
+        let ends = FirstPass { poses: model.first_poses(), points, tried: Vec::new() };
+        search.polished(ends, watch)
+    });
     refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
     SearchedShape { refined, starts: climbed, feasible }
 }
@@ -407,7 +431,13 @@ impl Search<'_, '_> {
     }
 
     /// Short climbs from the best members of the populations, batch after batch while other ends are to be expected, then from mixtures of the ends they led to.
-    fn first_pass(&self, given: &[Vec<f64>], watch: &mut Watch<'_, '_, '_>) -> Vec<ShapeRun> {
+    ///
+    /// With them, where the requirements are not to be met from anywhere ([`unmet`]), runs towards the least violation: no further climbs are made then.
+    fn first_pass(
+        &self,
+        given: &[Vec<f64>],
+        watch: &mut Watch<'_, '_, '_>,
+    ) -> (Vec<ShapeRun>, Option<Vec<RefinedRun>>) {
         let populations = self.options.populations.max(1);
         let mut runs: Vec<ShapeRun> = Vec::new();
         for first in (0..populations).step_by(LONG_EVERY) {
@@ -415,7 +445,11 @@ impl Search<'_, '_> {
             let starts = self.starts(batch, given, watch);
             runs.extend(self.climbs(&starts, runs.len(), watch));
             if self.are_all_found(&runs) {
-                return runs;
+                return (runs, None);
+            }
+            let least = self.unmet(&runs, watch);
+            if least.is_some() {
+                return (runs, least);
             }
         }
         let mixtures = runs.len().div_ceil(STARTS_PER_MIXTURE);
@@ -431,7 +465,18 @@ impl Search<'_, '_> {
                 break;
             }
         }
-        runs
+        (runs, None)
+    }
+
+    /// See [`unmet`], asked where no climb met the requirements.
+    fn unmet(&self, runs: &[ShapeRun], watch: &mut Watch<'_, '_, '_>) -> Option<Vec<RefinedRun>> {
+        if runs.iter().any(|r| r.is_feasible(self.coarse)) {
+            return None;
+        }
+        let (model, without_axes) = (self.model, !std::ptr::eq(self.model, self.coarse));
+        let ends: Vec<Vec<f64>> =
+            runs.iter().map(|run| End::new(model, without_axes, run.clone()).x).collect();
+        unmet(model, &ends, self.options.threads, watch)
     }
 
     /// Whether hardly another end is to be expected from further climbs; ends count as one by their worth over the same poses.
@@ -460,6 +505,8 @@ impl Search<'_, '_> {
     /// The most promising ends polished, batch after batch, while others promise more than the best of them.
     fn polished(&self, mut ends: FirstPass, watch: &mut Watch<'_, '_, '_>) -> Vec<RefinedRun> {
         let Self { model, coarse, task, options } = *self;
+        let has_objective = task.weights.iter().any(|w| *w > 0.0);
+        let adding = if has_objective { Adding::UntilNoneIsWorse } else { Adding::WhileMet };
         let mut refined: Vec<RefinedRun> = Vec::new();
         for _ in 0..BATCHES {
             let gains = refined.iter().filter(|r| r.run.is_feasible(model)).map(|r| r.run.judged.gain(task));
@@ -467,7 +514,7 @@ impl Search<'_, '_> {
             let batch = ends.choose(coarse, task, best, options.polished.max(1));
             let polish = |i: usize| {
                 let end = &ends.points[batch[i]];
-                let refined = refine(model, task, &end.x, ends.poses.clone(), options.seed);
+                let refined = refine_adding(adding, model, task, &end.x, ends.poses.clone(), options.seed);
                 RefinedRun { run: refined.run.after(end.run.history.clone()), ..refined }
             };
             let size = batch.len();
@@ -535,10 +582,10 @@ fn searched(
     Ok(DimensionalReport { outcome, starts, feasible, nearest, others, polished, seed, interrupted })
 }
 
-/// A platform that meets the requirements of a problem at the poses that the search holds, the best of the runs; `None` where no run meets them, which is looked for without
-/// an objective too. As [`optimize`], without a search for the conflict.
+/// A platform that meets the requirements of a problem at the poses that the search holds, a local optimum; `None` where no run meets them.
 ///
-/// `known` are values of variables by their names, from which one climb starts: those of a problem with fewer variables, for instance.
+/// That they are met is what is looked for, without an objective; the objectives are climbed for from the platform found. `known` are values of variables by their names, from
+/// which the first run starts: those of a problem with fewer variables, for instance.
 ///
 /// # Errors
 /// As [`optimize`].
@@ -549,7 +596,7 @@ pub(crate) fn meet(
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Option<DimensionalSolution>, InvalidProblem> {
     let model = Model::new(problem)?;
-    let task = first_task(problem);
+    let (task, plain) = (first_task(problem), no_objective(&model, Vec::new()));
     let mut start = model.shape.start.clone();
     for (x, name) in start.iter_mut().zip(&model.shape.names) {
         if let Some(known) = known.iter().find(|v| v.name == *name) {
@@ -557,18 +604,18 @@ pub(crate) fn meet(
         }
     }
     let mut watch = Watch::new(&model, progress);
-    let SearchedShape { refined, .. } = search_task(&model, &task, &[start], options, &mut watch);
-    let is_met = |runs: &[RefinedRun]| runs.iter().position(|r| r.run.is_feasible(&model));
-    if let Some(k) = is_met(&refined) {
-        return Ok(solution(&model, &task, &refined[k]));
-    }
-    if refined.is_empty() || model.is_stopped() {
-        return Ok(None);
-    }
-    let settled = elastic(&model, &task, &refined, options.threads, &mut watch);
-    let Some(k) = is_met(&settled) else { return Ok(None) };
-    let again = refine(&model, &task, &settled[k].run.x, settled[k].poses.clone(), options.seed);
-    let best = if again.run.is_feasible(&model) { &again } else { &settled[k] };
+    let (poses, seed) = (model.first_poses(), options.seed);
+    let first = refine_adding(Adding::WhileMet, &model, &plain, &start, poses, seed);
+    watch.see(&first.run);
+    let met = if first.run.is_feasible(&model) {
+        Some(first)
+    } else {
+        let found = search_task(&model, &plain, &[start], options, &mut watch);
+        found.refined.into_iter().next().filter(|r| r.run.is_feasible(&model))
+    };
+    let Some(met) = met else { return Ok(None) };
+    let best = refine(&model, &task, &met.run.x, met.poses.clone(), seed);
+    let best = if best.run.is_feasible(&model) { &best } else { &met };
     Ok(solution(&model, &task, best))
 }
 

@@ -70,6 +70,11 @@ impl Jet {
         self.curve[place(i.min(j), i.max(j))]
     }
 
+    /// Sets the second derivative by two variables.
+    pub(crate) fn set_curve(&mut self, i: usize, j: usize, curve: Interval) {
+        self.curve[place(i.min(j), i.max(j))] = curve;
+    }
+
     /// With other values and the same derivatives.
     pub(crate) fn with_value(self, value: Interval) -> Self {
         Self { value, ..self }

@@ -71,8 +71,7 @@ impl CellJudge<'_> {
         }
         // of joints that are not ideal the rates have first derivatives only
         let second = match function {
-            Function::Load(_) => false,
-            Function::Platform(_) => self.joints.is_none(),
+            Function::Load(_) | Function::Platform(_) => self.joints.is_none(),
             _ => true,
         };
         let over = CellFrame::over(chart, cell, second).with_joints(self.joints);

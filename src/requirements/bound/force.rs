@@ -1,8 +1,12 @@
-//! Enclosures of leg forces over a cell, with their slopes.
+//! Bounds of leg forces over a cell.
 //!
 //! With lines that are not divided by the leg lengths, `A G = -(f, t)`, `A = [n_i; R b_i x n_i]` by columns and `F_i = G_i |n_i|`. `K` near the inverse of `A` at the
 //! middle gives `G = K b + (I - K A) G`; where `|I - K A| <= W` with `W u <= c u`, `c < 1`, `u > 0`, the norm `max |G_i| / u_i` is at most that of `K b` over `1 - c`
 //! (Neumaier 1990, sec. 4.1). The slopes solve the same system with `b_k - A_k G` to the right.
+//!
+//! What is left of the solution beside its tangent at `z`, `R(h) = G(z + h) - G(z) - sum G_k h_k`, solves `A R = r` with `r = b - A (G(z) + sum G_k h_k)`, which vanishes at `z` with its slopes, since
+//! `G(z)` and `G_k` are the solution and its slopes there. So `K r = (h^T C h) / 2` with `C_kl = K (b_kl - A_kl (G(z) + sum G_j h_j) - A_k G_l - A_l G_k)` at a point of the cell (Taylor), and `|R - K r|`
+//! is at most `W u` times the norm of `K r` over `1 - c`, which is of third order. No solution over the cell is needed for it, only `A` and `b` there.
 
 use nalgebra::Matrix6;
 
@@ -110,6 +114,10 @@ impl System {
     pub(super) fn slopes(&self, k: usize) -> IntervalMatrix {
         std::array::from_fn(|r| std::array::from_fn(|i| self.rows[r][i].slope(k)))
     }
+
+    fn is_second_order(&self) -> bool {
+        self.right[0].is_second_order()
+    }
 }
 
 /// A bound of `|I - K A|` with what solves systems by it.
@@ -155,6 +163,12 @@ impl ForceSolver {
 
     fn solve(&self, right: &[Interval; 6]) -> Option<[Interval; 6]> {
         let start = apply(&self.inverse, right);
+        let off = self.beside(&start)?;
+        Some(std::array::from_fn(|i| start[i] + Interval::about_zero(off[i])))
+    }
+
+    /// Bounds of `|G - K b|`, from `K b`.
+    fn beside(&self, start: &[Interval; 6]) -> Option<[f64; 6]> {
         let room = Interval::from(1.0) - Interval::from(self.factor);
         let mut norm = 0.0_f64;
         for (x, u) in start.iter().zip(&self.weights) {
@@ -164,32 +178,109 @@ impl ForceSolver {
         Some(std::array::from_fn(|i| {
             let sum =
                 (0..6).fold(Interval::ZERO, |s, k| s + self.defect[i][k] * Interval::from(self.weights[k]));
-            let off = (sum * norm).magnitude();
-            start[i] + Interval::about_zero(off)
+            (sum * norm).magnitude()
         }))
     }
 
-    /// The forces of a system, with slopes.
-    fn forces(&self, system: &System, variables: usize) -> Option<[Jet; 6]> {
+    /// What the forces solve, with slopes, for all that a system encloses.
+    fn solution(&self, system: &System, variables: usize) -> Option<Solution> {
         let value = self.solve(&std::array::from_fn(|r| system.right[r].value))?;
-        let mut slopes = [[Interval::ZERO; 6]; 6];
+        let mut slopes = Vec::with_capacity(variables);
         for k in 0..variables {
             let a = system.slopes(k);
             let right =
                 std::array::from_fn(|r| (0..6).fold(system.right[r].slope(k), |s, i| s - a[r][i] * value[i]));
-            for (row, x) in slopes.iter_mut().zip(self.solve(&right)?) {
-                row[k] = x;
+            slopes.push(self.solve(&right)?);
+        }
+        Some(Solution { value, slopes })
+    }
+
+    /// How far the solution over a cell may be from its tangent at `z`, `here` the solution there.
+    fn bend(&self, here: &Solution, over: &System, cell: &ChartCell, z: &[f64; 6]) -> Option<Bend> {
+        let n = here.slopes.len();
+        let steps: Vec<Interval> = (0..n).map(|k| cell.side(k) - Interval::from(z[k])).collect();
+        let tangent: [Interval; 6] = std::array::from_fn(|i| {
+            here.slopes.iter().zip(&steps).fold(here.value[i], |s, (slope, h)| s + slope[i] * *h)
+        });
+        let changes: Vec<IntervalMatrix> = (0..n).map(|k| over.slopes(k)).collect();
+        let mut curves = Vec::new();
+        let mut rest = [Interval::ZERO; 6];
+        for k in 0..n {
+            for l in k..n {
+                let right = std::array::from_fn(|r| {
+                    (0..6).fold(over.right[r].curve(k, l), |s, i| {
+                        let crossed =
+                            changes[k][r][i] * here.slopes[l][i] + changes[l][r][i] * here.slopes[k][i];
+                        s - over.rows[r][i].curve(k, l) * tangent[i] - crossed
+                    })
+                });
+                let curve = apply(&self.inverse, &right);
+                // half the form, in which a product of two steps stands twice
+                let both = if k == l { steps[k].square().scaled(0.5) } else { steps[k] * steps[l] };
+                rest = std::array::from_fn(|i| rest[i] + curve[i] * both);
+                curves.push(curve);
             }
         }
+        let off = self.beside(&rest)?;
+        let value = std::array::from_fn(|i| tangent[i] + rest[i] + Interval::about_zero(off[i]));
+        Some(Bend { tangent, curves, off, value })
+    }
+}
+
+/// `G` and its slopes, by variable: at a point, or over a cell.
+struct Solution {
+    value: [Interval; 6],
+    slopes: Vec<[Interval; 6]>,
+}
+
+impl Solution {
+    /// The forces, with slopes.
+    fn forces(&self, system: &System) -> Option<[Jet; 6]> {
+        let n = self.slopes.len();
         let mut out = system.right;
         for (i, x) in out.iter_mut().enumerate() {
-            *x = Jet::linear(value[i], slopes[i], variables, false) * system.factors[i]?;
+            let slopes = std::array::from_fn(|k| self.slopes.get(k).map_or(Interval::ZERO, |s| s[i]));
+            *x = Jet::linear(self.value[i], slopes, n, false) * system.factors[i]?;
         }
         Some(out)
     }
 }
 
+/// `G(z + h) = G(z) + sum G_k h_k + (h^T C h) / 2 + e` over a cell.
+struct Bend {
+    /// Values of `G(z) + sum G_k h_k`.
+    tangent: [Interval; 6],
+    /// `C_kl`, `k <= l`, by rows.
+    curves: Vec<[Interval; 6]>,
+    /// Bounds of `|e|`.
+    off: [f64; 6],
+    /// Values of `G`.
+    value: [Interval; 6],
+}
+
+impl Bend {
+    /// `F = G s` in the same way, `s` the factor of a force at `z` and over the cell: values and form of second order over the cell, and how far `F` may be from its tangent with that form.
+    fn force(&self, i: usize, here: &Solution, at: &Jet, over: &Jet) -> (Jet, f64) {
+        let n = here.slopes.len();
+        let mut out = over.alike(self.value[i] * over.value);
+        let mut curves = self.curves.iter();
+        for k in 0..n {
+            for l in k..n {
+                let crossed = here.slopes[k][i] * at.slope(l) + here.slopes[l][i] * at.slope(k);
+                let own = curves.next().map_or(Interval::WHOLE, |c| c[i]);
+                out.set_curve(k, l, own * over.value + self.tangent[i] * over.curve(k, l) + crossed);
+            }
+        }
+        (out, (Interval::from(self.off[i]) * over.value).magnitude())
+    }
+}
+
+/// A force may push or pull.
+const SIGNS: [f64; 2] = [1.0, -1.0];
+
 /// A lower bound of `greatest - |F_i|` over a cell for all legs, or of the greatest torque less that of each crank, and an upper bound of the least one at `z`.
+///
+/// Of second order where the frame over the cell is, else by the mean value theorem.
 pub(super) fn force(
     chart: &Chart,
     cell: &ChartCell,
@@ -198,25 +289,42 @@ pub(super) fn force(
     (m, cranks, greatest): (&Manipulator, Option<&CrankFrames<'_>>, f64),
     load: &Load,
 ) -> (Bounded, f64) {
-    let n = chart.len();
-    let Some(at) = System::over(frames.0, m, cranks, load) else {
-        return (Bounded::nothing(cell), f64::INFINITY);
+    let (n, nothing) = (chart.len(), Bounded::nothing(cell));
+    let here = System::over(frames.0, m, cranks, load).and_then(|at| {
+        let solution = ForceSolver::new(&at, &at, &ChartCell::point(*z), z, n)?.solution(&at, n)?;
+        let forces = solution.forces(&at)?;
+        Some((at, solution, forces))
+    });
+    let Some((at, solution, forces)) = here else { return (nothing, f64::INFINITY) };
+    let room = |f: &Jet, sign: f64| f.alike(Interval::from(greatest)) - f.times(Interval::from(sign));
+    let rooms = |f: &Jet| SIGNS.map(|sign| room(f, sign));
+    let upper = forces.iter().flat_map(rooms).map(|x| x.value.hi()).fold(f64::INFINITY, f64::min);
+    let below = || {
+        let over = System::over(frames.1, m, cranks, load)?;
+        let solver = ForceSolver::new(&at, &over, cell, z, n)?;
+        if !over.is_second_order() {
+            let all = solver.solution(&over, n)?.forces(&over)?;
+            let pairs = forces.iter().flat_map(rooms).zip(all.iter().flat_map(rooms));
+            return pairs.map(|(p, o)| local::below_first_order(chart, cell, z, &p, &o)).reduce(Bounded::min);
+        }
+        let bend = solver.bend(&solution, &over, cell, z)?;
+        let mut parts = Vec::with_capacity(12);
+        for (i, f) in forces.iter().enumerate() {
+            let (near, off) = bend.force(i, &solution, &at.factors[i]?, &over.factors[i]?);
+            parts.extend(SIGNS.map(|sign| (room(f, sign), room(&near, sign), off)));
+        }
+        // where the values alone show that another is less, the quadratic form is not looked at
+        parts.sort_by(|a, b| a.1.value.lo().total_cmp(&b.1.value.lo()));
+        let mut least: Option<Bounded> = None;
+        for (p, o, off) in &parts {
+            if least.is_some_and(|least| least.below <= o.value.lo()) {
+                break;
+            }
+            let mut own = local::below(chart, cell, z, p, o);
+            own.below = (Interval::from(own.below) - Interval::from(*off)).lo().max(o.value.lo());
+            least = Some(least.map_or(own, |least| least.min(own)));
+        }
+        least
     };
-    let over = System::over(frames.1, m, cranks, load);
-    let point = ChartCell::point(*z);
-    let Some(here) = ForceSolver::new(&at, &at, &point, z, n).and_then(|s| s.forces(&at, n)) else {
-        return (Bounded::nothing(cell), f64::INFINITY);
-    };
-    let room = |f: &Jet, sign: f64| {
-        Jet::constant(Interval::from(greatest), n, false) - f.times(Interval::from(sign))
-    };
-    let both = |f: &[Jet; 6]| -> Vec<Jet> { f.iter().flat_map(|f| [room(f, 1.0), room(f, -1.0)]).collect() };
-    let points = both(&here);
-    let upper = points.iter().map(|x| x.value.hi()).fold(f64::INFINITY, f64::min);
-    let all = over.and_then(|over| ForceSolver::new(&at, &over, cell, z, n)?.forces(&over, n));
-    let Some(all) = all else {
-        return (Bounded::nothing(cell), upper);
-    };
-    let bounds = points.iter().zip(both(&all)).map(|(p, o)| local::below_first_order(chart, cell, z, p, &o));
-    (bounds.reduce(Bounded::min).unwrap_or_else(|| Bounded::nothing(cell)), upper)
+    (below().unwrap_or(nothing), upper)
 }

@@ -13,6 +13,8 @@ mod cone;
 mod crank;
 mod fixed;
 mod force;
+#[cfg(test)]
+mod force_tests;
 mod frame;
 mod function;
 mod gap;

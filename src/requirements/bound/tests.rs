@@ -34,7 +34,7 @@ pub(super) fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
     (m, Pose { rotation, position: Vector3::new(0.3, -0.2, rng.uniform(10.0, 14.0)) })
 }
 
-fn random_space(home: Pose, rng: &mut Rng, region: Region) -> PoseSpace {
+pub(super) fn random_space(home: Pose, rng: &mut Rng, region: Region) -> PoseSpace {
     let mut half = |most: f64| {
         Vector3::from_fn(|_, _| if rng.unit() < 0.2 { 0.0 } else { rng.uniform(0.2, 1.0) * most })
     };
