@@ -42,19 +42,35 @@ pub(super) fn parts(body: &LegBody, length: f64) -> impl Iterator<Item = Part> +
     std::iter::once(first).chain(second)
 }
 
-/// Shares of two segments `p + x e`, `q + y f`, each in `[0, 1]`, at which they are closest.
-fn closest(p: &Vector3<f64>, e: &Vector3<f64>, q: &Vector3<f64>, f: &Vector3<f64>) -> (f64, f64) {
-    let w = p - q;
-    let (ee, ff, ef) = (e.norm_squared(), f.norm_squared(), e.dot(f));
-    let on_second = |x: f64| if ff > 0.0 { ((w + e * x).dot(f) / ff).clamp(0.0, 1.0) } else { 0.0 };
-    let on_first = |y: f64| if ee > 0.0 { ((f * y - w).dot(e) / ee).clamp(0.0, 1.0) } else { 0.0 };
-    let det = ee * ff - ef * ef;
-    let x =
-        if det > 1e-14 * ee * ff { ((ef * f.dot(&w) - ff * e.dot(&w)) / det).clamp(0.0, 1.0) } else { 0.0 };
-    // alternating projections end after one round on a strictly convex quadratic with box bounds of two variables
-    let y = on_second(x);
-    let x = on_first(y);
-    (x, on_second(x))
+/// Two lines `p + s e` and `q + t f` by the products of `w = p - q`, `e` and `f`, which all their segments share.
+struct LinePair {
+    w: Vector3<f64>,
+    ee: f64,
+    ff: f64,
+    ef: f64,
+    ew: f64,
+    fw: f64,
+}
+
+impl LinePair {
+    fn new(w: Vector3<f64>, e: &Vector3<f64>, f: &Vector3<f64>) -> Self {
+        Self { w, ee: e.norm_squared(), ff: f.norm_squared(), ef: e.dot(f), ew: e.dot(&w), fw: f.dot(&w) }
+    }
+
+    /// Shares `s` and `t`, each between two, at which the lines are closest.
+    fn closest(&self, first: (f64, f64), second: (f64, f64)) -> (f64, f64) {
+        let Self { ee, ff, ef, ew, fw, .. } = *self;
+        let on_second =
+            |s: f64| if ff > 0.0 { ((fw + s * ef) / ff).clamp(second.0, second.1) } else { second.0 };
+        let on_first = |t: f64| if ee > 0.0 { ((t * ef - ew) / ee).clamp(first.0, first.1) } else { first.0 };
+        let det = ee * ff - ef * ef;
+        let s =
+            if det > 1e-14 * ee * ff { ((ef * fw - ff * ew) / det).clamp(first.0, first.1) } else { first.0 };
+        // alternating projections end after one round on a strictly convex quadratic with box bounds of two variables
+        let t = on_second(s);
+        let s = on_first(t);
+        (s, on_second(s))
+    }
 }
 
 impl LegLines {
@@ -88,18 +104,18 @@ impl LegLines {
         see: &mut impl FnMut(Gap<P>),
     ) {
         let second = parts(body, self.length[j]);
+        let (e, f) = (&self.line[i], &self.line[j]);
+        let pair = LinePair::new(self.base[i] - self.base[j], e, f);
         for (k, p) in parts(body, self.length[i]).enumerate() {
             for (l, q) in second.clone().enumerate() {
-                let (e, f) = (self.line[i] * (p.to - p.from), self.line[j] * (q.to - q.from));
-                let (x, y) = closest(&self.at(i, p.from), &e, &self.at(j, q.from), &f);
-                let (s, t) = (p.from + x * (p.to - p.from), q.from + y * (q.to - q.from));
-                let apart = self.at(i, s) - self.at(j, t);
+                let (s, t) = pair.closest((p.from, p.to), (q.from, q.to));
+                let apart = pair.w + e * s - f * t;
                 let distance = apart.norm();
                 // segments that meet are pushed apart along their common normal
                 let n = if distance > 0.0 {
                     apart / distance
                 } else {
-                    self.line[i].cross(&self.line[j]).try_normalize(0.0).unwrap_or_else(Vector3::z)
+                    e.cross(f).try_normalize(0.0).unwrap_or_else(Vector3::z)
                 };
                 let mut pull = P::none();
                 let at_joint = |part: &Part, s: f64| part.joint.is_some_and(|j| (s - j).abs() < 1e-12);
@@ -143,7 +159,7 @@ fn nearest(
     e: &Vector3<f64>,
 ) -> (f64, f64, Vector3<f64>) {
     let round = |from: Vector3<f64>, f: Vector3<f64>, radius: f64| {
-        let (x, y) = closest(a, e, &from, &f);
+        let (x, y) = LinePair::new(a - from, e, &f).closest((0.0, 1.0), (0.0, 1.0));
         let apart = a + e * x - from - f * y;
         (x, apart.norm() - radius, apart.try_normalize(0.0).unwrap_or_else(Vector3::z))
     };

@@ -78,24 +78,33 @@ impl LegLines {
 
 /// Leg forces that hold a load, and what their derivatives need.
 #[derive(Debug, Clone)]
-pub(crate) struct Forces {
+pub(crate) struct Forces<'a> {
     pub(crate) forces: Vector6<f64>,
-    /// Inverse of the matrix with the columns `[u, (R b x u) / L]`.
-    inverse: Matrix6<f64>,
+    inverse: &'a Matrix6<f64>,
+}
+
+/// Inverse of the matrix with the columns `[u, (R b x u) / L]`, which the forces under all loads share; `None` at a singular pose.
+pub(crate) fn inverse_of_columns(l: &LegLines, length: f64) -> Option<Matrix6<f64>> {
+    l.jacobian(length).transpose().try_inverse()
 }
 
 /// `sum F_i (u_i, R b_i x u_i) = -(f, t)`; `None` at a singular pose.
-pub(crate) fn leg_forces(l: &LegLines, load: &Load, length: f64) -> Option<Forces> {
+pub(crate) fn leg_forces<'a>(
+    l: &LegLines,
+    inverse: Option<&'a Matrix6<f64>>,
+    load: &Load,
+    length: f64,
+) -> Option<Forces<'a>> {
+    let inverse = inverse?;
     let turn = |v: &Vector3<f64>| if load.fixed_to == Body::Platform { l.rotation * v } else { *v };
     let force = turn(&load.force);
     let torque = (turn(&load.torque) + (l.rotation * load.at.coords).cross(&force)) / length;
     let wrench = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
-    let inverse = l.jacobian(length).transpose().try_inverse()?;
     let forces = -(inverse * wrench);
     forces.iter().all(|x| x.is_finite()).then_some(Forces { forces, inverse })
 }
 
-impl Forces {
+impl Forces<'_> {
     /// Force of a leg and its gradient: `dF_i = - sum_j F_j (row i of the inverse) . d(column j)`.
     pub(crate) fn of<P: Gradient>(&self, l: &LegLines, leg: usize, length: f64) -> (f64, P) {
         let y: Vector6<f64> = self.inverse.row(leg).transpose();

@@ -6,7 +6,7 @@
 use nalgebra::{Matrix6, Vector3, Vector4, Vector6};
 
 use super::leg_gaps::Gap;
-use super::leg_lines::{HeldPose, LegLines, leg_forces};
+use super::leg_lines::{HeldPose, LegLines, inverse_of_columns, leg_forces};
 use super::problem::DimensionalProblem;
 use super::pull::{Gradient, Pull};
 use super::shape::JointEnds;
@@ -133,7 +133,8 @@ impl<'a> Merit<'a> {
                 square.max(0.0).sqrt() / self.omega()
             }
             Objective::LegForce => {
-                let worst = |load| match leg_forces(l, load, self.size) {
+                let inverse = inverse_of_columns(l, self.size);
+                let worst = |load| match leg_forces(l, inverse.as_ref(), load, self.size) {
                     Some(f) => -f.forces.amax() / self.force_unit,
                     None => SINGULAR_GAIN,
                 };
@@ -173,7 +174,8 @@ impl<'a> Merit<'a> {
                 }
             }
             Objective::LegForce => {
-                for forces in self.loads.iter().map(|load| leg_forces(l, load, self.size)) {
+                let inverse = inverse_of_columns(l, self.size);
+                for forces in self.loads.iter().map(|load| leg_forces(l, inverse.as_ref(), load, self.size)) {
                     for i in 0..6 {
                         let piece = match &forces {
                             Some(f) => {

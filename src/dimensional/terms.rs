@@ -6,7 +6,7 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::leg_gaps::Gap;
-use super::leg_lines::{LegLines, leg_forces};
+use super::leg_lines::{LegLines, inverse_of_columns, leg_forces};
 use super::plates::{PlacedPlate, PlateModel};
 use super::pull::Gradient;
 use super::shape::{JointEnds, LegJoints, Shape};
@@ -386,8 +386,9 @@ impl<'a> RequirementTerms<'a> {
     fn forces<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         let Some(greatest) = self.required.hardware.max_leg_force else { return };
         let kept = 1.0 - self.required.reserve(TermKind::LegForce) / greatest;
+        let inverse = inverse_of_columns(l, self.size);
         for (k, load) in self.required.loads.iter().enumerate() {
-            let forces = leg_forces(l, load, self.size);
+            let forces = leg_forces(l, inverse.as_ref(), load, self.size);
             for i in 0..6 {
                 let id = (TermKind::LegForce, i, k, 0);
                 let item = match &forces {

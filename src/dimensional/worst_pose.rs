@@ -267,9 +267,21 @@ impl<'m, 'a> Judging<'m, 'a> {
         for (m, o) in model.wanted(self.task).filter(|(_, o)| Merit::is_over_poses(*o)) {
             self.so_far.gains[m] = self.so_far.gains[m].min(model.merit.at_pose(o, &model.terms, &l));
         }
-        model.terms.visit(&l, &ends, self.x, &mut |item: Item<()>| {
-            self.hold(ConstraintGroup::Term(item.id.0), item.value);
+        // items of a kind come one after the other: each kind is looked up once
+        let mut last: Option<(TermKind, f64)> = None;
+        model.terms.visit(&l, &ends, self.x, &mut |item: Item<()>| match &mut last {
+            Some((kind, least)) if *kind == item.id.0 => {
+                *least = if least.is_nan() || item.value.is_nan() { f64::NAN } else { least.min(item.value) };
+            }
+            _ => {
+                if let Some((kind, least)) = last.replace((item.id.0, item.value)) {
+                    self.hold(ConstraintGroup::Term(kind), least);
+                }
+            }
         });
+        if let Some((kind, least)) = last {
+            self.hold(ConstraintGroup::Term(kind), least);
+        }
         self.lengths = l.length.iter().fold(self.lengths, |r, x| (r.0.min(*x), r.1.max(*x)));
     }
 
