@@ -43,12 +43,17 @@ pub(crate) fn elastic(
             break;
         }
     }
-    with_least_whole(model, &plain, runs)
+    with_least_whole(model, &plain, runs, watch)
 }
 
 /// Runs in the order of their violations, poses added to the first until it is worse at none. More poses only add to a violation, so that the run with the least is among those whose violation without
 /// them is no greater.
-fn with_least_whole(model: &Model<'_>, task: &Task, mut runs: Vec<RefinedRun>) -> Vec<RefinedRun> {
+fn with_least_whole(
+    model: &Model<'_>,
+    task: &Task,
+    mut runs: Vec<RefinedRun>,
+    watch: &mut Watch<'_, '_, '_>,
+) -> Vec<RefinedRun> {
     let violation = |r: &RefinedRun| r.run.judged.total_violation(task);
     runs.sort_by(|a, b| by_violation(task, a, b));
     let mut whole: Vec<RefinedRun> = Vec::new();
@@ -58,6 +63,7 @@ fn with_least_whole(model: &Model<'_>, task: &Task, mut runs: Vec<RefinedRun>) -
         let seed = whole.len() as u64;
         whole.push(if complete { next } else { refine(model, task, &next.run.x, next.poses, seed) });
         whole.sort_by(|a, b| by_violation(task, a, b));
+        watch.tell(Stage::Conflict, (whole.len(), whole.len()), None);
     }
     whole.append(&mut runs);
     whole.sort_by(|a, b| by_violation(task, a, b));
@@ -98,7 +104,7 @@ pub(crate) fn unmet(
             let mut from = apart(&fewer, &runs);
             from.push(least);
             let whole = settle(Adding::WhileMet, model, &plain, &ends(&from), threads, watch);
-            return Some(with_least_whole(model, &plain, whole));
+            return Some(with_least_whole(model, &plain, whole, watch));
         }
     }
     None

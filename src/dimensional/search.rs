@@ -444,11 +444,9 @@ impl Search<'_, '_> {
             let batch = first..populations.min(first + LONG_EVERY);
             let starts = self.starts(batch, given, watch);
             runs.extend(self.climbs(&starts, runs.len(), watch));
-            if self.are_all_found(&runs) {
-                return (runs, None);
-            }
-            let least = self.unmet(&runs, watch);
-            if least.is_some() {
+            let ended = self.are_all_found(&runs);
+            let least = if ended { None } else { self.unmet(&runs, watch) };
+            if ended || least.is_some() || self.model.is_stopped() {
                 return (runs, least);
             }
         }
@@ -461,7 +459,7 @@ impl Search<'_, '_> {
             let with_poses = |x: Vec<f64>| SearchStart { few: judge.worst(&x, FEW_POSES), x };
             let mixed: Vec<SearchStart> = trials.into_iter().map(with_poses).collect();
             runs.extend(self.climbs(&mixed, runs.len(), watch));
-            if self.are_all_found(&runs) {
+            if self.are_all_found(&runs) || self.model.is_stopped() {
                 break;
             }
         }
