@@ -1,4 +1,5 @@
-# Sourced by tests/*/run: Python environments under target/ for checks by other programs.
+# Sourced by tests/*/run: Python environments for checks by other programs, kept in EQUIPOD_CACHE (by default the user's cache), so that they survive `cargo clean` and
+# serve every checkout; the name of each has a checksum of its requirements and of the interpreter.
 #
 # OUTSIDE_CHECKS=required makes it a failure when something cannot be had, OUTSIDE_CHECKS=off leaves the checks out; else they end with 77, NOT RUN.
 # OUTSIDE_PYTHON names the interpreter.
@@ -19,11 +20,19 @@ environment() {
     local python=${OUTSIDE_PYTHON:-python3} state
     command -v "$python" >/dev/null || not_run "there is no $python"
     state=$(cat "$1/requirements.txt" <("$python" --version) | cksum | tr ' ' '-')
-    venv=${CARGO_TARGET_DIR:-target}/checks-$state
-    [ -e "$venv/complete" ] && return
+    venv=${EQUIPOD_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/equipod}/checks-$state
+    mkdir -p "$(dirname "$venv")"
+    # two checks that need one environment at once make it once
+    exec 8>"$venv.lock"
+    flock 8 2>/dev/null || true
+    if [ -e "$venv/complete" ]; then
+        exec 8>&-
+        return
+    fi
     echo "installing $1/requirements.txt into $venv"
     rm -rf "$venv"
     "$python" -m venv "$venv" || not_run "$python has no venv"
     "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$1/requirements.txt" || not_run 'the packages cannot be installed'
     touch "$venv/complete"
+    exec 8>&-
 }
