@@ -283,6 +283,8 @@ pub enum Reason {
     },
     /// The leg vectors are nearly, and not exactly, dependent.
     LegsNearlyDependent,
+    /// Doubles do not tell the equations of the legs apart: the lengths are much longer than the design, or one body is much larger than the other.
+    LegsNotToldApart,
     /// Paths that end near points without a certificate.
     EndsUnproved {
         /// Paths.
@@ -374,6 +376,7 @@ impl Reason {
             | Self::PosesUncertified { .. }
             | Self::PairsNotDistinct { .. }
             | Self::LegsNearlyDependent
+            | Self::LegsNotToldApart
             | Self::EndsUnproved { .. } => false,
         }
     }
@@ -429,13 +432,13 @@ impl fmt::Display for Reason {
             ),
             Self::DependentLegs { established, dimension, points, real } => {
                 let relation = if *established {
-                    "a relation between the leg vectors holds exactly and"
+                    "a relation between the leg vectors holds exactly and the lengths satisfy it within rounding"
                 } else {
-                    "numerically, a relation between the leg vectors holds and"
+                    "within rounding, a relation between the leg vectors holds and the lengths satisfy it"
                 };
                 write!(
                     f,
-                    "{relation} the lengths satisfy it within rounding: the poses form a set of dimension {dimension} (at least), which a general \
+                    "{relation}: the poses form a set of dimension {dimension} (at least), which a general \
                      section of that codimension meets in {points} finite points; "
                 )?;
                 real_part(f, *real)?;
@@ -476,6 +479,9 @@ impl fmt::Display for Reason {
             }
             Self::LegsNearlyDependent => f.write_str(
                 "the leg vectors are linearly dependent to within 1e-9 but not exactly (nearly architecturally singular)",
+            ),
+            Self::LegsNotToldApart => f.write_str(
+                "doubles do not tell the legs apart, because the lengths are much longer than the design or one body is much larger than the other: no poses were computed",
             ),
             Self::EndsUnproved { paths, points } => write!(
                 f,

@@ -1,7 +1,7 @@
 //! Platforms that cannot be assembled, and sets of poses of positive dimension.
 
 use super::homotopy::pose_of;
-use super::judge::{counted, set_counted};
+use super::judge::{RealityJudgement, counted, judge, set_counted};
 use super::newton::on_a_curve;
 use super::real_points::real_points;
 use super::{
@@ -74,6 +74,23 @@ pub(super) fn curves(
     let set = SolutionSet::PositiveDimensional { dimension, witnesses: points, established };
     let mut out = without_roots(completeness, set, o);
     out.pose_count = count;
+    Ok(out)
+}
+
+/// Legs without a relation whose equations doubles do not tell apart, because the lengths are much longer than the design or one body is much larger than the other:
+/// the count, and no poses.
+pub(super) fn not_told_apart(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+) -> Result<FkSolutions, FkError> {
+    let mut out = without_roots(Completeness::unproved([Reason::LegsNotToldApart]), SolutionSet::Isolated, o);
+    if let Some(count) = counted(m, s, o)
+        && let RealityJudgement::PositiveDimensional { dimension } = judge(&mut out, &count)?
+    {
+        out.solution_set =
+            SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };
+    }
     Ok(out)
 }
 

@@ -4,7 +4,7 @@ mod prepared;
 
 use num_complex::Complex64;
 
-use super::dependent::{curves, detect_curves, incompatible, positive_dimensional};
+use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{End, Harvest, PreciseEnd, harvest};
 use super::judge::{RealityJudgement, counted, judge, set_counted};
@@ -25,6 +25,8 @@ use prepared::PreparedHomotopy;
 const ATTEMPTS: u64 = 3;
 /// The same with 256 bits, seconds each where paths fail.
 const FINE_ATTEMPTS: u64 = 2;
+/// Above this ratio of the bodies doubles keep at most six digits of the smaller one beside the larger.
+const BODIES_APART: f64 = 1e10;
 
 /// Forward kinematics of any six legs by 40 homotopy paths from a generic start system, or, where base and platform are planar,
 /// by 20 paths to one pose of each mirror pair.
@@ -46,11 +48,14 @@ impl ForwardKinematics for Homotopy {
         let frame = ScaledFrames::of(m, s);
         let nearly = match dependence(m, s) {
             LegDependence::Independent => false,
+            LegDependence::Nearly if ratio_of_bodies(m) > BODIES_APART => return not_told_apart(m, s, o),
             LegDependence::Nearly => true,
             LegDependence::Incompatible => return Ok(incompatible(o)),
             LegDependence::Compatible { relations } => return curves(m, s, o, &frame, relations),
         };
-        let Some(sections) = frame.sections(m, s) else { return curves(m, s, o, &frame, 0) };
+        let Some(sections) = frame.sections(m, s) else {
+            return if nearly { curves(m, s, o, &frame, 0) } else { not_told_apart(m, s, o) };
+        };
         let mut best: Option<FkSolutions> = None;
         let mut count: Option<PoseCount> = None;
         let whole = |k, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
@@ -133,6 +138,17 @@ fn moving_within_rounding(
 fn failures(found: &FkSolutions) -> usize {
     let failed = found.paths.iter().filter(|p| p.end == PathEnd::Failed).count();
     if found.paths.len() < GENERIC_COUNT { 2 * failed } else { failed }
+}
+
+/// How many times larger one body is than the other, by the distances of leg ends from their mean; 1 for a body in one point.
+fn ratio_of_bodies(m: &Manipulator) -> f64 {
+    let [base, platform] = m.mean_leg_ends();
+    let largest = |list: [f64; 6]| list.into_iter().fold(0.0, f64::max);
+    let (a, b) = (
+        largest(m.legs().map(|l| (l.base.coords - base).norm())),
+        largest(m.legs().map(|l| (l.platform.coords - platform).norm())),
+    );
+    if a.min(b) > 0.0 { (a / b).max(b / a) } else { 1.0 }
 }
 
 /// The sections to be solved and the frame they belong to.

@@ -5,6 +5,11 @@ pub(crate) mod batch;
 pub mod complex;
 #[cfg(feature = "optimize")]
 pub(crate) mod conic;
+#[cfg_attr(
+    not(feature = "files"),
+    allow(dead_code, reason = "without design files exact numbers are doubles")
+)]
+pub(crate) mod cosine;
 #[cfg(feature = "lab")]
 pub mod dense;
 pub mod double_double;

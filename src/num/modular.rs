@@ -87,7 +87,7 @@ impl Field {
         if rest >= self.0 { rest - self.0 } else { rest }
     }
 
-    fn pow(self, mut base: u64, mut exponent: u64) -> u64 {
+    pub(crate) fn pow(self, mut base: u64, mut exponent: u64) -> u64 {
         let mut result = 1;
         while exponent > 0 {
             if exponent & 1 == 1 {
@@ -135,6 +135,16 @@ impl Field {
             order = k;
         }
         Some(root)
+    }
+
+    /// An element of this order, a product of twos, threes and fives, if there is one.
+    pub(crate) fn element_of_order(self, n: u64) -> Option<u64> {
+        let p = self.0;
+        if !(p - 1).is_multiple_of(n) {
+            return None;
+        }
+        let primes: Vec<u64> = [2, 3, 5].into_iter().filter(|q| n.is_multiple_of(*q)).collect();
+        (2..p).map(|x| self.pow(x, (p - 1) / n)).find(|z| primes.iter().all(|q| self.pow(*z, n / q) != 1))
     }
 
     /// Determinant by expansion along the first row: for tests, nothing in common with [`rank`](Self::rank).
@@ -244,6 +254,23 @@ mod tests {
             assert!((10..59).contains(&squares));
         }
         assert_eq!(Field::MERSENNE.square_root(0), Some(0));
+    }
+
+    #[test]
+    fn elements_have_the_order_asked_for() {
+        let mut rng = Rng::new(7);
+        let mut found = 0;
+        for field in (0..60).map(|_| Field::drawn(&mut rng)) {
+            for n in [2, 9, 16, 20, 32] {
+                let Some(z) = field.element_of_order(n) else {
+                    assert_ne!(field.prime() % n, 1);
+                    continue;
+                };
+                found += 1;
+                assert_eq!((1..=n).find(|k| field.pow(z, *k) == 1), Some(n));
+            }
+        }
+        assert!(found > 60);
     }
 
     #[test]

@@ -219,11 +219,12 @@ impl RealNumber {
         Ok(Self::Within(Enclosure::outward(&root_bound(&e.low, false), &root_bound(&e.high, true))?))
     }
 
-    /// `cos` and `sin` of as many degrees.
-    ///
-    /// In a field for multiples of 15 degrees, and for what is rational in `sqrt(5)` at multiples of 18.
+    /// `cos` and `sin` of as many degrees, exactly where [`Surd::turn`] has them.
     pub(crate) fn turn(&self) -> Result<(Self, Self), NoReal> {
         let (angle, slack) = if let Some(angle) = self.exact().and_then(Surd::as_rational) {
+            if let Some((c, s)) = Surd::turn(&angle) {
+                return Ok((Self::Exact(c), Self::Exact(s)));
+            }
             (angle, Rational::zero())
         } else {
             let e = self.enclosure()?;
@@ -259,14 +260,6 @@ fn root_bound(x: &Rational, up: bool) -> Rational {
 /// Cosine and sine of 0 to 90 degrees, give or take the slack.
 fn acute(angle: &Rational, slack: &Rational) -> Result<(RealNumber, RealNumber), NoReal> {
     let integer = |n: i64| Rational::from_integer(n.into());
-    let degrees =
-        if slack.is_zero() && angle.is_integer() { i64::try_from(angle.to_integer()).ok() } else { None };
-    let known = |degrees: i64| degrees_cosine(degrees).map(RealNumber::Exact);
-    let cosine = degrees.and_then(known);
-    let sine = degrees.and_then(|d| known(90 - d));
-    if let (Some(c), Some(s)) = (&cosine, &sine) {
-        return Ok((c.clone(), s.clone()));
-    }
     // x <= pi/2 in radians, between two fractions
     let ten = BigInt::from(10).pow(80);
     let digits = "314159265358979323846264338327950288419716939937510582097494459230781640628620899";
@@ -280,7 +273,7 @@ fn acute(angle: &Rational, slack: &Rational) -> Result<(RealNumber, RealNumber),
         let (low, high) = if l < h { (l, h) } else { (h, l) };
         Ok(RealNumber::Within(Enclosure::outward(&(low - &margin), &(high + margin))?))
     };
-    Ok((cosine.map_or_else(|| series(0), Ok)?, sine.map_or_else(|| series(1), Ok)?))
+    Ok((series(0)?, series(1)?))
 }
 
 /// `cos x` (`first = 0`) or `sin x` (1) for `0 <= x < 2`, with an error below `2^-235`.
@@ -297,25 +290,6 @@ fn taylor(x: &Rational, first: u32) -> Rational {
         n += 2;
     }
     Rational::new(sum, BigInt::one() << FIXED)
-}
-
-/// The cosine of 0 to 90 degrees where it is a sum of square roots of integers.
-fn degrees_cosine(degrees: i64) -> Option<Surd> {
-    let half = Surd::rational(&Rational::new(1.into(), 2.into()))?;
-    let quarter = half.times(&half)?;
-    let root = |n: i64| Surd::integer(n).sqrt();
-    match degrees {
-        0 => Some(Surd::integer(1)),
-        15 => root(6)?.plus(&root(2)?)?.times(&quarter),
-        30 => root(3)?.times(&half),
-        36 => root(5)?.plus(&Surd::integer(1))?.times(&quarter),
-        45 => root(2)?.times(&half),
-        60 => Some(half),
-        72 => root(5)?.minus(&Surd::integer(1))?.times(&quarter),
-        75 => root(6)?.minus(&root(2)?)?.times(&quarter),
-        90 => Some(Surd::zero()),
-        _ => None,
-    }
 }
 
 #[cfg(test)]
@@ -349,8 +323,8 @@ mod tests {
 
     #[test]
     fn the_series_agrees_with_the_known_cosines() {
-        for degrees in [0, 15, 30, 36, 45, 60, 72, 75, 90] {
-            let exact = degrees_cosine(degrees).unwrap();
+        for degrees in [0i64, 5, 10, 15, 18, 27, 30, 36, 45, 60, 72, 75, 90] {
+            let exact = Surd::turn(&Rational::from_integer(degrees.into())).unwrap().0;
             // a slack of zero width forces the series
             let angle = Rational::new((degrees * 1_000_000_000 + 1).into(), 1_000_000_000.into());
             let near = acute(&angle, &Rational::zero()).unwrap().0;
@@ -369,11 +343,11 @@ mod tests {
     fn what_leaves_the_field_is_enclosed() {
         let x = fraction(2, 1).sqrt().unwrap();
         assert!(x.exact().is_some());
-        let y = x.plus(&fraction(2, 1)).unwrap().sqrt().unwrap();
+        let y = x.plus(&fraction(3, 1)).unwrap().sqrt().unwrap();
         assert!(y.exact().is_none());
-        assert!((y.nearest() - (2.0 + 2f64.sqrt()).sqrt()).abs() < 1e-15);
+        assert!((y.nearest() - (3.0 + 2f64.sqrt()).sqrt()).abs() < 1e-15);
         let back = y.times(&y).unwrap().minus(&x).unwrap();
-        assert!(holds(&back, &Rational::from_integer(2.into())));
+        assert!(holds(&back, &Rational::from_integer(3.into())));
         assert_eq!(y.times(&RealNumber::integer(0)), Ok(RealNumber::integer(0)));
         let third = RealNumber::integer(1).over(&y.negated()).unwrap();
         assert!((third.nearest() + 1.0 / y.nearest()).abs() < 1e-15);
@@ -384,7 +358,7 @@ mod tests {
         let zero = RealNumber::integer(0);
         assert_eq!(RealNumber::integer(1).over(&zero), Err(NoReal::DivisionByZero));
         assert_eq!(RealNumber::integer(-1).sqrt(), Err(NoReal::NegativeRoot));
-        let s = fraction(2, 1).sqrt().unwrap().plus(&fraction(2, 1)).unwrap().sqrt().unwrap();
+        let s = fraction(2, 1).sqrt().unwrap().plus(&fraction(3, 1)).unwrap().sqrt().unwrap();
         assert_eq!(RealNumber::integer(1).over(&s.minus(&s).unwrap()), Err(NoReal::DivisorNearZero));
         assert_eq!(s.minus(&s).unwrap().sqrt(), Err(NoReal::RootNearZero));
         assert_eq!(zero.power(-2), Err(NoReal::DivisionByZero));

@@ -1,7 +1,7 @@
-//! Numbers of the real fields `Q(sqrt 2, sqrt 3, ...)`: sums of rational multiples of square roots of integers.
+//! Numbers of the real fields `Q(sqrt 2, sqrt 3, .., cos 11.25, cos 18, cos 40)`: sums of rational multiples of square roots of integers, and of these times cosines.
 //!
-//! The square roots of different squarefree integers are linearly independent over `Q` (Besicovitch 1940), so that the sum with its radicands squarefree is
-//! unique: it is zero only when it has no terms, and its sign is found by evaluating it to enough digits.
+//! The square roots of different squarefree integers are linearly independent over `Q` (Besicovitch 1940), and so are their products with the cosines of [`Root`].
+//! The sum is therefore unique: it is zero only when it has no terms, and its sign is found by evaluating it to enough digits.
 //! Numbers are kept small on purpose: an operation whose result would be long, and a square root that is no such sum, give `None`.
 
 use std::cmp::Ordering;
@@ -12,23 +12,24 @@ use num_bigint::BigInt;
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 
+use super::cosine::{Generator, Root};
 use super::exact::{Rational, farthest, nearest};
 
-/// Most terms of a sum: the degree of a field with four square roots.
+/// Most terms of a sum: the degree of a field with four square roots, or of the cosines of 3, 3.75, 4.5 and 5.625 degrees.
 const MAX_TERMS: usize = 16;
 /// Most bits of a numerator or of the common denominator.
 const MAX_BITS: u64 = 2048;
 /// Radicands are divided by the primes below this; what is left is squarefree or a square below its cube.
-const TRIAL: u64 = 1 << 16;
+pub(super) const TRIAL: u64 = 1 << 16;
 /// Most bits of a number that is divided by them one after the other.
 const MAX_FACTORED: u64 = 512;
 /// How deep square roots of sums are sought under one another.
 const MAX_NESTING: usize = 4;
 
-/// `sum_r c_r sqrt(r) / d`, radicands `r >= 1` squarefree, `d > 0`, integers `c_r` that are not zero and share no factor with `d`.
+/// `sum_r c_r r / d` over some of the [`Root`]s, `d > 0`, integers `c_r` that are not zero and share no factor with `d`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Surd {
-    terms: BTreeMap<u64, BigInt>,
+    terms: BTreeMap<Root, BigInt>,
     denominator: BigInt,
 }
 
@@ -38,16 +39,16 @@ impl Surd {
     }
 
     pub(crate) fn integer(x: i64) -> Self {
-        Self::lowest(BTreeMap::from([(1, BigInt::from(x))]), BigInt::one()).unwrap_or_else(Self::zero)
+        Self::lowest(BTreeMap::from([(Root::ONE, BigInt::from(x))]), BigInt::one()).unwrap_or_else(Self::zero)
     }
 
     /// `None` for a fraction that is too long.
     pub(crate) fn rational(x: &Rational) -> Option<Self> {
-        Self::lowest(BTreeMap::from([(1, x.numer().clone())]), x.denom().clone())
+        Self::lowest(BTreeMap::from([(Root::ONE, x.numer().clone())]), x.denom().clone())
     }
 
     /// In lowest terms; `None` when that is too long.
-    fn lowest(mut terms: BTreeMap<u64, BigInt>, denominator: BigInt) -> Option<Self> {
+    fn lowest(mut terms: BTreeMap<Root, BigInt>, denominator: BigInt) -> Option<Self> {
         terms.retain(|_, c| !c.is_zero());
         let mut common = denominator.clone();
         for c in terms.values() {
@@ -75,18 +76,25 @@ impl Surd {
     pub(crate) fn as_rational(&self) -> Option<Rational> {
         match self.terms.iter().next() {
             None => Some(Rational::zero()),
-            Some((1, c)) if self.terms.len() == 1 => Some(Rational::new(c.clone(), self.denominator.clone())),
+            Some((&Root::ONE, c)) if self.terms.len() == 1 => {
+                Some(Rational::new(c.clone(), self.denominator.clone()))
+            }
             Some(_) => None,
         }
     }
 
     /// The radicands of its square roots, without 1.
     pub(crate) fn radicands(&self) -> impl Iterator<Item = u64> + '_ {
-        self.terms.keys().copied().filter(|r| *r > 1)
+        self.terms.keys().map(|r| r.radicand()).filter(|r| *r > 1)
     }
 
-    /// Radicands, squarefree and from 1 on, with the numerators that belong to them.
-    pub(crate) fn terms(&self) -> impl Iterator<Item = (u64, &BigInt)> {
+    /// Numbers `n` such that the field of its cosines has `cos(360 / n)` degrees: 16, 32, 20 or 9.
+    pub(crate) fn divisions(&self) -> impl Iterator<Item = u32> + '_ {
+        self.terms.keys().flat_map(|r| r.cosines()).map(|(n, _)| n)
+    }
+
+    /// What is summed up, with the numerators that belong to it.
+    pub(crate) fn terms(&self) -> impl Iterator<Item = (Root, &BigInt)> {
         self.terms.iter().map(|(r, c)| (*r, c))
     }
 
@@ -103,7 +111,7 @@ impl Surd {
     pub(crate) fn plus(&self, other: &Self) -> Option<Self> {
         let common = self.denominator.lcm(&other.denominator);
         let (f, g) = (&common / &self.denominator, &common / &other.denominator);
-        let mut terms: BTreeMap<u64, BigInt> = self.terms.iter().map(|(r, c)| (*r, c * &f)).collect();
+        let mut terms: BTreeMap<Root, BigInt> = self.terms.iter().map(|(r, c)| (*r, c * &f)).collect();
         for (r, c) in &other.terms {
             *terms.entry(*r).or_default() += c * &g;
         }
@@ -115,36 +123,34 @@ impl Surd {
     }
 
     pub(crate) fn times(&self, other: &Self) -> Option<Self> {
-        let mut terms: BTreeMap<u64, BigInt> = BTreeMap::new();
+        let mut terms: BTreeMap<Root, BigInt> = BTreeMap::new();
+        let doubled = [self, other].iter().all(|x| x.terms.keys().any(|r| r.has_twentieth()));
         for (r, c) in &self.terms {
             for (s, d) in &other.terms {
-                // sqrt(r) sqrt(s) = g sqrt(r s / g^2), squarefree again
-                let g = r.gcd(s);
-                let radicand = (r / g).checked_mul(s / g)?;
-                *terms.entry(radicand).or_default() += c * d * g;
+                let product = c * d;
+                for (root, factor) in r.times(*s, doubled)? {
+                    *terms.entry(root).or_default() += &product * factor;
+                }
             }
         }
-        Self::lowest(terms, &self.denominator * &other.denominator)
+        let denominator = &self.denominator * &other.denominator;
+        Self::lowest(terms, if doubled { denominator << 1u32 } else { denominator })
     }
 
-    /// `a` and `b` with the number `a + b sqrt(p)`, no radicand of which `p` divides; `p` is prime.
-    fn split(&self, p: u64) -> (Self, Self) {
-        let (mut a, mut b) = (BTreeMap::new(), BTreeMap::new());
+    /// A generator of its field over a smaller one; `None` for fractions.
+    fn generator(&self) -> Option<Generator> {
+        self.terms.keys().filter_map(|r| r.generator()).min()
+    }
+
+    /// The image under the automorphism that moves the generator and none of those that come after it.
+    fn image(&self, generator: Generator) -> Option<Self> {
+        let mut terms: BTreeMap<Root, BigInt> = BTreeMap::new();
         for (r, c) in &self.terms {
-            if r % p == 0 {
-                b.insert(r / p, c.clone());
-            } else {
-                a.insert(*r, c.clone());
+            for (root, factor) in r.image(generator) {
+                *terms.entry(root).or_default() += c * factor;
             }
         }
-        let of = |terms| Self::lowest(terms, self.denominator.clone()).unwrap_or_else(Self::zero);
-        (of(a), of(b))
-    }
-
-    /// A prime that divides one of the radicands.
-    fn some_prime(&self) -> Option<u64> {
-        let r = self.radicands().next()?;
-        (2..TRIAL).take_while(|p| p * p <= r).find(|p| r % p == 0).or(Some(r))
+        Self::lowest(terms, self.denominator.clone())
     }
 
     /// `1 / x`; `None` for zero and when the result is too long.
@@ -152,19 +158,33 @@ impl Surd {
         if self.is_zero() {
             return None;
         }
-        let Some(p) = self.some_prime() else {
+        let Some(generator) = self.generator() else {
             return Self::rational(&self.as_rational()?.recip());
         };
-        // 1 / (a + b sqrt p) = (a - b sqrt p) / (a^2 - p b^2), whose divisor has one square root less
-        let (a, b) = self.split(p);
-        let root = Self { terms: BTreeMap::from([(p, BigInt::one())]), denominator: BigInt::one() };
-        let conjugate = a.minus(&b.times(&root)?)?;
-        conjugate.times(&self.times(&conjugate)?.inverse()?)
+        // the product of all images under the automorphism is a number of the smaller field
+        let mut others = self.image(generator)?;
+        if generator == Generator::Ninth {
+            others = others.times(&others.image(generator)?)?;
+        }
+        others.times(&self.times(&others)?.inverse()?)
     }
 
     /// The square root that is not negative; `None` for negative numbers and when it is not found among these sums.
     pub(crate) fn sqrt(&self) -> Option<Self> {
-        self.root(MAX_NESTING)
+        if let Some(root) = self.root(MAX_NESTING) {
+            return Some(root);
+        }
+        // sqrt(2 + sqrt 2) = 2cos 22.5, for example: the quotient by the square of a cosine may have a root
+        let divisions: Vec<u32> = self.divisions().collect();
+        let cosine = |over: u64, division: u32, tower: usize, k: u32| {
+            let asked = self.radicands().any(|r| r.is_multiple_of(over)) || divisions.contains(&division);
+            asked.then(|| Self::twice_cosine(tower, k)).flatten()
+        };
+        [cosine(2, 16, 0, 2), cosine(5, 20, 1, 1), cosine(0, 16, 0, 1)].into_iter().flatten().find_map(|c| {
+            let quotient = self.times(&c.times(&c)?.inverse()?)?;
+            let root = quotient.root(MAX_NESTING)?.times(&c)?;
+            (root.times(&root)? == *self).then_some(root)
+        })
     }
 
     fn root(&self, depth: usize) -> Option<Self> {
@@ -177,13 +197,12 @@ impl Surd {
         if let Some(x) = self.as_rational() {
             return rational_root(&x);
         }
-        let p = self.some_prime().filter(|_| depth > 0)?;
-        // (u + v)^2 = a + b sqrt p with u^2 = (a +- c) / 2, c^2 = a^2 - p b^2, v = b sqrt p / (2 u)
-        let (a, b) = self.split(p);
-        let tail = self.minus(&a)?;
-        let c = a.times(&a)?.minus(&b.times(&b)?.times(&Self::integer(i64::try_from(p).ok()?))?)?;
-        let c = c.root(depth - 1)?;
+        let generator = self.generator().filter(|g| depth > 0 && *g != Generator::Ninth)?;
+        // (u + v)^2 = a + b with u^2 = (a +- c) / 2, c^2 = (a + b)(a - b), v = b / (2 u), where a - b is the image of a + b
         let half = Self::rational(&Rational::new(1.into(), 2.into()))?;
+        let image = self.image(generator)?;
+        let (a, tail) = (self.plus(&image)?.times(&half)?, self.minus(&image)?.times(&half)?);
+        let c = self.times(&image)?.root(depth - 1)?;
         for c in [c.clone(), c.negated()] {
             let Some(u) = a.plus(&c)?.times(&half)?.root(depth - 1).filter(|u| !u.is_zero()) else {
                 continue;
@@ -196,6 +215,38 @@ impl Surd {
         None
     }
 
+    /// `2cos(k 360 / n)` degrees of the tower with this index.
+    fn twice_cosine(tower: usize, k: u32) -> Option<Self> {
+        let terms = Root::four_cosines(tower, k).into_iter().map(|(r, c)| (r, BigInt::from(c)));
+        Self::lowest(terms.collect(), BigInt::from(2))
+    }
+
+    /// Cosine and sine of `degrees`, where they are in the field: at multiples of a quarter of a degree whose cosine has a degree of 16 at most.
+    pub(crate) fn turn(degrees: &Rational) -> Option<(Self, Self)> {
+        let quarters = degrees * Rational::from_integer(4.into());
+        if !quarters.is_integer() {
+            return None;
+        }
+        // a / 1440 = i / 32 + j / 5 + k / 9 of a turn
+        let a = u32::try_from(quarters.to_integer().mod_floor(&1440.into())).ok()?;
+        let (i, j, k) = (5 * a % 32, 2 * a % 5, 4 * a % 9);
+        if degree(a) > MAX_TERMS {
+            return None;
+        }
+        let over = |x: Self, d: i64| x.times(&Self::integer(d).inverse()?);
+        let cosine = |tower: usize, k: u32| over(Self::twice_cosine(tower, k)?, 2);
+        let first = [cosine(0, i)?, cosine(0, i + 24)?];
+        let second = [cosine(1, 4 * j)?, cosine(1, 4 * j + 15)?];
+        // sqrt(3) 2sin t = 2cos(t - 120) - 2cos(t + 120)
+        let sine = Self::twice_cosine(2, k + 6)?.minus(&Self::twice_cosine(2, k + 3)?)?;
+        let third = [cosine(2, k)?, over(sine.times(&Self::integer(3).sqrt()?)?, 6)?];
+        let sum = |[c, s]: &[Self; 2], [d, t]: &[Self; 2]| {
+            Some([c.times(d)?.minus(&s.times(t)?)?, s.times(d)?.plus(&c.times(t)?)?])
+        };
+        let [cosine, sine] = sum(&sum(&first, &second)?, &third)?;
+        Some((cosine, sine))
+    }
+
     /// Rationals below and above it (both the number when it is rational), closer together than `2^-bits` of its magnitude.
     pub(crate) fn between(&self, bits: u64) -> (Rational, Rational) {
         if let Some(x) = self.as_rational() {
@@ -203,8 +254,8 @@ impl Surd {
         }
         let mut k = bits + 16;
         loop {
-            let sum: BigInt = self.terms.iter().map(|(r, c)| scaled_root(c, *r, k)).sum();
-            let error = BigInt::from(self.terms.len());
+            let sum: BigInt = self.terms.iter().map(|(r, c)| r.scaled(c, k)).sum();
+            let error = BigInt::from(2 * self.terms.len());
             if sum.bits() > error.bits() + bits {
                 let scale = &self.denominator << k;
                 return (Rational::new(&sum - &error, scale.clone()), Rational::new(sum + error, scale));
@@ -221,8 +272,7 @@ impl Surd {
 
     /// All conjugates are below two to this power.
     pub(crate) fn magnitude_bits(&self) -> i64 {
-        // a square root has at most half the bits of its radicand, rounded up
-        let bits = |(r, c): (&u64, &BigInt)| c.bits() + u64::from(u64::BITS - r.leading_zeros()).div_ceil(2);
+        let bits = |(r, c): (&Root, &BigInt)| c.bits() + r.magnitude_bits();
         let largest = self.terms.iter().map(bits).max().unwrap_or(0);
         let terms = self.terms.len().next_power_of_two().trailing_zeros();
         (largest + u64::from(terms) + 1).cast_signed() - self.denominator.bits().cast_signed()
@@ -279,17 +329,20 @@ pub(crate) fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
     Some(rank)
 }
 
-/// `c sqrt(r) 2^k`, rounded towards zero.
-fn scaled_root(c: &BigInt, r: u64, k: u64) -> BigInt {
-    let root = ((c * c * r) << (2 * k)).sqrt();
-    if c.is_negative() { -root } else { root }
+/// Degree of the field of cosine and sine of `a / 1440` of a turn: of `2cos(360 / n)` with `n` a multiple of four.
+fn degree(a: u32) -> usize {
+    let n = (1440 / a.gcd(&1440)).lcm(&4);
+    // Euler's function, of numbers without other prime factors than these
+    let units =
+        [2, 3, 5].into_iter().filter(|p| n.is_multiple_of(*p)).fold(n, |units, p| units / p * (p - 1));
+    (units / 2).max(1) as usize
 }
 
 /// The square root of a positive fraction.
 fn rational_root(x: &Rational) -> Option<Surd> {
     // sqrt(n / d) = sqrt(n d) / d
     let (square, radicand) = squarefree(x.numer() * x.denom())?;
-    Surd::lowest(BTreeMap::from([(radicand, square)]), x.denom().clone())
+    Surd::lowest(BTreeMap::from([(Root::of(radicand), square)]), x.denom().clone())
 }
 
 /// `s` and squarefree `r` with `n = s^2 r`, `n` positive; `None` when `r` cannot be told to be squarefree by small primes, or is too large.
@@ -333,14 +386,16 @@ fn squarefree(mut n: BigInt) -> Option<(BigInt, u64)> {
     Some((square, free.checked_mul(rest)?))
 }
 
-/// As an expression, `1/2 + 3*sqrt(2)/4` for example.
+/// As an expression, `1/2 + 3*sqrt(2)/4` or `sqrt(3)*cos_deg(40)/2` for example.
 impl fmt::Display for Surd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_zero() {
             return f.write_str("0");
         }
         for (i, (r, c)) in self.terms.iter().enumerate() {
-            let share = Rational::new(c.abs(), self.denominator.clone());
+            // twice a cosine each
+            let twos = r.cosines().count();
+            let share = Rational::new(c.abs() << twos, self.denominator.clone());
             let sign = match (i, c.is_negative()) {
                 (0, false) => "",
                 (0, true) => "-",
@@ -348,11 +403,12 @@ impl fmt::Display for Surd {
                 (_, true) => " - ",
             };
             f.write_str(sign)?;
-            match (*r, share.numer().is_one()) {
-                (1, _) => write!(f, "{}", share.numer())?,
-                (r, true) => write!(f, "sqrt({r})")?,
-                (r, false) => write!(f, "{}*sqrt({r})", share.numer())?,
-            }
+            let number = (*r == Root::ONE || !share.numer().is_one()).then(|| share.numer().to_string());
+            let root = (r.radicand() > 1).then(|| format!("sqrt({})", r.radicand()));
+            let cosines =
+                r.cosines().map(|(n, k)| format!("cos_deg({})", 360.0 * f64::from(k) / f64::from(n)));
+            let factors: Vec<String> = number.into_iter().chain(root).chain(cosines).collect();
+            f.write_str(&factors.join("*"))?;
             if !share.denom().is_one() {
                 write!(f, "/{}", share.denom())?;
             }
@@ -361,16 +417,25 @@ impl fmt::Display for Surd {
     }
 }
 
-/// Integers whose square roots generate the same field as those of squarefree integers in ascending order: a root that is a fraction times a product of two or
-/// three before it is left out.
+/// Integers whose square roots generate the same field as those of squarefree integers in ascending order, beside the cosines of these divisions: a root that is a
+/// fraction times a product of two or three before it is left out, and so is a cosine whose double is there.
 #[cfg(feature = "files")]
-pub(crate) fn generators(radicands: &[u64]) -> Vec<u64> {
+pub(crate) fn generators(radicands: &[u64], divisions: &mut Vec<u32>) -> Vec<u64> {
+    if divisions.contains(&32) {
+        divisions.retain(|n| *n != 16);
+    }
+    // sqrt(2) is in the field of cos(22.5), sqrt(5) in that of cos(18)
+    let known: Vec<u64> = [(16, 2), (32, 2), (20, 5)]
+        .into_iter()
+        .filter(|(n, _)| divisions.contains(n))
+        .map(|(_, r)| r)
+        .collect();
     // the squarefree part of a product of squarefree integers
     let product = |a: u64, b: u64| {
         let g = a.gcd(&b);
         (a / g).checked_mul(b / g)
     };
-    let mut kept: Vec<u64> = Vec::new();
+    let mut kept: Vec<u64> = known.clone();
     for r in radicands {
         let rest: Vec<u64> = kept.iter().filter_map(|k| product(*k, *r)).collect();
         let two = rest.iter().any(|x| kept.contains(x));
@@ -381,7 +446,7 @@ pub(crate) fn generators(radicands: &[u64]) -> Vec<u64> {
             kept.push(rest.into_iter().fold(*r, u64::min));
         }
     }
-    kept
+    kept.split_off(known.len())
 }
 
 #[cfg(test)]
@@ -392,6 +457,10 @@ mod tests {
 
     fn fraction(n: i64, d: i64) -> Rational {
         Rational::new(n.into(), d.into())
+    }
+
+    fn degrees(n: i64, d: i64) -> (Surd, Surd) {
+        Surd::turn(&fraction(n, d)).unwrap()
     }
 
     fn root(r: u64) -> Surd {
@@ -405,14 +474,34 @@ mod tests {
     }
 
     fn value(x: &Surd) -> f64 {
-        let terms =
-            x.terms.iter().map(|(r, c)| nearest(&Rational::from_integer(c.clone())) * (*r as f64).sqrt());
-        terms.sum::<f64>() / nearest(&Rational::from_integer(x.denominator.clone()))
+        let double = |x: &BigInt| nearest(&Rational::from_integer(x.clone()));
+        let cosine = |(n, k): (u32, u32)| 2.0 * (f64::from(360 * k) / f64::from(n)).to_radians().cos();
+        let root = |r: &Root| (r.radicand() as f64).sqrt() * r.cosines().map(cosine).product::<f64>();
+        x.terms.iter().map(|(r, c)| double(c) * root(r)).sum::<f64>() / double(&x.denominator)
     }
 
     fn any_sum() -> impl Strategy<Value = Surd> {
         let term = (-30i64..30, 1i64..12, prop::sample::select(vec![1u64, 2, 3, 5, 6, 10, 15, 12]));
         prop::collection::vec(term, 0..4).prop_map(|parts| sum(&parts))
+    }
+
+    /// Sums with cosines of one field, whose degree is at most 16.
+    fn any_cosines() -> impl Strategy<Value = [Surd; 3]> {
+        let fields = vec![(16i64, 3u64), (32, 3), (20, 3), (9, 3), (36, 5), (60, 2), (80, 7), (72, 2)];
+        let term = (-9i64..9, 1i64..5, 0i64..80, any::<bool>());
+        let list = prop::collection::vec(prop::collection::vec(term, 0..4), 3);
+        (prop::sample::select(fields), list).prop_map(|((n, r), list)| {
+            let one = |parts: Vec<(i64, i64, i64, bool)>| {
+                parts.into_iter().fold(Surd::zero(), |s, (c, d, k, with)| {
+                    let (cosine, sine) = degrees(360 * k, n);
+                    let share = sum(&[(c, d, if with { r } else { 1 })]);
+                    let x = if c % 2 == 0 { cosine } else { sine };
+                    s.plus(&share.times(&x).unwrap()).unwrap()
+                })
+            };
+            let [x, y, z] = <[_; 3]>::try_from(list).unwrap();
+            [one(x), one(y), one(z)]
+        })
     }
 
     proptest! {
@@ -431,6 +520,29 @@ mod tests {
                 prop_assert_eq!(x.inverse(), None);
             } else {
                 prop_assert_eq!(x.times(&x.inverse().unwrap()).unwrap(), Surd::integer(1));
+            }
+        }
+
+        #[test]
+        fn sums_with_cosines_are_a_field([x, y, z] in any_cosines()) {
+            let v = value(&x);
+            prop_assert!((x.nearest() - v).abs() <= 1e-12 * (1.0 + v.abs()));
+            if v.abs() > 1e-9 {
+                prop_assert_eq!(x.sign(), v.total_cmp(&0.0));
+            }
+            let product = x.times(&y);
+            prop_assert_eq!(&product, &y.times(&x));
+            if let (Some(xy), Some(yz)) = (product, y.times(&z)) {
+                prop_assert!((value(&xy) - v * value(&y)).abs() <= 1e-11 * (1.0 + (v * value(&y)).abs()));
+                if let (Some(a), Some(b)) = (xy.times(&z), x.times(&yz)) {
+                    prop_assert_eq!(a, b);
+                }
+            }
+            if let Some(inverse) = x.inverse() {
+                prop_assert_eq!(x.times(&inverse), Some(Surd::integer(1)));
+            }
+            if let Some(found) = x.times(&x).and_then(|s| s.sqrt()) {
+                prop_assert!(found == x || found == x.negated());
             }
         }
 
@@ -462,9 +574,49 @@ mod tests {
         // 8 + 4 sqrt 3 = (sqrt 6 + sqrt 2)^2
         assert_eq!(sum(&[(8, 1, 1), (4, 1, 3)]).sqrt(), Some(sum(&[(1, 1, 6), (1, 1, 2)])));
         assert_eq!(sum(&[(8, 1, 1), (-4, 1, 3)]).sqrt(), Some(sum(&[(1, 1, 6), (-1, 1, 2)])));
-        assert_eq!(sum(&[(2, 1, 1), (1, 1, 2)]).sqrt(), None, "sqrt(2 + sqrt 2) is in no such field");
+        assert_eq!(sum(&[(3, 1, 1), (1, 1, 2)]).sqrt(), None, "sqrt(3 + sqrt 2) is in no such field");
+        let eight = |n: i64, d: i64| degrees(n, d).0.times(&Surd::integer(8)).unwrap();
+        for (under, degrees) in [
+            (sum(&[(32, 1, 1), (16, 1, 2)]), (45, 2)),
+            (sum(&[(32, 1, 1), (-16, 1, 2)]), (135, 2)),
+            (sum(&[(40, 1, 1), (8, 1, 5)]), (18, 1)),
+            (sum(&[(40, 1, 1), (-8, 1, 5)]), (54, 1)),
+            (eight(45, 2).plus(&Surd::integer(8)).unwrap().times(&Surd::integer(4)).unwrap(), (45, 4)),
+        ] {
+            assert_eq!(under.sqrt(), Some(eight(degrees.0, degrees.1)), "{under}");
+        }
         assert_eq!(Surd::integer(-1).sqrt(), None);
         assert_eq!(Surd::rational(&fraction(8, 27)).unwrap().sqrt(), Some(sum(&[(2, 9, 6)])));
+    }
+
+    #[test]
+    fn angles_are_exact_where_their_field_is_small() {
+        let mut exact = 0;
+        for quarters in -1440..2880 {
+            let angle = fraction(quarters, 4);
+            let Some((c, s)) = Surd::turn(&angle) else {
+                assert_ne!(quarters % 15, 0, "every multiple of 3.75 degrees");
+                assert_ne!(quarters % 20, 0, "every multiple of 5 degrees");
+                assert_ne!(quarters % 12, 0, "every multiple of 3 degrees");
+                assert_ne!(quarters % 45, 0, "every multiple of 11.25 degrees");
+                continue;
+            };
+            exact += 1;
+            let radians = nearest(&angle).to_radians();
+            assert!((value(&c) - radians.cos()).abs() < 1e-13, "{quarters}");
+            assert!((value(&s) - radians.sin()).abs() < 1e-13, "{quarters}");
+            if quarters % 15 == 0 {
+                let one = c.times(&c).unwrap().plus(&s.times(&s).unwrap()).unwrap();
+                assert_eq!(one, Surd::integer(1), "{quarters}");
+            }
+        }
+        assert!((800..2000).contains(&exact), "{exact}");
+        assert_eq!(Surd::turn(&fraction(1, 7)), None);
+        assert_eq!(Surd::turn(&fraction(1, 1)), None, "of degree 48");
+        // the ratio of diagonal and side of a pentagon, and a heptagon that is none
+        let golden = degrees(54, 1).1.times(&degrees(18, 1).1.inverse().unwrap()).unwrap();
+        assert_eq!(golden, sum(&[(3, 2, 1), (1, 2, 5)]));
+        assert_eq!(degrees(15, 1).0, sum(&[(1, 4, 6), (1, 4, 2)]));
     }
 
     #[test]
@@ -492,6 +644,12 @@ mod tests {
     #[test]
     fn it_is_written_as_an_expression() {
         assert_eq!(sum(&[(1, 2, 1), (-3, 4, 2), (1, 1, 6)]).to_string(), "1/2 - 3*sqrt(2)/4 + sqrt(6)");
+        assert_eq!(degrees(80, 1).0.to_string(), "cos_deg(80)");
+        let both = degrees(45, 2).0.times(&degrees(54, 1).0).unwrap();
+        assert_eq!(
+            both.times(&sum(&[(3, 4, 3)])).unwrap().to_string(),
+            "3*sqrt(3)*cos_deg(22.5)*cos_deg(54)/4"
+        );
         assert_eq!(Surd::integer(-7).to_string(), "-7");
         assert_eq!(Surd::zero().to_string(), "0");
     }

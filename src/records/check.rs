@@ -192,8 +192,10 @@ fn proof_explanation(a: &Architecture) -> String {
 pub struct JointsRecord {
     /// The least exact of the joints decides.
     pub exactness: ExactnessWord,
-    /// The integers whose square roots generate the field of the exact coordinates; empty for fractions.
+    /// The integers whose square roots generate the field of the exact coordinates, beside the cosines of `divisions`; empty for fractions.
     pub radicands: Vec<u64>,
+    /// Numbers `n` whose cosines `cos(360 / n)` degrees belong to the generators: some of 9, 16, 20 and 32.
+    pub divisions: Vec<u32>,
     /// Joints known between bounds only, with their bodies: `base.A2`.
     pub enclosed: Vec<String>,
     /// The same in words.
@@ -210,6 +212,7 @@ impl From<&DesignExactness> for JointsRecord {
                 Some(Exactness::Interval) => ExactnessWord::Interval,
             },
             radicands: e.radicands.clone(),
+            divisions: e.divisions.clone(),
             enclosed: e.enclosed.clone(),
             explanation: e.to_string(),
         }
@@ -224,7 +227,7 @@ pub enum ExactnessWord {
     Doubles,
     /// Fractions.
     Rational,
-    /// Sums of rational multiples of square roots of integers.
+    /// Sums of rational multiples of square roots of integers and of cosines.
     Field,
     /// At least one is known between two close bounds only.
     Interval,

@@ -255,7 +255,7 @@ pub enum SolutionSetRecord {
         dimension: Option<usize>,
         /// What was seen numerically.
         dimension_at_least: usize,
-        /// Whether a relation between the legs proves it.
+        /// Whether a relation between the legs proves it for the lengths as written; false where they satisfy the relation within rounding only and have finitely many poses.
         dimension_established: bool,
         /// Null: not established.
         degree: Option<usize>,
@@ -281,18 +281,15 @@ impl From<&FkSolutions> for SolutionSetRecord {
             SolutionSet::Isolated => Self::Isolated {},
             SolutionSet::Empty => Self::Empty {},
             SolutionSet::PositiveDimensional { dimension, witnesses, established } => {
+                let given = s.pose_count.as_ref().filter(|c| c.lengths == CountedLengths::Given);
+                let counted = given.map(|c| &c.set);
                 Self::PositiveDimensional {
-                    dimension: match s
-                        .pose_count
-                        .as_ref()
-                        .filter(|c| c.lengths == CountedLengths::Given)
-                        .map(|c| &c.set)
-                    {
+                    dimension: match counted {
                         Some(PoseSet::PositiveDimensional { dimension, .. }) => Some(*dimension),
                         _ => None,
                     },
                     dimension_at_least: *dimension,
-                    dimension_established: *established,
+                    dimension_established: *established && !matches!(counted, Some(PoseSet::Finite { .. })),
                     degree: established.then_some(witnesses.len()),
                     witness_points: witnesses.iter().map(SolutionRecord::from).collect(),
                 }

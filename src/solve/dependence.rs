@@ -27,9 +27,10 @@ pub(crate) enum LegDependence {
     Independent,
     /// A relation holds nearly; not exactly, or that is not known.
     Nearly,
-    /// Proved: a relation holds exactly and the lengths contradict it by more than rounding.
+    /// Proved: a relation of the basis holds exactly and the lengths contradict it by more than rounding.
     Incompatible,
-    /// Proved: this many relations hold exactly; the lengths satisfy them within rounding.
+    /// Proved: this many relations hold exactly. The lengths satisfy each of a basis of them within rounding; whether some lengths that near satisfy all at once is
+    /// not asked.
     Compatible {
         /// Six less the rank.
         relations: usize,

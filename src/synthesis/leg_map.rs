@@ -280,6 +280,10 @@ impl LegMapOutcome {
                  (smallest singular value of A {:.3e} of the largest)",
                 o.inverse_condition
             ),
+            Relation::Undecided if o.singular_limit >= 1.0 => format!(
+                "neither platform is architecturally singular as the numbers they are, but rounding and the residual {:.1e} decide nothing about det A:                  the joints are too far from the origin for their size, or the platforms of too different size",
+                o.residual
+            ),
             Relation::Undecided => format!(
                 "neither platform is architecturally singular as the numbers they are, but the smallest singular value of A, {:.3e} of the largest, is not above \
                  the {:.1e} that rounding and the residual {:.1e} leave open",

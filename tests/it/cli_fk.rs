@@ -54,9 +54,10 @@ fn every_shipped_design_has_the_poses_its_readme_claims() {
             assert_eq!(out.status.code(), Some(0), "{file}");
             let answer = document(&out);
             assert_eq!(answer["solution_set"], "positive_dimensional", "{file}");
+            // it moves within the rounding of its lengths, which as written contradict each other in the last digit
             assert_eq!(
                 (&answer["dimension_established"], &answer["finite_count"]),
-                (&true.into(), &0.into())
+                (&false.into(), &0.into())
             );
             assert!(!answer["witness_points"].as_array().unwrap().is_empty());
             let other = equipod(&["fk", &file, "--lengths", "18,18,17,16,15,19", "--json"]);

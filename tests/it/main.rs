@@ -71,6 +71,7 @@ mod rearrangements;
 mod reference;
 mod singularity;
 mod tasks;
+mod theorems;
 mod topologies;
 mod trilateration;
 mod worked_designs;

@@ -28,7 +28,7 @@ use crate::num::surd::{Surd, generators};
 pub enum Exactness {
     /// They are fractions.
     Rational,
-    /// They are sums of rational multiples of square roots of integers.
+    /// They are sums of rational multiples of square roots of integers and of cosines.
     Field,
     /// At least one is known between two close bounds only.
     Interval,
@@ -281,7 +281,7 @@ pub(super) fn exact_double(p: &Point3<f64>) -> RealPoint {
 /// A joint of a design as exactly as it is known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactJoint {
-    /// Whether its coordinates are fractions, sums of square roots, or known between bounds.
+    /// Whether its coordinates are fractions, sums of square roots and cosines, or known between bounds.
     pub exactness: Exactness,
     /// The three coordinates in the frame of the body, as expressions such as `"6*sqrt(3)"`; one that is known between bounds is `"[low, high]"`, rounded outward to doubles.
     pub coordinates: [String; 3],
@@ -306,8 +306,10 @@ impl ExactJoint {
 pub struct DesignExactness {
     /// The least exact of its joints; `None` where every joint is given by three plain numbers and so is the three doubles that are read.
     pub exactness: Option<Exactness>,
-    /// The integers whose square roots generate, with the fractions, the field in which all exact coordinates lie; none for fractions.
+    /// The integers whose square roots generate the field of all exact coordinates, with the fractions and the cosines of `divisions`.
     pub radicands: Vec<u64>,
+    /// Numbers `n` whose cosines `cos(360 / n)` degrees generate the field, beside the square roots: some of 9, 16, 20 and 32.
+    pub divisions: Vec<u32>,
     /// The joints that are known between bounds only, with their bodies: `"base.A2"`.
     pub enclosed: Vec<String>,
 }
@@ -315,7 +317,7 @@ pub struct DesignExactness {
 impl DesignExactness {
     /// `constructed`: whether any joint is given by other than three plain numbers.
     pub(super) fn of(constructed: bool, bodies: [(Body, &[String], Vec<RealPoint>); 2]) -> Self {
-        let mut all = Vec::new();
+        let (mut all, mut divisions) = (Vec::new(), Vec::new());
         let (mut exactness, mut enclosed) = (Exactness::Rational, Vec::new());
         for (body, names, points) in bodies {
             for (name, point) in names.iter().zip(&points) {
@@ -324,20 +326,26 @@ impl DesignExactness {
                 if own == Exactness::Interval {
                     enclosed.push(format!("{body}.{name}"));
                 }
-                all.extend(point.iter().filter_map(RealNumber::exact).flat_map(Surd::radicands));
+                let exact = || point.iter().filter_map(RealNumber::exact);
+                all.extend(exact().flat_map(Surd::radicands));
+                divisions.extend(exact().flat_map(Surd::divisions));
             }
         }
         all.sort_unstable();
         all.dedup();
-        Self { exactness: constructed.then_some(exactness), radicands: generators(&all), enclosed }
+        divisions.sort_unstable();
+        divisions.dedup();
+        let radicands = generators(&all, &mut divisions);
+        Self { exactness: constructed.then_some(exactness), radicands, divisions, enclosed }
     }
 }
 
 impl fmt::Display for DesignExactness {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let field = || {
-            let roots: Vec<String> = self.radicands.iter().map(|r| format!("sqrt({r})")).collect();
-            format!("numbers of Q({})", roots.join(", "))
+            let roots = self.radicands.iter().map(|r| format!("sqrt({r})"));
+            let cosines = self.divisions.iter().map(|n| format!("cos_deg({})", 360.0 / f64::from(*n)));
+            format!("numbers of Q({})", roots.chain(cosines).collect::<Vec<_>>().join(", "))
         };
         match self.exactness {
             None => f.write_str("doubles as written"),
@@ -345,7 +353,11 @@ impl fmt::Display for DesignExactness {
             Some(Exactness::Field) => write!(f, "exact {}", field()),
             Some(Exactness::Interval) => {
                 write!(f, "between close bounds ({}), the others exact", self.enclosed.join(", "))?;
-                if self.radicands.is_empty() { Ok(()) } else { write!(f, " {}", field()) }
+                if self.radicands.is_empty() && self.divisions.is_empty() {
+                    Ok(())
+                } else {
+                    write!(f, " {}", field())
+                }
             }
         }
     }

@@ -16,7 +16,7 @@ use crate::manipulator::Body;
 use crate::num::real::{NoReal, RealNumber};
 
 /// Most operations of all constructions of a design, square roots counted as twenty.
-const MAX_WORK: usize = 4000;
+const MAX_WORK: usize = 12_000;
 
 /// What a fault belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -57,7 +57,8 @@ mirrored = { mirror = \"high\", plane = \"yz\" }
 share = { on = [\"A\", \"B\"], t = \"1/5\" }
 offset = { on = [\"B\", \"A\"], offset = 2.4 }
 beyond = { on = [\"A\", \"C\"], offset = -1 }
-odd = { radius = 1, angle_deg = 20, z = 0.5 }
+odd = { radius = 1, angle_deg = 17, z = 0.5 }
+five = { radius = 2, angle_deg = 36 }
 ";
     let d = read("h = \"r/2\"\nr = 6.0", forms);
     let exact = |name: &str| base(&d, name).0;
@@ -74,7 +75,8 @@ odd = { radius = 1, angle_deg = 20, z = 0.5 }
     assert_eq!(exact("beyond"), strings(["-1", "0", "0"]));
     let (coordinates, exactness, doubles) = base(&d, "odd");
     assert_eq!((exactness, coordinates[2].as_str()), (Exactness::Interval, "1/2"));
-    assert!((doubles[0] - 20f64.to_radians().cos()).abs() < 1e-15 && coordinates[0].starts_with('['));
+    assert!((doubles[0] - 17f64.to_radians().cos()).abs() < 1e-15 && coordinates[0].starts_with('['));
+    assert_eq!(exact("five"), strings(["1/2 + sqrt(5)/2", "2*cos_deg(54)", "0"]));
     assert_eq!(base(&d, "share").1, Exactness::Field);
     assert_eq!(base(&d, "tenth").1, Exactness::Rational);
     let root = 3f64.sqrt();
@@ -277,12 +279,15 @@ fn a_design_says_how_exactly_its_joints_are_known() {
         (Some(Exactness::Field), &[2, 3][..]),
         "sqrt(6) follows"
     );
-    let between = known("A = { radius = \"sqrt(5)\", angle_deg = 0 }\nB = { radius = 1, angle_deg = 20 }");
+    let between = known("A = { radius = \"sqrt(5)\", angle_deg = 0 }\nB = { radius = 1, angle_deg = 7 }");
     assert_eq!(
         (between.exactness, between.enclosed.as_slice()),
         (Some(Exactness::Interval), &["base.B".to_string()][..])
     );
     assert_eq!(between.to_string(), "between close bounds (base.B), the others exact numbers of Q(sqrt(5))");
+    let cosines = known("A = { radius = \"sqrt(6)\", angle_deg = 22.5 }\nB = { turn = \"C\", deg = 18 }");
+    assert_eq!((cosines.radicands.as_slice(), cosines.divisions.as_slice()), (&[3][..], &[16, 20][..]));
+    assert_eq!(cosines.to_string(), "exact numbers of Q(sqrt(3), cos_deg(22.5), cos_deg(18))");
     let three = known("A = [\"sqrt(2)\", \"sqrt(3)\", \"sqrt(5)\"]\nB = [\"sqrt(30)\", \"sqrt(7)\", 0]");
     assert_eq!(three.radicands, [2, 3, 5, 7]);
 }

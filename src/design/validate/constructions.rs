@@ -320,8 +320,10 @@ pub(super) fn resolve(
             for (body, points) in [(base, on_base), (platform, on_platform)] {
                 for (joint, point) in body.joints.iter_mut().zip(points) {
                     joint.point = point.into();
-                    let large = |x: &f64| x.abs() > LARGEST || !x.is_finite();
-                    if joint.constructed && joint.point.iter().any(large) {
+                    if joint.constructed && joint.point.iter().any(|x| x.is_nan()) {
+                        // of a fault that is reported where it is
+                        (joint.intact, sound) = (false, false);
+                    } else if joint.constructed && joint.point.iter().any(|x| x.abs() > LARGEST) {
                         let message = format!("{} is too far out to compute with", shown(&joint.name));
                         let help = format!("stay below {LARGEST:e}; use a larger unit");
                         report.refuse(Code::OutOfRange, &joint.places.whole, message, help);

@@ -6,7 +6,7 @@ use nalgebra::Point3;
 
 use super::constructions::{self, Places};
 use super::{nearest, numbers, shown};
-use crate::design::construction::Construction;
+use crate::design::construction::{Construction, Constructions};
 use crate::design::tree::{Entry, Node, Span, Value};
 use crate::design::violation::Findings;
 use crate::design::{Code, Warning};
@@ -32,6 +32,8 @@ pub(super) struct NamedJoints {
     span: Span,
     pub(super) joints: Vec<FileJoint>,
     index: BTreeMap<String, usize>,
+    /// For each joint the first one at exactly the same place.
+    first_there: Vec<usize>,
 }
 
 /// Six legs as pairs of joint indices.
@@ -49,6 +51,26 @@ impl NamedJoints {
     pub(super) fn points(&self) -> Vec<Point3<f64>> {
         let point = |j: &FileJoint| if j.intact { j.point } else { [f64::NAN; 3] };
         self.joints.iter().map(|j| Point3::from(point(j))).collect()
+    }
+
+    /// Notes which joints are at one place: by their exact coordinates where some are constructed, else by their doubles.
+    pub(super) fn find_coincident(&mut self, constructions: Option<&Constructions>) {
+        let exact = constructions
+            .filter(|_| self.joints.iter().any(|j| j.constructed))
+            .map(|c| c.exact(self.body, &self.points()));
+        let known = |i: usize, k: usize| exact.as_ref()?[i][k].exact();
+        let same = |i: usize, j: usize| {
+            exact.is_none() || (0..3).all(|k| known(i, k).is_some() && known(i, k) == known(j, k))
+        };
+        let mut near: BTreeMap<[u64; 3], Vec<usize>> = BTreeMap::new();
+        for (i, joint) in self.joints.iter().enumerate().filter(|(_, j)| j.intact) {
+            // equal numbers have equal nearest doubles; -0 + 0 = 0: one place, one key
+            let there = near.entry(joint.point.map(|x| (x + 0.0).to_bits())).or_default();
+            match there.iter().find(|j| same(**j, i)) {
+                Some(first) => self.first_there[i] = *first,
+                None => there.push(i),
+            }
+        }
     }
 
     /// One entry a joint, or none when no joint is constructed.
@@ -75,8 +97,13 @@ pub(super) fn body(report: &mut Findings<'_>, which: Body, entry: &Entry) -> Opt
         return None;
     }
     let entries = super::table(report, &entry.node, &format!("[{which}]"))?;
-    let mut body =
-        NamedJoints { body: which, span: entry.key_span.clone(), joints: Vec::new(), index: BTreeMap::new() };
+    let mut body = NamedJoints {
+        body: which,
+        span: entry.key_span.clone(),
+        joints: Vec::new(),
+        index: BTreeMap::new(),
+        first_there: Vec::new(),
+    };
     let is_joint = |e: &&Entry| e.key != "legs" || !is_list_of_pairs(&e.node);
     let names = entries.iter().filter(is_joint).enumerate();
     body.index = names.map(|(i, e)| (e.key.clone(), i)).collect();
@@ -105,19 +132,17 @@ pub(super) fn body(report: &mut Findings<'_>, which: Body, entry: &Entry) -> Opt
             places,
         });
     }
+    body.first_there = (0..body.joints.len()).collect();
     Some(body)
 }
 
 pub(super) fn warn_coincident(report: &mut Findings<'_>, body: &NamedJoints) {
-    let mut seen: BTreeMap<[u64; 3], &str> = BTreeMap::new();
-    for joint in body.joints.iter().filter(|j| j.intact) {
-        let key = joint.point.map(|x| (x + 0.0).to_bits()); // -0 + 0 = 0: one place, one key
-        if let Some(first) = seen.get(&key) {
-            let (first, second) = ((*first).to_string(), joint.name.clone());
+    for (joint, first) in body.joints.iter().zip(&body.first_there) {
+        let first = &body.joints[*first].name;
+        if *first != joint.name {
+            let (first, second) = (first.clone(), joint.name.clone());
             let line = report.line(joint.span.start);
             report.warn(Warning::CoincidentJoints { body: body.body, first, second, line });
-        } else {
-            seen.insert(key, &joint.name);
         }
     }
 }
@@ -210,14 +235,18 @@ fn refuse_identical(
     let mut seen: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (i, pair) in pairs.iter().enumerate() {
         let Some(pair) = pair else { continue };
-        if let Some(first) = seen.get(pair) {
-            let (a, b) = (shown(&base.joints[pair.0].name), shown(&platform.joints[pair.1].name));
-            let message = format!("legs {} and {} both join {a} to {b}", first + 1, i + 1);
+        // joints at one place are one joint, whatever their names are
+        let place = (base.first_there[pair.0], platform.first_there[pair.1]);
+        if let Some(first) = seen.get(&place) {
+            let name = |body: &NamedJoints, j: usize| shown(&body.joints[j].name);
+            let (a, b) = (name(base, place.0), name(platform, place.1));
+            let places = if place == *pair { "" } else { ", or joints at the same places" };
+            let message = format!("legs {} and {} both join {a} to {b}{places}", first + 1, i + 1);
             let help =
                 "each leg needs its own pair of joints; with two equal legs the platform is never rigid";
             report.refuse(Code::IdenticalLegs, &list[i].span, message, help);
         } else {
-            seen.insert(*pair, i);
+            seen.insert(place, i);
         }
     }
 }
@@ -230,7 +259,7 @@ fn check_use(report: &mut Findings<'_>, body: &NamedJoints, used: [usize; 6]) {
             report.warn(Warning::UnusedJoint { body: body.body, name: joint.name.clone(), line });
         }
     }
-    let mut distinct = used.to_vec();
+    let mut distinct = used.map(|i| body.first_there[i]).to_vec();
     distinct.sort_unstable();
     distinct.dedup();
     if let [i, j, k] = distinct.as_slice() {

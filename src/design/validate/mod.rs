@@ -90,7 +90,10 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
         }
         _ => None,
     };
-    [&base, &platform].into_iter().flatten().for_each(|body| joints::warn_coincident(report, body));
+    for body in [&mut base, &mut platform].into_iter().flatten() {
+        body.find_coincident(constructions.as_ref());
+        joints::warn_coincident(report, body);
+    }
     let legs = match (legs_entry, &base, &platform) {
         (Some(entry), Some(base), Some(platform)) => joints::legs(report, entry, base, platform),
         _ => None,

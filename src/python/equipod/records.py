@@ -1667,7 +1667,7 @@ class FkAnswer(Record):
     dimension: Union[int, None]
     #: What was seen numerically.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves it.
+    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy the relation within rounding only and have finitely many poses.
     dimension_established: Union[bool, None]
     #: Null: not established.
     degree: Union[int, None]
@@ -1728,7 +1728,7 @@ class FkOneAnswer(Record):
     dimension: Union[int, None]
     #: What was seen numerically.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves it.
+    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy the relation within rounding only and have finitely many poses.
     dimension_established: Union[bool, None]
     #: Null: not established.
     degree: Union[int, None]
@@ -1794,7 +1794,7 @@ class FkRowRecord(Record):
     dimension: Union[int, None]
     #: What was seen numerically.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves it.
+    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy the relation within rounding only and have finitely many poses.
     dimension_established: Union[bool, None]
     #: Null: not established.
     degree: Union[int, None]
@@ -2149,8 +2149,10 @@ class JointsRecord(Record):
 
     #: The least exact of the joints decides.
     exactness: ExactnessWord
-    #: The integers whose square roots generate the field of the exact coordinates; empty for fractions.
+    #: The integers whose square roots generate the field of the exact coordinates, beside the cosines of `divisions`; empty for fractions.
     radicands: tuple[int, ...]
+    #: Numbers `n` whose cosines `cos(360 / n)` degrees belong to the generators: some of 9, 16, 20 and 32.
+    divisions: tuple[int, ...]
     #: Joints known between bounds only, with their bodies: `base.A2`.
     enclosed: tuple[str, ...]
     #: The same in words.

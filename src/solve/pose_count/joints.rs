@@ -1,15 +1,16 @@
 //! The joints of a design modulo a prime: doubles as the dyadic numbers they are, exact joints as the algebraic numbers they are.
 //!
-//! Coordinates that are sums of square roots have residues modulo primes for which the square roots exist ([`SplitField`]); primes are drawn until there is one.
+//! Coordinates that are sums of square roots and cosines have residues modulo primes for which these exist ([`SplitField`]); primes are drawn until there is one.
 
 use super::{CountUndecided, Lengths};
 use crate::manipulator::{ExactEnds, JointKnowledge, Leg, Manipulator};
-use crate::num::Rng;
 use crate::num::modular::{Field, mantissa_and_exponent};
 use crate::num::split::SplitField;
 use crate::num::surd::Surd;
+use crate::num::{Purpose, Rng};
 use num_bigint::BigInt;
 use num_integer::Integer as _;
+use sha2::{Digest, Sha256};
 
 /// The ends of the legs modulo a prime, on base and platform.
 pub(super) type EndResidues = [[[u64; 3]; 2]; 6];
@@ -26,7 +27,7 @@ pub(super) struct DrawnPrime {
 pub(super) enum CountedJoints {
     /// As the doubles they are.
     Dyadic(Box<[Leg; 6]>),
-    /// As sums of square roots.
+    /// As sums of square roots and cosines.
     Algebraic(Box<[ExactEnds; 6]>),
 }
 
@@ -36,6 +37,33 @@ impl CountedJoints {
             return Ok(Self::Dyadic(Box::new(m.legs())));
         }
         m.exact_ends().map(|ends| Self::Algebraic(Box::new(ends))).ok_or(CountUndecided::JointsNotExact)
+    }
+
+    /// The generator of the primes and sections for these joints and lengths.
+    ///
+    /// No design and lengths have the primes of others at the same seed, so that none can be made of the primes by which it will be judged: these follow from a hash of
+    /// it.
+    pub(super) fn rng(&self, lengths: Lengths<'_>, seed: u64) -> Rng {
+        let mut hash = Sha256::new();
+        hash.update(seed.to_le_bytes());
+        let mut doubles = |list: &[f64]| list.iter().for_each(|x| hash.update(x.to_bits().to_le_bytes()));
+        match lengths {
+            Lengths::Given(squares) => doubles(squares.as_flattened()),
+            Lengths::Generic => doubles(&[]),
+        }
+        match self {
+            Self::Dyadic(legs) => {
+                legs.iter().for_each(|l| {
+                    doubles(&[l.base.coords.as_slice(), l.platform.coords.as_slice()].concat())
+                });
+            }
+            Self::Algebraic(ends) => {
+                ends.iter().flatten().flatten().for_each(|x| hash.update(format!("{x};")));
+            }
+        }
+        let digest: [u8; 32] = hash.finalize().into();
+        let first = digest.iter().take(8).fold(0, |word, byte| word << 8 | u64::from(*byte));
+        Purpose::POSE_COUNT.rng(first)
     }
 
     /// A prime modulo which the joints have residues, and these; `None` when none was drawn.

@@ -10,7 +10,6 @@ mod quadrics;
 mod quotient;
 
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::num::Purpose;
 use crate::num::modular::Field;
 pub(crate) use infinity::are_points_at_infinity_finite;
 use joints::{CountedJoints, DrawnPrime, EndResidues};
@@ -37,7 +36,7 @@ const SECTION_BITS: f64 = 64.0;
 /// How the poses are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CountOptions {
-    /// Seed of the primes and of the random linear sections.
+    /// Seed of the primes and of the random linear sections, which follow from it and from a hash of the joints and lengths.
     pub seed: u64,
     /// Number of primes that have to agree.
     pub primes: usize,
@@ -88,7 +87,7 @@ pub enum CountUndecided {
     PrimesDisagree,
     /// Joints are known between bounds only.
     JointsNotExact,
-    /// The joints are made of square roots, and none of the primes drawn has these.
+    /// The joints are made of square roots and cosines, and none of the primes drawn has these.
     NoPrimeDrawn,
 }
 
@@ -126,7 +125,7 @@ pub struct PoseCount {
     pub set: PoseSet,
     /// Whether it is the set of the lengths given.
     pub lengths: CountedLengths,
-    /// The primes, drawn uniformly from those between `2^60` and `2^61`; for joints made of square roots the first of several draws that has these.
+    /// The primes, drawn uniformly from those between `2^60` and `2^61`; for joints made of square roots and cosines the first of several draws that has these.
     pub primes: Vec<u64>,
     /// Bound on the probability that primes drawn so lead to another set than exact arithmetic does; zero when the set is undecided.
     pub error_probability: f64,
@@ -243,7 +242,11 @@ fn counted_in(
     chart: CountedChart,
     options: &CountOptions,
 ) -> PoseCount {
-    let mut rng = Purpose::POSE_COUNT.rng(options.seed);
+    let joints = match CountedJoints::of(m) {
+        Ok(joints) => joints,
+        Err(why) => return PoseCount::undecided(why),
+    };
+    let mut rng = joints.rng(lengths, options.seed);
     let mut integer = || (rng.next_u64() >> 4).cast_signed();
     let draws = Draws {
         squares: std::array::from_fn(|_| integer()),
@@ -257,19 +260,16 @@ fn counted_in(
             CountedChart::All => std::array::from_fn(|_| integer()),
         },
     };
-    let joints = match CountedJoints::of(m) {
-        Ok(joints) => joints,
-        Err(why) => return PoseCount::undecided(why),
-    };
     let mut out: Option<PoseCount> = None;
+    // that lengths or sections drawn at random are special, the same for all primes
     let mut special: f64 = 0.0;
     for _ in 0..options.primes.max(1) {
         let Some(prime) = joints.drawn(&mut rng) else {
             return PoseCount::undecided(CountUndecided::NoPrimeDrawn);
         };
-        let (set, depth) = set_modulo(prime.field, &prime.ends, lengths, &draws);
+        let SetModulo { set, depth, sections } = set_modulo(prime.field, &prime.ends, lengths, &draws);
         let error = error_probability(&joints, &prime, lengths, (chart, depth));
-        if matches!(lengths, Lengths::Generic) {
+        if sections > 0 || matches!(lengths, Lengths::Generic) {
             special = special.max(minors(chart, depth) / 2f64.powi(60));
         }
         let count = out.get_or_insert_with(|| PoseCount {
@@ -298,8 +298,17 @@ fn counted_in(
     count
 }
 
-/// The set modulo one prime, and the degree of the multiples used.
-fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Draws) -> (PoseSet, usize) {
+/// The set modulo one prime.
+struct SetModulo {
+    set: PoseSet,
+    /// Degree of the multiples used.
+    depth: usize,
+    /// Random linear equations that the set was cut with.
+    sections: usize,
+}
+
+fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Draws) -> SetModulo {
+    let undecided = PoseSet::Undecided { why: CountUndecided::DegreeTooLow };
     let mut equations: Vec<Linear> = (0..6)
         .map(|i| {
             let square = match lengths {
@@ -315,7 +324,7 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
         6 - field.rank(equations.iter().map(|e| std::array::from_fn::<_, H, _>(|k| e[k])).collect());
     if relations > 0 && draws.chart != CountedChart::Finite {
         // points at infinity need not form sets of the dimension that the relations give the poses
-        return (PoseSet::Undecided { why: CountUndecided::DegreeTooLow }, 2);
+        return SetModulo { set: undecided, depth: 2, sections: 0 };
     }
     let form = |coefficients: &[i64; COORDINATES], value: u64| -> Linear {
         std::array::from_fn(|k| coefficients.get(k).map_or(value, |x| field.integer(*x)))
@@ -330,7 +339,12 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
             equations.push(section(dimension - 1));
         }
         let (unknowns, polynomials) = match cut(field, &equations) {
-            Cut::Empty => return (PoseSet::Finite { count: 0, by_degree: Vec::new() }, deepest),
+            Cut::Empty => {
+                // later sections that contradict the legs say nothing of the set
+                let none = PoseSet::Finite { count: 0, by_degree: Vec::new() };
+                let set = if dimension == relations { none } else { undecided };
+                return SetModulo { set, depth: deepest, sections: dimension };
+            }
             Cut::Quadrics { unknowns, polynomials } => (unknowns, polynomials),
         };
         if let Outcome::Closed { by_degree, depth } = close(field, unknowns, polynomials, DEGREE) {
@@ -339,14 +353,14 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
             let set = if dimension == 0 || (count == 0 && dimension == relations) {
                 PoseSet::Finite { count, by_degree }
             } else if count == 0 {
-                PoseSet::Undecided { why: CountUndecided::DegreeTooLow }
+                undecided
             } else {
                 PoseSet::PositiveDimensional { dimension, degree: count }
             };
-            return (set, deepest);
+            return SetModulo { set, depth: deepest, sections: dimension };
         }
     }
-    (PoseSet::Undecided { why: CountUndecided::DegreeTooLow }, deepest)
+    SetModulo { set: undecided, depth: deepest, sections: 6 }
 }
 
 /// `r - 2 a.y - 2 b.x - 2 a.(M b) + (|a|^2 + |b|^2 - s) h = 0`.
@@ -372,7 +386,7 @@ fn leg_equation(field: Field, [a, b]: &[[u64; 3]; 2], square: u64) -> Linear {
 /// A bad prime divides a minor, not zero, of the integer matrix of all multiples of some degree `<= depth + 1` of the quadrics and linear equations in sixteen unknowns, or of its columns above one of the
 /// degrees `0..=DEGREE`, of seventeen where the chart is not `h = 1`. Hadamard: a minor is at most
 /// the product of the norms of its rows. It has as many prime factors above `2^60` as sixty goes into its bits, of more than `3 2^60 / (5 ln 2^60)` primes between `2^60` and
-/// `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots are algebraic integers: a bad prime divides their norm, and any of the primes
+/// `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots and cosines are algebraic integers: a bad prime divides their norm, and any of the primes
 /// drawn may be bad.
 fn error_probability(
     joints: &CountedJoints,

@@ -71,10 +71,13 @@ fn count_line(out: &mut String, name: &str, s: &SolvedRecord) {
 /// What stands before the reason.
 fn completeness(s: &SolvedRecord) -> &'static str {
     let moves = matches!(s.solution_set, SolutionSetRecord::PositiveDimensional { .. });
+    let as_written =
+        matches!(s.solution_set, SolutionSetRecord::PositiveDimensional { dimension_established: true, .. });
     match (s.completeness, moves, s.all_paths_accounted) {
         (CompletenessWord::Proved, ..) => "complete: proved",
         (CompletenessWord::Modular, ..) => "complete: modulo random primes",
-        (CompletenessWord::Unproved, true, true) => "self-motion: established",
+        (CompletenessWord::Unproved, true, true) if as_written => "self-motion: established",
+        (CompletenessWord::Unproved, true, true) => "self-motion within the rounding of the lengths",
         (CompletenessWord::Unproved, true, false) => "UNDECIDED: self-motion",
         (CompletenessWord::Unproved, false, true) => "complete: not proved",
         (CompletenessWord::Unproved, false, false) => "INCOMPLETE: roots may be missing",
