@@ -9,7 +9,7 @@ use num_bigint::BigInt;
 use num_integer::Integer as _;
 
 use super::Rng;
-use super::modular::Field;
+use super::modular::{Field, all_fields};
 use super::surd::Surd;
 
 /// Primes drawn for every one that is expected to have all square roots, before it is said that there is none.
@@ -38,6 +38,15 @@ impl SplitField {
             let roots = base.iter().map(|n| Some((*n, field.square_root(n % field.prime())?)));
             Some(Self { field, roots: roots.collect::<Option<_>>()? })
         })
+    }
+
+    /// The fields of primes below `2^61` that have square roots of all radicands of the numbers, largest prime first; `None` for more roots than primes are looked through for.
+    pub(crate) fn all<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> Option<impl Iterator<Item = Self>> {
+        let base = root_base(numbers)?;
+        Some(all_fields().filter_map(move |field| {
+            let roots = base.iter().map(|n| Some((*n, field.square_root(n % field.prime())?)));
+            Some(Self { field, roots: roots.collect::<Option<_>>()? })
+        }))
     }
 
     /// The field.
@@ -85,6 +94,15 @@ impl SplitField {
     fn integer(&self, x: &BigInt) -> u64 {
         x.mod_floor(&BigInt::from(self.field.prime())).iter_u64_digits().next().unwrap_or(0)
     }
+}
+
+/// Pairwise coprime numbers whose square roots generate a field with the numbers in it, a basis of products of them being all square roots that products of the numbers have; `None` when
+/// there are too many, and when their product has more than 63 bits.
+pub(crate) fn root_base<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> Option<Vec<u64>> {
+    let radicands: BTreeSet<u64> = numbers.into_iter().flat_map(Surd::radicands).collect();
+    let base = coprime_base(&radicands);
+    let product = base.iter().try_fold(1u64, |p, n| p.checked_mul(*n))?;
+    (base.len() <= MOST_ROOTS && product >> 63 == 0).then_some(base)
 }
 
 /// Pairwise coprime numbers above 1 of which all numbers given, squarefree, are products.

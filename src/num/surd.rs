@@ -47,7 +47,20 @@ impl Surd {
     }
 
     /// In lowest terms; `None` when that is too long.
-    fn lowest(mut terms: BTreeMap<u64, BigInt>, denominator: BigInt) -> Option<Self> {
+    fn lowest(terms: BTreeMap<u64, BigInt>, denominator: BigInt) -> Option<Self> {
+        Self::reduced(terms, denominator).short()
+    }
+
+    /// The number itself, `None` when it is too long.
+    fn short(self) -> Option<Self> {
+        let short = |x: &BigInt| x.bits() <= MAX_BITS;
+        let fits =
+            self.terms.len() <= MAX_TERMS && short(&self.denominator) && self.terms.values().all(short);
+        fits.then_some(self)
+    }
+
+    /// In lowest terms, however long.
+    fn reduced(mut terms: BTreeMap<u64, BigInt>, denominator: BigInt) -> Self {
         terms.retain(|_, c| !c.is_zero());
         let mut common = denominator.clone();
         for c in terms.values() {
@@ -62,9 +75,12 @@ impl Surd {
                 *c = &*c / &common;
             }
         }
-        let short = |x: &BigInt| x.bits() <= MAX_BITS;
-        let fits = terms.len() <= MAX_TERMS && short(&denominator) && terms.values().all(short);
-        fits.then_some(Self { terms, denominator })
+        Self { terms, denominator }
+    }
+
+    /// A fraction, however long.
+    pub(super) fn long_rational(x: &Rational) -> Self {
+        Self::reduced(BTreeMap::from([(1, x.numer().clone())]), x.denom().clone())
     }
 
     pub(crate) fn is_zero(&self) -> bool {
@@ -101,13 +117,18 @@ impl Surd {
     }
 
     pub(crate) fn plus(&self, other: &Self) -> Option<Self> {
+        self.sum(other).short()
+    }
+
+    /// The sum, however long.
+    pub(super) fn sum(&self, other: &Self) -> Self {
         let common = self.denominator.lcm(&other.denominator);
         let (f, g) = (&common / &self.denominator, &common / &other.denominator);
         let mut terms: BTreeMap<u64, BigInt> = self.terms.iter().map(|(r, c)| (*r, c * &f)).collect();
         for (r, c) in &other.terms {
             *terms.entry(*r).or_default() += c * &g;
         }
-        Self::lowest(terms, common)
+        Self::reduced(terms, common)
     }
 
     pub(crate) fn minus(&self, other: &Self) -> Option<Self> {
@@ -115,6 +136,11 @@ impl Surd {
     }
 
     pub(crate) fn times(&self, other: &Self) -> Option<Self> {
+        self.product(other)?.short()
+    }
+
+    /// The product, however long; `None` when a radicand exceeds 64 bits.
+    pub(super) fn product(&self, other: &Self) -> Option<Self> {
         let mut terms: BTreeMap<u64, BigInt> = BTreeMap::new();
         for (r, c) in &self.terms {
             for (s, d) in &other.terms {
@@ -124,7 +150,7 @@ impl Surd {
                 *terms.entry(radicand).or_default() += c * d * g;
             }
         }
-        Self::lowest(terms, &self.denominator * &other.denominator)
+        Some(Self::reduced(terms, &self.denominator * &other.denominator))
     }
 
     /// `a` and `b` with the number `a + b sqrt(p)`, no radicand of which `p` divides; `p` is prime.
@@ -137,7 +163,7 @@ impl Surd {
                 a.insert(*r, c.clone());
             }
         }
-        let of = |terms| Self::lowest(terms, self.denominator.clone()).unwrap_or_else(Self::zero);
+        let of = |terms| Self::reduced(terms, self.denominator.clone());
         (of(a), of(b))
     }
 
@@ -149,17 +175,22 @@ impl Surd {
 
     /// `1 / x`; `None` for zero and when the result is too long.
     pub(crate) fn inverse(&self) -> Option<Self> {
+        self.reciprocal()?.short()
+    }
+
+    /// `1 / x`, however long; `None` for zero and when a radicand exceeds 64 bits.
+    pub(super) fn reciprocal(&self) -> Option<Self> {
         if self.is_zero() {
             return None;
         }
         let Some(p) = self.some_prime() else {
-            return Self::rational(&self.as_rational()?.recip());
+            return Some(Self::long_rational(&self.as_rational()?.recip()));
         };
         // 1 / (a + b sqrt p) = (a - b sqrt p) / (a^2 - p b^2), whose divisor has one square root less
         let (a, b) = self.split(p);
         let root = Self { terms: BTreeMap::from([(p, BigInt::one())]), denominator: BigInt::one() };
-        let conjugate = a.minus(&b.times(&root)?)?;
-        conjugate.times(&self.times(&conjugate)?.inverse()?)
+        let conjugate = a.sum(&b.product(&root)?.negated());
+        conjugate.product(&self.product(&conjugate)?.reciprocal()?)
     }
 
     /// The square root that is not negative; `None` for negative numbers and when it is not found among these sums.

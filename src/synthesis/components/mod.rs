@@ -39,7 +39,8 @@ pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
 use self::flats::{BothReadings, ClosedPair, closed_pairs};
 use self::search::Search;
 use super::leg_vector::{LegSpan, Normalisation};
-use crate::manipulator::{Body, ExactLegs, Leg, LegIndex, Manipulator, homogeneous};
+use crate::manipulator::{AlgebraicVector, Body, ExactLegs, Leg, LegIndex, Manipulator, homogeneous};
+use crate::num::algebraic::Algebraic;
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 
@@ -148,7 +149,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     let ends = BothReadings {
         base: scaled.map(|l| l.base.coords),
         platform: scaled.map(|l| l.platform.coords),
-        exact: ExactLegs::of(&legs).ok_or(ComponentsError::NonFinite)?,
+        exact: ExactLegs::of(m).or_else(|| ExactLegs::of_doubles(&legs)).ok_or(ComponentsError::NonFinite)?,
         design: legs,
         tolerance: options.tolerance,
     };
@@ -192,7 +193,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
 /// Whether the vector of a leg is a combination of those of six, all coordinates taken as the rational numbers they are.
 #[must_use]
 pub fn exactly_replaceable(legs: &[Leg; 6], leg: &Leg) -> bool {
-    ExactLegs::of(legs).is_some_and(|e| e.contains(leg))
+    ExactLegs::of_doubles(legs).is_some_and(|e| e.contains(leg))
 }
 
 /// Homogeneous partners of a point of one body: the `y` for which point and `y` are a leg that is a combination of some of the six. Exact.
@@ -211,7 +212,8 @@ pub(super) fn exact_partners(
     point: &Point3<f64>,
     among: &[usize],
 ) -> Option<ExactPartners> {
-    let (exact, x) = (ExactLegs::of(legs)?, homogeneous(point)?);
+    let x: AlgebraicVector = homogeneous(point)?.into_iter().map(Algebraic::Rational).collect();
+    let exact = ExactLegs::of_doubles(legs)?;
     Some(ExactPartners {
         dimension: exact.fibre(body, &x, among),
         at_infinity: exact.fibre_at_infinity(body, &x, among),

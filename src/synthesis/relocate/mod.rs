@@ -76,10 +76,10 @@ pub struct Relocation {
 }
 
 impl Relocation {
-    /// Whether the new platform is equivalent to the old one.
+    /// Whether the new platform is equivalent to the old one, within the rounding of its computed joints.
     #[must_use]
     pub fn is_regular(&self) -> bool {
-        self.map.relation == Relation::Equivalent
+        self.map.is_regular_within_rounding()
     }
 }
 

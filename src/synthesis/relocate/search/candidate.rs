@@ -241,7 +241,7 @@ pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>,
     placements.sort_by_key(|p| p.leg);
     let assembled = assemble(scorer.m, &new);
     let map = leg_map_to_legs(scorer.m, &assembled.legs, LegMapTolerances::default())?;
-    if map.relation != Relation::Equivalent {
+    if !map.is_regular_within_rounding() {
         return Ok(None);
     }
     let Ok(platform) = &assembled.platform else { return Ok(None) };
