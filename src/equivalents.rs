@@ -73,7 +73,15 @@ impl Original {
         });
         let on_edges =
             std::array::from_fn(|side| [false, true].map(|second| free_name(design, side, second)));
-        Self { octahedral, design: design.clone(), name: design.name.clone(), corners, on_edges, seen: None, map: None }
+        Self {
+            octahedral,
+            design: design.clone(),
+            name: design.name.clone(),
+            corners,
+            on_edges,
+            seen: None,
+            map: None,
+        }
     }
 
     /// A design of Griffis-Duffy type: its joints at the corners are those of the original, leg on side `k` becomes leg `k` of the cycle.

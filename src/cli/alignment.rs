@@ -15,8 +15,8 @@ use crate::geom::Pose;
 use crate::manipulator::Manipulator;
 use crate::num::linalg::LinalgError;
 use crate::records::{AlignmentRecord, FramesRecord};
-use crate::synthesis::{LegMapOutcome, Relation};
 use crate::synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
+use crate::synthesis::{LegMapOutcome, Relation};
 
 /// Options about the frames of the second design.
 #[derive(Debug, clap::Args)]

@@ -125,7 +125,9 @@ impl InconclusiveReason {
                 "the leg map holds within rounding, but forward kinematics of the two does not give the same poses at a sample, more than rounding of the joints explains: \
                  nothing is concluded from the samples (bodies of very different size, or nearly double poses, make poses this uncertain)"
             }
-            Self::MapUndecided => "the leg map is not decided: a singular platform is within rounding of one of the two",
+            Self::MapUndecided => {
+                "the leg map is not decided: a singular platform is within rounding of one of the two"
+            }
             Self::NoSamples => "no sets of lengths were compared: forward kinematics has said nothing",
             Self::WithinRounding => {
                 "the platforms are equivalent within rounding, not proved: the leg map holds as far as the joints are known, and forward kinematics agrees"
@@ -413,9 +415,7 @@ fn verified(
         return Err(VerifyError::Cancelled);
     }
     let verdict = match map.relation {
-        Relation::Equivalent => {
-            contradiction(&samples).map_or(Ok(Verdict::Equivalent), Err)?
-        }
+        Relation::Equivalent => contradiction(&samples).map_or(Ok(Verdict::Equivalent), Err)?,
         Relation::Unrelated => {
             let found = samples.iter().enumerate().find_map(|(k, s)| counterexample(a, b, k, s));
             if found.is_some() || map.level.is_proved() {

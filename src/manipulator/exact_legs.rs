@@ -128,10 +128,13 @@ impl ExactJoints {
         match self {
             Self::Doubles(legs) => {
                 let all = legs.iter().flat_map(|l| l.base.iter().chain(l.platform.iter()));
-                all.map(|x| mantissa_and_exponent(*x)).filter(|(m, _)| *m != 0).fold([0, 0], |[d, n], (m, e)| {
-                    let length = i64::from(64 - m.unsigned_abs().leading_zeros());
-                    [d.max(-i64::from(e)), n.max(length + i64::from(e))]
-                })
+                all.map(|x| mantissa_and_exponent(*x)).filter(|(m, _)| *m != 0).fold(
+                    [0, 0],
+                    |[d, n], (m, e)| {
+                        let length = i64::from(64 - m.unsigned_abs().leading_zeros());
+                        [d.max(-i64::from(e)), n.max(length + i64::from(e))]
+                    },
+                )
             }
             Self::Surds(_) => {
                 let common = self.surds().fold(BigInt::from(1), |l, x| l.lcm(x.denominator()));

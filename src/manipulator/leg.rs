@@ -88,7 +88,7 @@ pub struct Manipulator {
     size: f64,
     /// What the joints are where they are not the doubles.
     pub(super) values: Option<Arc<JointValues>>,
-    /// Whether joints are given by other than plain numbers, so that all are exact as said and none was rounded.
+    /// Whether joints are given by constructions, and none by plain numbers that look rounded: all are exact as said.
     pub(super) constructed: bool,
 }
 

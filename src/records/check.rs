@@ -172,7 +172,9 @@ fn explanation(c: &CheckReport) -> String {
         };
     }
     match (c.is_singular(), c.architecture.findings.first()) {
-        (None, _) => "joints are known between bounds only, and no pose is proved to hold the platform".into(),
+        (None, _) => {
+            "joints are known between bounds only, and no pose is proved to hold the platform".into()
+        }
         (_, Some(f)) => format!("{} ({})", f.case.sentence(), list(&f.legs)),
         (_, None) => "almost every pose holds the platform".into(),
     }

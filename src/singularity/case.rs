@@ -344,7 +344,7 @@ fn planar_map(a: &[AlgebraicVector], b: &[AlgebraicVector]) -> Option<PlanarMap>
     let affine = |x: &[AlgebraicVector], y: &[AlgebraicVector]| {
         let rows = x.iter().zip(y).map(|(x, y)| x.iter().chain(&y[1..]).cloned().collect());
         // the graph of an affine map of a plane is a plane
-        rank(&rows.collect::<Vec<_>>()) == 3
+        rank(&rows.collect::<Vec<AlgebraicVector>>()) == 3
     };
     if affine(a, b) {
         return Some(PlanarMap::Affine);
@@ -431,7 +431,8 @@ mod tests {
     }
 
     fn points(list: &[[f64; 3]]) -> Vec<AlgebraicVector> {
-        let exact = |p: &[f64; 3]| homogeneous(&Point3::from(*p)).unwrap().into_iter().map(Algebraic::Rational);
+        let exact =
+            |p: &[f64; 3]| homogeneous(&Point3::from(*p)).unwrap().into_iter().map(Algebraic::Rational);
         list.iter().map(|p| exact(p).collect()).collect()
     }
 

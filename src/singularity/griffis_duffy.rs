@@ -61,8 +61,7 @@ impl GriffisDuffy {
             }
         }
         let mut found = best?;
-        found.exactly_singular =
-            ExactLegs::of(m).is_some_and(|legs| exactly_singular(&legs, found.order));
+        found.exactly_singular = ExactLegs::of(m).is_some_and(|legs| exactly_singular(&legs, found.order));
         Some(found)
     }
 

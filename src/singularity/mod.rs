@@ -78,8 +78,7 @@ impl Architecture {
         }
         let middles = m.without_values();
         let of_middles = ExactJoints::of(&middles).zip(ExactLegs::of(&middles));
-        let found =
-            of_middles.and_then(|(joints, legs)| Self::decided(&middles, &joints, &legs, level));
+        let found = of_middles.and_then(|(joints, legs)| Self::decided(&middles, &joints, &legs, level));
         let Some(found) = found else { unreachable!("coordinates of a manipulator are finite") };
         Self { level: None, ..found }
     }
@@ -116,6 +115,14 @@ impl Architecture {
     pub fn is_singular(&self) -> Option<bool> {
         self.level.map(|_| self.jacobian.rank < 6)
     }
+}
+
+/// Whether a regular design has doubles that are singular: what follows its legs in doubles follows those of another design.
+#[cfg(feature = "cli")]
+pub(crate) fn rounds_to_singular(m: &Manipulator) -> bool {
+    m.level() == Level::ExactJoints
+        && Architecture::of(m).is_singular() == Some(false)
+        && Architecture::of(&m.without_values()).is_singular() == Some(true)
 }
 
 /// A smallest set of legs whose lines are dependent at every pose, for a design with independent leg vectors.

@@ -190,8 +190,8 @@ mod tests {
 
     /// The relation of platforms by their exact ends.
     fn relation(from: &[ExactEnds; 6], to: &[ExactEnds; 6]) -> ExactRelation {
-        let [from, to] = [from, to]
-            .map(|ends| ExactLegs::of(&Manipulator::from_exact_ends(ends).unwrap()).unwrap());
+        let [from, to] =
+            [from, to].map(|ends| ExactLegs::of(&Manipulator::from_exact_ends(ends).unwrap()).unwrap());
         ExactRelation::of(&from, &to)
     }
 
@@ -275,7 +275,9 @@ mod tests {
         let octahedral = slid(&std::array::from_fn(|_| Surd::zero()));
         let half = slid(&std::array::from_fn(|_| surd(1, 2)));
         let found = relation(&octahedral, &half);
-        assert!(matches!(&found, ExactRelation::Singular { ranks: [6, 5], map: Some(map) } if map.determinant.is_zero()));
+        assert!(
+            matches!(&found, ExactRelation::Singular { ranks: [6, 5], map: Some(map) } if map.determinant.is_zero())
+        );
         let back = relation(&half, &octahedral);
         assert_eq!(back, ExactRelation::Singular { ranks: [5, 6], map: None });
         let mut off = slid(&[1, 2, 3, 1, 2, 4].map(|n| surd(n, 5)));

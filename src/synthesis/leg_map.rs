@@ -241,7 +241,11 @@ impl LegMapOutcome {
     pub fn is_regular_within_rounding(&self) -> bool {
         match self.relation {
             Relation::Equivalent => true,
-            Relation::Undecided => self.holds_within_rounding && self.inverse_condition > self.singular_limit,
+            Relation::Undecided => {
+                self.holds_within_rounding
+                    && self.near_singular.is_none()
+                    && self.inverse_condition > self.singular_limit
+            }
             Relation::Singular | Relation::Unrelated => false,
         }
     }
@@ -337,13 +341,18 @@ impl LegMapOutcome {
                 if o.inverse_condition > o.singular_limit {
                     String::new()
                 } else {
-                    format!("; a singular A is within rounding too (smallest singular value {:.1e} of the largest)", o.inverse_condition)
+                    format!(
+                        "; a singular A is within rounding too (smallest singular value {:.1e} of the largest)",
+                        o.inverse_condition
+                    )
                 }
             ),
             Relation::Equivalent => format!(
                 "proved {level}: same poses for corresponding lengths, same singularities, since every leg vector of TO is a combination of those of FROM and \
                  det A{} is not zero",
-                o.exact_numbers.as_ref().map_or_else(String::new, |numbers| format!(" = {}", numbers.determinant))
+                o.exact_numbers
+                    .as_ref()
+                    .map_or_else(String::new, |numbers| format!(" = {}", numbers.determinant))
             ),
         }
     }

@@ -1,9 +1,9 @@
 //! One judgement for each question: the commands that ask whether a design is singular, or two are equivalent, say the same word, with the same level and exit code.
 
-use equipod::prelude::*;
 use equipod::methods::manipulator::Level;
 use equipod::methods::num::Rng;
 use equipod::methods::synthesis::{Family, Pattern, Relation};
+use equipod::prelude::*;
 use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
@@ -42,9 +42,12 @@ fn compared(a: &str, b: &str) -> (Option<i32>, String, Value) {
 
 #[test]
 fn exactly_singular_designs_are_singular_in_every_command() {
-    for (singular, octahedral) in
-        [("exact-midline-sqrt3", Some("oct-sqrt3")), ("gd-exact-singular", Some("gd-oct-exact")), ("shares-30-70", None), ("cyclic-hexagons", None)]
-    {
+    for (singular, octahedral) in [
+        ("exact-midline-sqrt3", Some("oct-sqrt3")),
+        ("gd-exact-singular", Some("gd-oct-exact")),
+        ("shares-30-70", None),
+        ("cyclic-hexagons", None),
+    ] {
         let (code, is_singular, level, doc) = checked(singular);
         assert_eq!((code, is_singular, level), (Some(1), true.into(), "exact_joints".into()), "{singular}");
         assert_eq!((&doc["leg_rank"], &doc["proof"]), (&5.into(), &"leg_vectors".into()), "{singular}");
@@ -141,7 +144,11 @@ fn platforms_that_are_equivalent_within_rounding_are_not_called_equivalent() {
     let design = Design::load("designs/rbt-octahedral.toml").unwrap();
     let (free, _) = design.equivalents().unwrap().joint_free([0.15, 0.35, 0.2, 0.45, 0.3, 0.6]).unwrap();
     let legs = free.manipulator().legs();
-    let rounded = Design::new("rounded", &design.units, equipod::methods::manipulator::Manipulator::from_legs(legs).unwrap());
+    let rounded = Design::new(
+        "rounded",
+        &design.units,
+        equipod::methods::manipulator::Manipulator::from_legs(legs).unwrap(),
+    );
     let path = folder.path().join("rounded.toml");
     std::fs::write(&path, rounded.to_toml()).unwrap();
     let rounded = path.to_str().unwrap();
@@ -151,7 +158,10 @@ fn platforms_that_are_equivalent_within_rounding_are_not_called_equivalent() {
         let (of_verify, verify) = asked(&["verify", a, b, "--samples", "1"]);
         assert_eq!((code, of_verify), (Some(3), Some(3)), "{map}");
         assert_eq!((&map["relation"], &map["level"]), (&Value::Null, &"within_rounding".into()));
-        assert_eq!((&map["holds_within_rounding"], &verify["verdict"]), (&true.into(), &"inconclusive".into()));
+        assert_eq!(
+            (&map["holds_within_rounding"], &verify["verdict"]),
+            (&true.into(), &"inconclusive".into())
+        );
         assert!(verify["explanation"].as_str().unwrap().contains("within rounding"), "{verify}");
     }
     let (code, _) = asked(&["equivalents", "family", rounded]);
@@ -221,7 +231,8 @@ fn check_map_and_verify_agree_on_exact_designs() {
         let original: Design = text.parse().unwrap();
         let class = original.equivalents().unwrap();
         let picked = members.iter().enumerate().filter(|(n, m)| {
-            full || n % 182 == 90 * k + 1 || (m.pattern.offsets().len() == 6 && m.pattern.to_string() == "S123456")
+            full || n % 182 == 90 * k + 1
+                || (m.pattern.offsets().len() == 6 && m.pattern.to_string() == "S123456")
         });
         for (n, member) in picked {
             for wanted in [false, true] {
@@ -231,7 +242,11 @@ fn check_map_and_verify_agree_on_exact_designs() {
                 let expected = member.pattern.determinant(&t).unwrap().abs() < 1e-10;
                 let name = format!("{n} {} {t:?} of {}", member.pattern, original.name);
                 let check = design.check().unwrap();
-                assert_eq!((check.is_singular(), check.level()), (Some(expected), Some(Level::ExactJoints)), "{name}");
+                assert_eq!(
+                    (check.is_singular(), check.level()),
+                    (Some(expected), Some(Level::ExactJoints)),
+                    "{name}"
+                );
                 for (a, b) in [(&original, &design), (&design, &original), (&design, &design)] {
                     let map = leg_map(a, b).unwrap();
                     let relation = if expected { Relation::Singular } else { Relation::Equivalent };

@@ -55,15 +55,16 @@ pub fn align(a: &Manipulator, b: &Manipulator, seed: u64) -> Result<Alignment, L
         let (base, platform) = in_frames(&fit, &of_a, &of_b);
         let at_home = Motion { base, platform, map: given.clone() };
         // b as it is given is compared exactly, and moved joints are known to rounding only
-        let (base, platform, map) = if at_home.extent(a.size()) < SAME && given.relation != Relation::Unrelated {
-            (here, here, given.clone())
-        } else {
-            let Ok(moved) = transformed(b, &base, &platform) else {
-                continue; // coordinates beyond the range of doubles
+        let (base, platform, map) =
+            if at_home.extent(a.size()) < SAME && given.relation != Relation::Unrelated {
+                (here, here, given.clone())
+            } else {
+                let Ok(moved) = transformed(b, &base, &platform) else {
+                    continue; // coordinates beyond the range of doubles
+                };
+                let found = leg_map(a, &moved, LegMapTolerances::default())?;
+                (base, platform, found.of_moved(given.relation == Relation::Singular))
             };
-            let found = leg_map(a, &moved, LegMapTolerances::default())?;
-            (base, platform, found.of_moved(given.relation == Relation::Singular))
-        };
         let motion = NearestMotion { base, platform, residual: map.residual };
         if nearest.as_ref().is_none_or(|n| motion.residual < n.residual) {
             nearest = Some(motion);

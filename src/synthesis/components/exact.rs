@@ -44,7 +44,13 @@ impl ExactLegs {
     }
 
     /// Dimension of the `y` in the span of independent `directions` for which `x (x) y` lies in the span of the vectors of `legs`.
-    fn partners(&self, body: Body, x: &AlgebraicVector, legs: &[usize], directions: Vec<AlgebraicVector>) -> usize {
+    fn partners(
+        &self,
+        body: Body,
+        x: &AlgebraicVector,
+        legs: &[usize],
+        directions: Vec<AlgebraicVector>,
+    ) -> usize {
         let mut rows = self.vectors_of(legs);
         let leg_rank = rank(&rows);
         let count = directions.len();

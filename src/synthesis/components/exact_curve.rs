@@ -76,7 +76,10 @@ impl std::fmt::Display for NoExactCurve {
         match self {
             Self::OtherFlats => write!(f, "as written the joints do not have these flats"),
             Self::Irrational => {
-                write!(f, "the joints have square roots in their coordinates; curves are split for fractions only")
+                write!(
+                    f,
+                    "the joints have square roots in their coordinates; curves are split for fractions only"
+                )
             }
             Self::TooLong { bits } => {
                 write!(

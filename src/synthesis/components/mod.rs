@@ -39,9 +39,9 @@ pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
 use self::flats::{BothReadings, ClosedPair, closed_pairs};
 use self::search::Search;
 use super::leg_vector::{LegSpan, Normalisation};
-use crate::manipulator::{AlgebraicVector, Body, ExactLegs, Leg, LegIndex, Manipulator, homogeneous};
-use crate::num::algebraic::Algebraic;
+use crate::manipulator::{AlgebraicVector, Body, ExactLegs, Leg, LegIndex, Level, Manipulator, homogeneous};
 use crate::num::Rng;
+use crate::num::algebraic::Algebraic;
 use crate::num::linalg::LinalgError;
 
 /// Limits of [`components`].
@@ -118,7 +118,7 @@ pub struct Components {
 
 /// All families of replaceable legs of `m`.
 ///
-/// Every rank is decided twice: exactly, on the doubles as rational numbers, and within the tolerance; the families of both
+/// Every rank is decided twice: exactly, on the joints as the numbers they are, and within the tolerance; the families of both
 /// readings are listed, and each says which it belongs to ([`Component::exact`]).
 ///
 /// # Errors
@@ -185,7 +185,18 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
         options.tolerance,
     )
     .beside(Some(ends.exact.rank(&all)));
-    let doubts = search.doubts;
+    let mut doubts = search.doubts;
+    let leg_rank = match leg_rank.exact {
+        // no tolerance has a say about exact joints
+        Some(exact) if m.level() == Level::ExactJoints && exact != leg_rank.value => {
+            doubts.push(format!(
+                "the exact joints have leg vectors of rank {exact}, of rank {} within the tolerance: families of the exact joints alone are not found",
+                leg_rank.value
+            ));
+            leg_rank.taken(exact)
+        }
+        _ => leg_rank,
+    };
     let pairs = pairs.iter().map(|p| record(p, &components)).collect();
     Ok(Components { components, pairs, planes, leg_rank, doubts, span, options })
 }

@@ -11,7 +11,7 @@ use crate::manipulator::{Leg, LegIndex, Manipulator, inverse_condition, jacobian
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 use crate::synthesis::components::Components;
-use crate::synthesis::leg_map::{LegMapOutcome, LegMapTolerances, Relation, leg_map_to_legs};
+use crate::synthesis::leg_map::{LegMapOutcome, LegMapTolerances, leg_map_to_legs};
 use crate::synthesis::relocate::{Assembled, assemble};
 
 /// Margins of the platforms of one pattern.
