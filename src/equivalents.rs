@@ -42,14 +42,14 @@ impl Original {
     /// The octahedral platform a design is or, without shared joints, is made of by offsets along the sides of two triangles; `None` for
     /// other designs.
     pub(crate) fn of(design: &Design) -> Option<Self> {
-        match Self::origins(design) {
+        match Self::behind(design) {
             Origins::Of(original) => Some(*original),
             Origins::Refuted(_) | Origins::None => None,
         }
     }
 
     /// As [`of`](Self::of), with the reason where there is none.
-    pub(crate) fn origins(design: &Design) -> Origins {
+    pub(crate) fn behind(design: &Design) -> Origins {
         if let Ok(octahedral) = Octahedral::recognise(design.manipulator()) {
             return Origins::Of(Box::new(Self::octahedral(design, octahedral)));
         }

@@ -129,7 +129,7 @@ impl ExactJoints {
             Self::Doubles(legs) => {
                 let all = legs.iter().flat_map(|l| l.base.iter().chain(l.platform.iter()));
                 all.map(|x| mantissa_and_exponent(*x)).filter(|(m, _)| *m != 0).fold(
-                    [0, 0],
+                    [0_i64, 0],
                     |[d, n], (m, e)| {
                         let length = i64::from(64 - m.unsigned_abs().leading_zeros());
                         [d.max(-i64::from(e)), n.max(length + i64::from(e))]

@@ -97,7 +97,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 /// The octahedral platform that a design is or is made of; a design that is proved to be equivalent to none is the answer no.
 fn original(design: &Design) -> Result<Original, Failure> {
     let no = |code, message: String| Failure::new(Exit::No, code, message);
-    let original = match Original::origins(design) {
+    let original = match Original::behind(design) {
         Origins::Of(original) => *original,
         Origins::Refuted(map) => {
             let message = format!(
