@@ -36,7 +36,7 @@ pub(crate) fn report() -> Result<String, Box<dyn Error>> {
         writeln!(out, "{name}: {}", found.verdict.as_str())?;
         let pairs: Vec<usize> = found.samples.iter().map(|s| s.matching.pairs.len()).collect();
         writeln!(out, "  poses in common at each sample: {pairs:?}")?;
-        if let Verdict::NotEquivalent(c) = &found.verdict {
+        if let Verdict::NotEquivalent(Some(c)) = &found.verdict {
             let [solves, leg] = [c.solves.to_string(), c.leg.to_string()];
             writeln!(out, "  a pose of {solves} misses {leg} of the other, certified: {}", c.certified())?;
         }

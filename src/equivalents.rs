@@ -4,8 +4,9 @@ use crate::design::{Design, Origin};
 use crate::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
 use crate::singularity::GriffisDuffy;
 use crate::synthesis::{
-    AffineLegMap, Family, HexagonPoint, InstantiateError, JointLabel, LegEnd, NearestOctahedral,
-    NearestOptions, Offset, Pattern, corner, edge, nearest_octahedral,
+    AffineLegMap, Family, HexagonPoint, InstantiateError, JointLabel, LegEnd, LegMapOutcome,
+    LegMapTolerances, NearestOctahedral, NearestOptions, Offset, Pattern, Relation, corner, edge, leg_map,
+    nearest_octahedral,
 };
 
 /// An octahedral platform with the names of its corners and of the joints on its edges.
@@ -22,15 +23,44 @@ pub(crate) struct Original {
     on_edges: [[String; 2]; 6],
     /// The design seen as one of its equivalents, when it is not octahedral itself.
     pub(crate) seen: Option<(Pattern, Vec<f64>)>,
+    /// The leg map from the octahedral platform to the design, where they are two: decided as everywhere, on the exact joints.
+    pub(crate) map: Option<LegMapOutcome>,
+}
+
+/// What a design has to do with an octahedral platform.
+#[derive(Debug, Clone)]
+pub(crate) enum Origins {
+    /// It is one, or made from one by offsets along the sides of its triangles; within rounding or singular, as the map says.
+    Of(Box<Original>),
+    /// It looks like one that is made so, and is proved not to be equivalent to it.
+    Refuted(Box<LegMapOutcome>),
+    /// Nothing.
+    None,
 }
 
 impl Original {
     /// The octahedral platform a design is or, without shared joints, is made of by offsets along the sides of two triangles; `None` for
     /// other designs.
     pub(crate) fn of(design: &Design) -> Option<Self> {
-        match Octahedral::recognise(design.manipulator()) {
-            Ok(octahedral) => Some(Self::octahedral(design, octahedral)),
-            Err(_) => Self::griffis_duffy(design),
+        match Self::behind(design) {
+            Origins::Of(original) => Some(*original),
+            Origins::Refuted(_) | Origins::None => None,
+        }
+    }
+
+    /// As [`of`](Self::of), with the reason where there is none.
+    pub(crate) fn behind(design: &Design) -> Origins {
+        if let Ok(octahedral) = Octahedral::recognise(design.manipulator()) {
+            return Origins::Of(Box::new(Self::octahedral(design, octahedral)));
+        }
+        let found = Self::griffis_duffy(design).map(|original| {
+            let (from, to) = (original.design.manipulator(), design.manipulator());
+            (leg_map(from, to, LegMapTolerances::default()).ok(), original)
+        });
+        match found {
+            None => Origins::None,
+            Some((Some(map), _)) if map.relation == Relation::Unrelated => Origins::Refuted(Box::new(map)),
+            Some((map, original)) => Origins::Of(Box::new(Self { map, ..original })),
         }
     }
 
@@ -43,7 +73,15 @@ impl Original {
         });
         let on_edges =
             std::array::from_fn(|side| [false, true].map(|second| free_name(design, side, second)));
-        Self { octahedral, design: design.clone(), name: design.name.clone(), corners, on_edges, seen: None }
+        Self {
+            octahedral,
+            design: design.clone(),
+            name: design.name.clone(),
+            corners,
+            on_edges,
+            seen: None,
+            map: None,
+        }
     }
 
     /// A design of Griffis-Duffy type: its joints at the corners are those of the original, leg on side `k` becomes leg `k` of the cycle.
@@ -88,6 +126,7 @@ impl Original {
             corners: [p1, p2, p3, p4, p5, p6],
             on_edges,
             seen: Some((pattern, found.t.to_vec())),
+            map: None,
         })
     }
 

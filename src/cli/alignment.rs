@@ -10,10 +10,13 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::files::{self, OutputPath};
 use crate::design::Design;
+use crate::equivalence::judge;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
+use crate::num::linalg::LinalgError;
 use crate::records::{AlignmentRecord, FramesRecord};
 use crate::synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
+use crate::synthesis::{LegMapOutcome, Relation};
 
 /// Options about the frames of the second design.
 #[derive(Debug, clap::Args)]
@@ -34,6 +37,8 @@ pub(crate) struct FrameArgs {
 pub(crate) struct Second {
     /// In the frames of the first, where `--align` found how.
     pub(crate) manipulator: Manipulator,
+    /// As it is asked about, before any motion.
+    given: Manipulator,
     aligned: Option<Aligned>,
     exchange: bool,
     written: Option<PathBuf>,
@@ -77,7 +82,13 @@ impl FrameArgs {
             (b.manipulator().clone(), upside_down)
         };
         let find = |m: &Manipulator| align(a.manipulator(), m, context.seed()).map_err(|e| broken(&e));
-        let mut second = Second { manipulator: given, aligned: None, exchange: self.exchange, written: None };
+        let mut second = Second {
+            manipulator: given.clone(),
+            given,
+            aligned: None,
+            exchange: self.exchange,
+            written: None,
+        };
         let mut motion = None;
         if self.align {
             let found = find(&second.manipulator)?;
@@ -85,8 +96,11 @@ impl FrameArgs {
             if let Alignment::Found { motions, .. } = &found {
                 let first = &motions[0];
                 motion = Some((first.base, first.platform));
-                second.manipulator =
-                    transformed(&second.manipulator, &first.base, &first.platform).map_err(|e| broken(&e))?;
+                // without a motion the joints stay as exact as they are
+                if first.is_motion() {
+                    second.manipulator = transformed(&second.manipulator, &first.base, &first.platform)
+                        .map_err(|e| broken(&e))?;
+                }
             }
             second.aligned = Some(Aligned { given: found, exchanged, mirrored });
         }
@@ -99,9 +113,15 @@ impl FrameArgs {
 }
 
 impl Second {
-    /// Whether it is the second design as it is given.
-    pub(crate) fn is_given(&self) -> bool {
-        self.aligned.is_none() && !self.exchange
+    /// What the first design and this one have to do with each other. A motion that was found is known to rounding only, so that nothing but singular platforms is proved after it.
+    pub(crate) fn judged(&self, a: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
+        let given = judge(a, &self.given)?;
+        match self.aligned.as_ref().map(|found| &found.given) {
+            Some(Alignment::Found { motions, .. }) if given.relation != Relation::Singular => {
+                Ok(motions[0].map.clone())
+            }
+            _ => Ok(given),
+        }
     }
 
     /// Some rigid motion was asked for and not found: there is none (`Some(true)`), or it is not decided (`Some(false)`).

@@ -4,12 +4,11 @@ use std::ops::ControlFlow;
 
 use super::Error;
 use crate::design::Design;
-use crate::equivalence::{Sample, Verification, VerifyError, VerifyRun, verify_each};
+use crate::equivalence::{Sample, Verification, VerifyError, VerifyRun, judge, verify_each};
 use crate::fk::{FkOptions, Threads};
 use crate::geom::SamplePlan;
 use crate::num::Cancel;
-use crate::synthesis::exact_map::ExactMap;
-use crate::synthesis::{LegMapOutcome, LegMapTolerances};
+use crate::synthesis::LegMapOutcome;
 
 /// Sample poses where nothing is said.
 pub(crate) const SAMPLES: usize = 10;
@@ -125,42 +124,17 @@ pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result
         VerifyError::Cancelled => Error::Cancelled,
         other => other.into(),
     })?;
-    Ok(verified_exactly(found, a, b))
+    Ok(found)
 }
 
-/// The leg map between the joints as the designs say them, where one of them has constructions, all joints are known exactly and the map exists exactly.
-fn exact_map(from: &Design, to: &Design) -> Option<ExactMap> {
-    if !(from.is_constructed() || to.is_constructed()) {
-        return None; // doubles decide as well
-    }
-    ExactMap::between(&from.manipulator().exact_ends()?, &to.manipulator().exact_ends()?).ok()
-}
-
-/// What was found of the map between two designs, with what their exact joints say of it.
-pub(crate) fn decided_exactly(found: LegMapOutcome, from: &Design, to: &Design) -> LegMapOutcome {
-    match exact_map(from, to) {
-        Some(map) => found.decided_exactly(&map),
-        None => found,
-    }
-}
-
-/// The same of a verification.
-pub(crate) fn verified_exactly(mut found: Verification, a: &Design, b: &Design) -> Verification {
-    found.map = decided_exactly(found.map, a, b);
-    if found.proved() {
-        found.deviation_bounds = None;
-    }
-    found
-}
-
-/// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none.
+/// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none: decided in exact arithmetic on the joints as the designs say
+/// them, with the level of the proof.
 ///
 /// # Errors
 /// Designs in different units; a decomposition that does not converge.
 pub fn leg_map(from: &Design, to: &Design) -> Result<LegMapOutcome, Error> {
     same_units(from, to)?;
-    let found = crate::synthesis::leg_map(from.manipulator(), to.manipulator(), LegMapTolerances::default())?;
-    Ok(decided_exactly(found, from, to))
+    Ok(judge(from.manipulator(), to.manipulator())?)
 }
 
 fn same_units(a: &Design, b: &Design) -> Result<(), Error> {

@@ -106,6 +106,18 @@ pub enum Error {
     #[cfg(feature = "synthesis")]
     #[error(transparent)]
     Verify(#[from] VerifyError),
+    /// Two judgements of one design contradict each other.
+    #[cfg(feature = "synthesis")]
+    #[error(
+        "the design is proved to be {}, and {poses} poses are counted for generic leg lengths: one of the two is wrong, please report the design",
+        if *singular { "architecturally singular" } else { "regular" }
+    )]
+    Contradiction {
+        /// What the leg lines say.
+        singular: bool,
+        /// What the count says.
+        poses: usize,
+    },
     /// A text that names no pattern of the class.
     #[cfg(feature = "synthesis")]
     #[error(transparent)]

@@ -8,7 +8,7 @@ use crate::manipulator::{Manipulator, Octahedral};
 #[cfg(feature = "synthesis")]
 use crate::manufacture::equivalent_octahedral;
 #[cfg(feature = "synthesis")]
-use crate::synthesis::{LegMapTolerances, Relation, leg_map};
+use crate::synthesis::{LegMapTolerances, leg_map};
 
 /// The octahedral platform that controllers may compute the poses of a design by: that of a design with one joint on each side of two triangles. `None` for a
 /// design that is octahedral itself, for others, and in a library without synthesis.
@@ -21,7 +21,7 @@ pub(crate) fn octahedral_of_controllers(design: &Design) -> Option<EquivalentOct
         }
         let octahedral = equivalent_octahedral(m)?;
         let found = leg_map(&octahedral, m, LegMapTolerances::default()).ok()?;
-        let back = found.map().filter(|_| found.relation == Relation::Equivalent)?.invert().ok()?;
+        let back = found.map().filter(|_| found.is_regular_within_rounding())?.invert().ok()?;
         let a = std::array::from_fn(|i| std::array::from_fn(|j| back.a[(i, j)]));
         Some(EquivalentOctahedral { manipulator: octahedral, a, c: back.c.into() })
     }

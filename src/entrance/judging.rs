@@ -5,7 +5,7 @@ use crate::design::Design;
 use crate::equivalents::Equivalents;
 use crate::fk::{Theorem, pose_bound};
 use crate::geom::{PoseSpace, Region};
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Level, Manipulator};
 use crate::requirements::{
     AssessOptions, LeastConditioning, MarginProof, Requirements, RodRegularity, Terms, least_conditioning,
     least_rod_conditioning, prove, regular_rods,
@@ -43,19 +43,34 @@ pub struct CheckReport {
 }
 
 impl CheckReport {
-    /// `None` where a singular design lies within rounding of one that is regular as written.
+    /// Whether the design is architecturally singular: proved either way. `None` where plain numbers may be rounded values of a singular design ([`meant`](Self::meant)), and where joints
+    /// are known between bounds only.
     #[must_use]
     pub fn is_singular(&self) -> Option<bool> {
-        let doubtful = self.nearest.as_ref().is_some_and(|n| n.within_rounding);
-        (!doubtful).then(|| self.architecture.is_singular())
+        if self.meant().is_some() { None } else { self.architecture.is_singular() }
+    }
+
+    /// The singular design that may have been meant: within rounding, or to the digits given.
+    #[must_use]
+    pub fn meant(&self) -> Option<&NearestSingular> {
+        let plain = self.architecture.level == Some(Level::DoublesAsWritten);
+        self.nearest.as_ref().filter(|n| plain && n.may_be_meant())
+    }
+
+    /// What the answer is proved about; `None` where it is not decided.
+    #[must_use]
+    pub fn level(&self) -> Option<Level> {
+        if self.meant().is_some() { Some(Level::WithinRounding) } else { self.architecture.level }
     }
 
     /// The reason in a short code, `None` for a regular design.
     #[must_use]
     pub fn reason(&self) -> Option<&'static str> {
-        match self.is_singular() {
-            None => Some("singular_within_rounding"),
-            Some(_) => self.architecture.findings.first().map(|f| f.case.reason()),
+        match (self.meant(), self.is_singular()) {
+            (Some(n), _) if n.within_rounding => Some("singular_within_rounding"),
+            (Some(_), _) => Some("singular_to_digits_given"),
+            (None, None) => Some("joints_not_exact"),
+            (None, Some(_)) => self.architecture.findings.first().map(|f| f.case.reason()),
         }
     }
 }
@@ -63,12 +78,21 @@ impl CheckReport {
 /// The verdict in a sentence.
 impl std::fmt::Display for CheckReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let name = &self.design.name;
+        let (name, units) = (&self.design.name, &self.design.units);
+        if let Some(n) = self.meant() {
+            return match n.within_digits {
+                Some(half) => write!(f, "{name} is singular to the digits given ({half} {units})"),
+                None => write!(f, "{name} is singular within rounding ({:.1e} {units})", n.distance),
+            };
+        }
+        let about = self.architecture.level.map_or("", Level::words);
         match (self.is_singular(), self.reason()) {
-            (Some(false), _) => write!(f, "{name} is not architecturally singular: proved"),
-            (Some(true), Some(reason)) => write!(f, "{name} is architecturally singular: proved ({reason})"),
-            (Some(true), None) => write!(f, "{name} is architecturally singular: proved"),
-            (None, _) => write!(f, "{name} is regular as written, and within rounding of a singular design"),
+            (None, _) => write!(f, "{name} is not decided: joints are known between bounds only"),
+            (Some(false), _) => write!(f, "{name} is not architecturally singular: proved {about}"),
+            (Some(true), Some(reason)) => {
+                write!(f, "{name} is architecturally singular: proved {about} ({reason})")
+            }
+            (Some(true), None) => write!(f, "{name} is architecturally singular: proved {about}"),
         }
     }
 }
@@ -184,7 +208,8 @@ impl Design {
     pub fn check_with(&self, seed: u64) -> Result<CheckReport, Error> {
         let m = self.manipulator();
         let architecture = Architecture::of(m);
-        let nearest = if architecture.is_singular() { None } else { nearest_singular(m, seed)? };
+        let singular = architecture.is_singular();
+        let nearest = if singular == Some(true) { None } else { nearest_singular(m, seed)? };
         let at_least = if nearest.is_some() { singular_distance_at_least(m, seed) } else { 0.0 };
         let conditioning = conditioning(m, seed)?;
         let singular_hexagon = architecture.griffis_duffy.as_ref().filter(|g| g.is_nearly_singular());
@@ -194,6 +219,12 @@ impl Design {
         };
         let counting = CountOptions { seed, ..CountOptions::default() };
         let pose_count = count_generic_poses(m, &counting);
+        // lengths determine the poses of regular designs, and only theirs, up to finitely many
+        if let (Some(singular), Some(poses)) = (singular, pose_count.finite())
+            && singular != (poses == 0)
+        {
+            return Err(Error::Contradiction { singular, poses });
+        }
         let common_points = count_common_points(m, &pose_count, &counting);
         let design = self.clone();
         let pose_bound = pose_bound(m);

@@ -38,7 +38,7 @@ mod solving;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use comparing::{DesignFigures, FigureOptions};
 #[cfg(all(feature = "files", feature = "synthesis"))]
-pub(crate) use equivalence::{SAMPLES, decided_exactly, sample_plan, verified_exactly};
+pub(crate) use equivalence::{SAMPLES, sample_plan};
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
 pub use error::Error;

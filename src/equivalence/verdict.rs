@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 
 use thiserror::Error;
 
-use super::determined::{ROUNDED, is_beyond_precision};
+use super::determined::is_beyond_precision;
+use super::judgement::judge;
 use super::matching::{PoseMatching, match_poses};
 use super::sample::Sample;
 use crate::fk::{
@@ -17,7 +18,7 @@ use crate::num::Cancel;
 use crate::num::linalg::LinalgError;
 use crate::num::stream::Stream;
 use crate::solve::certify::RootCertificate;
-use crate::synthesis::{LegMapOutcome, LegMapTolerances, NotRealizable, Relation, leg_map};
+use crate::synthesis::{LegMapOutcome, NotRealizable, Relation};
 
 /// Two poses are the same when they are closer than this (relative to the size and to their own numbers).
 ///
@@ -51,6 +52,16 @@ pub enum VerifyError {
         sample: usize,
         /// The leg whose square came out negative.
         why: Option<NotRealizable>,
+    },
+    /// Two proofs contradict each other.
+    #[error(
+        "sample {}: the platforms are proved equivalent, and proved to have {} and {} poses: one of the proofs is wrong, please report both designs", .sample + 1, .poses[0], .poses[1]
+    )]
+    Contradiction {
+        /// Index of the sample.
+        sample: usize,
+        /// Numbers of poses of A and of B, both proved to be all.
+        poses: [usize; 2],
     },
     /// It was told to end.
     #[error("the comparison was cancelled")]
@@ -88,16 +99,16 @@ impl Counterexample {
 /// Why no verdict was reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InconclusiveReason {
-    /// The map is regular, but some sample could not be solved completely.
+    /// The map holds within rounding, but some sample could not be solved completely.
     SolverIncomplete,
-    /// The map is regular and the poses found do not agree with it.
+    /// The map holds within rounding and the poses found do not agree with it.
     Contradiction,
     /// The map holds within its tolerance, and whether it is regular is not decided.
     MapUndecided,
     /// No sample was asked for, so that nothing but the map speaks.
     NoSamples,
-    /// The map holds within its tolerance, but not to rounding, and forward kinematics tells the platforms apart.
-    NearlyEquivalent,
+    /// The map holds within rounding of the joints, and the poses agree: nothing is proved.
+    WithinRounding,
     /// There is no map, but no pose was found that tells the platforms apart either.
     NoCounterexample,
 }
@@ -108,18 +119,18 @@ impl InconclusiveReason {
     pub fn sentence(self) -> &'static str {
         match self {
             Self::SolverIncomplete => {
-                "the leg map is regular, but forward kinematics may have missed poses of a sample"
+                "the leg map holds within rounding, but forward kinematics may have missed poses of a sample"
             }
             Self::Contradiction => {
-                "the leg map is regular, but forward kinematics of the two does not give the same poses at a sample, more than rounding of the joints explains: \
+                "the leg map holds within rounding, but forward kinematics of the two does not give the same poses at a sample, more than rounding of the joints explains: \
                  nothing is concluded from the samples (bodies of very different size, or nearly double poses, make poses this uncertain)"
             }
             Self::MapUndecided => {
-                "the leg map holds within its tolerance, but a singular design lies within what rounding leaves open"
+                "the leg map is not decided: a singular platform is within rounding of one of the two"
             }
             Self::NoSamples => "no sets of lengths were compared: forward kinematics has said nothing",
-            Self::NearlyEquivalent => {
-                "the leg map holds within its tolerance but not to rounding, and the poses of a sample disagree"
+            Self::WithinRounding => {
+                "the platforms are equivalent within rounding, not proved: the leg map holds as far as the joints are known, and forward kinematics agrees"
             }
             Self::NoCounterexample => {
                 "no leg map within the tolerance, but no sampled pose tells the platforms apart clearly"
@@ -131,14 +142,12 @@ impl InconclusiveReason {
 /// The verdict on two platforms.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// The leg map is regular, which proves it up to the rounding of the designs' own coordinates, and
-    /// independent forward kinematics agrees at every sample but for poses so far out that this rounding decides whether they exist
-    /// ([`Verification::beyond_precision`]).
+    /// Proved: there is a regular leg map between the joints as they are. Forward kinematics of both, solved independently at the samples, is evidence besides
+    /// ([`Verification::agreeing`]).
     Equivalent,
-    /// There is no leg map, and a pose shows it.
-    NotEquivalent(Box<Counterexample>),
-    /// There is a leg map, but `det A = 0` (or the legs of A are dependent): one platform is
-    /// architecturally singular.
+    /// There is no leg map, which is proved or shown by a pose; the pose where a sample has one.
+    NotEquivalent(Option<Box<Counterexample>>),
+    /// One platform is architecturally singular: proved.
     Singular,
     /// Not decided.
     Inconclusive(InconclusiveReason),
@@ -149,13 +158,12 @@ impl std::fmt::Display for Verdict {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Equivalent => f.write_str("equivalent"),
-            Self::NotEquivalent(c) => {
+            Self::NotEquivalent(None) => f.write_str("not equivalent: there is no leg map"),
+            Self::NotEquivalent(Some(c)) => {
                 let proved = if c.certified() { "proved" } else { "not proved" };
                 write!(f, "not equivalent: a pose of {} ({proved}) misses {} of the other", c.solves, c.leg)
             }
-            Self::Singular => f.write_str(
-                "singular: there is a leg map, and one of the platforms is architecturally singular",
-            ),
+            Self::Singular => f.write_str("singular: one of the platforms is architecturally singular"),
             Self::Inconclusive(why) => write!(f, "inconclusive: {}", why.sentence()),
         }
     }
@@ -190,10 +198,16 @@ pub struct Verification {
 }
 
 impl Verification {
-    /// Whether the map was proved: an identity of leg vectors that was checked in exact arithmetic, on exact joints.
+    /// Whether the verdict is proved: by an identity of leg vectors in exact arithmetic, or because there is none.
     #[must_use]
     pub fn proved(&self) -> bool {
-        self.map.exact_numbers.is_some()
+        self.map.level.is_proved() && self.map.relation != Relation::Undecided
+    }
+
+    /// Samples at which forward kinematics of both, solved independently, agrees.
+    #[must_use]
+    pub fn agreeing(&self) -> usize {
+        self.samples.iter().filter(|s| s.agrees()).count()
     }
 
     /// One sentence with the numbers that decided.
@@ -201,30 +215,28 @@ impl Verification {
     pub fn explanation(&self) -> String {
         let (v, n) = (self, self.samples.len());
         match &v.verdict {
-            Verdict::Equivalent if v.proved() => format!(
-                "proved: every leg vector of B is exactly a combination of those of A, and {} is not zero; forward kinematics of both, solved \
-                 independently, agrees at {n} of {n} sets of lengths, {}; worst distance of matched poses {:.1e}{}",
-                exact_determinant(v),
-                lists_proved(v),
-                v.worst_distance(),
-                set_aside(v)
-            ),
             Verdict::Equivalent => format!(
-                "the leg map is regular (det A = {:.6}), and forward kinematics of both, solved independently, agrees \
-                 at {n} of {n} sets of lengths, {}; worst distance of matched poses {:.1e}{}{}",
-                v.map.determinant,
+                "proved {}: every leg vector of B is exactly a combination of those of A, and {} is not zero; forward kinematics of both, solved \
+                 independently, agrees at {} of {n} sets of lengths, {}; worst distance of matched poses {:.1e}{}{}",
+                v.map.level.words(),
+                exact_determinant(v),
+                v.agreeing(),
                 lists_proved(v),
                 v.worst_distance(),
                 set_aside(v),
-                deviation(v)
+                if v.agreeing() < n {
+                    "; where it does not, the poses are beyond what doubles of the joints determine"
+                } else {
+                    ""
+                }
             ),
             Verdict::Singular => v.map.explanation(),
-            Verdict::NotEquivalent(c) => {
+            Verdict::NotEquivalent(None) => v.map.explanation(),
+            Verdict::NotEquivalent(Some(c)) => {
                 let other = if c.solves == "A" { "B" } else { "A" };
                 format!(
-                    "no leg map exists (residual {:.1e}); at sample {} a {}pose of {} misses the squared length of {} of {other} \
-                     by {:.1e} of the squared size (rounding {:.1e}){}",
-                    v.map.residual,
+                    "{}; at sample {} a {}pose of {} misses the squared length of {} of {other} by {:.1e} of the squared size (rounding {:.1e}){}",
+                    v.map.explanation(),
                     c.sample + 1,
                     if c.certified() { "certified " } else { "" },
                     c.solves,
@@ -234,6 +246,14 @@ impl Verification {
                     deviation(v)
                 )
             }
+            Verdict::Inconclusive(InconclusiveReason::MapUndecided) => v.map.explanation(),
+            Verdict::Inconclusive(reason @ InconclusiveReason::WithinRounding) => format!(
+                "{} at {n} of {n} sets of lengths; {}{}{}",
+                reason.sentence(),
+                v.map.explanation(),
+                set_aside(v),
+                deviation(v)
+            ),
             Verdict::Inconclusive(reason) => reason.sentence().to_owned(),
         }
     }
@@ -337,12 +357,43 @@ pub fn verify_each(
     run: &VerifyRun,
     look: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
 ) -> Result<Verification, VerifyError> {
-    let map = leg_map(a, b, LegMapTolerances::default())?;
+    verified(a, b, judge(a, b)?, plan, options, run, look)
+}
+
+/// As [`verify()`], for a map that is known.
+///
+/// # Errors
+/// Those of [`verify()`].
+pub fn verify_mapped(
+    a: &Manipulator,
+    b: &Manipulator,
+    map: LegMapOutcome,
+    plan: &SamplePlan,
+    options: &FkOptions,
+) -> Result<Verification, VerifyError> {
+    let alone = VerifyRun { threads: Threads::Count(NonZeroUsize::MIN), cancel: Cancel::new() };
+    verified(a, b, map, plan, options, &alone, &mut |_| ControlFlow::Continue(()))
+}
+
+fn verified(
+    a: &Manipulator,
+    b: &Manipulator,
+    map: LegMapOutcome,
+    plan: &SamplePlan,
+    options: &FkOptions,
+    run: &VerifyRun,
+    look: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
+) -> Result<Verification, VerifyError> {
+    let undecided = map.relation == Relation::Undecided;
     let at_once = match map.relation {
         Relation::Singular => Some(Verdict::Singular),
-        Relation::Undecided => Some(Verdict::Inconclusive(InconclusiveReason::MapUndecided)),
-        _ if plan.count == 0 => Some(Verdict::Inconclusive(InconclusiveReason::NoSamples)),
-        _ => None,
+        _ if undecided && !map.is_regular_within_rounding() => {
+            Some(Verdict::Inconclusive(InconclusiveReason::MapUndecided))
+        }
+        _ if plan.count > 0 => None,
+        Relation::Equivalent => Some(Verdict::Equivalent),
+        Relation::Unrelated if map.level.is_proved() => Some(Verdict::NotEquivalent(None)),
+        _ => Some(Verdict::Inconclusive(InconclusiveReason::NoSamples)),
     };
     if let Some(verdict) = at_once {
         return Ok(Verification { verdict, map, deviation_bounds: None, samples: Vec::new() });
@@ -363,24 +414,37 @@ pub fn verify_each(
     if samples.len() < plan.count {
         return Err(VerifyError::Cancelled);
     }
-    let verdict = if map.relation == Relation::Equivalent {
-        if samples.iter().all(Sample::agrees) {
-            Verdict::Equivalent
-        } else if !samples.iter().all(Sample::is_conclusive) {
-            Verdict::Inconclusive(InconclusiveReason::SolverIncomplete)
-        } else if map.residual > ROUNDED {
-            Verdict::Inconclusive(InconclusiveReason::NearlyEquivalent)
-        } else {
-            Verdict::Inconclusive(InconclusiveReason::Contradiction)
+    let verdict = match map.relation {
+        Relation::Equivalent => contradiction(&samples).map_or(Ok(Verdict::Equivalent), Err)?,
+        Relation::Unrelated => {
+            let found = samples.iter().enumerate().find_map(|(k, s)| counterexample(a, b, k, s));
+            if found.is_some() || map.level.is_proved() {
+                Verdict::NotEquivalent(found.map(Box::new))
+            } else {
+                Verdict::Inconclusive(InconclusiveReason::NoCounterexample)
+            }
         }
-    } else {
-        let found = samples.iter().enumerate().find_map(|(k, s)| counterexample(a, b, k, s));
-        found.map_or(Verdict::Inconclusive(InconclusiveReason::NoCounterexample), |c| {
-            Verdict::NotEquivalent(Box::new(c))
-        })
+        _ => Verdict::Inconclusive(if samples.iter().all(Sample::agrees) {
+            InconclusiveReason::WithinRounding
+        } else if !samples.iter().all(Sample::is_conclusive) {
+            InconclusiveReason::SolverIncomplete
+        } else {
+            InconclusiveReason::Contradiction
+        }),
     };
-    let deviation_bounds = Some(map.closest.deviation_bounds(a, b, plan));
+    let deviation_bounds =
+        (map.relation != Relation::Equivalent).then(|| map.closest.deviation_bounds(a, b, plan));
     Ok(Verification { verdict, map, deviation_bounds, samples })
+}
+
+/// Complete lists of poses of platforms that are proved equivalent are equally long.
+fn contradiction(samples: &[Sample]) -> Option<VerifyError> {
+    samples.iter().enumerate().find_map(|(sample, s)| {
+        let lists = [&s.solutions_a, &s.solutions_b];
+        let poses = lists.map(|found| found.roots.len());
+        let proved = lists.iter().all(|found| found.completeness.is_proved());
+        (proved && poses[0] != poses[1]).then_some(VerifyError::Contradiction { sample, poses })
+    })
 }
 
 fn take_sample(
@@ -481,7 +545,8 @@ mod tests {
         let (b, _) =
             joint_free(&Octahedral::recognise(&a).unwrap(), [0.2, 0.25, 0.2, 0.3, 0.2, 0.25]).unwrap();
         let v = verify(&a, &b, &plan(), &FkOptions::default()).unwrap();
-        assert_eq!(v.verdict, Verdict::Equivalent);
+        // offsets in doubles put joints off their lines by rounding
+        assert_eq!(v.verdict, Verdict::Inconclusive(InconclusiveReason::WithinRounding));
         assert!(v.worst_distance() < 1e-9);
         assert!(v.samples.iter().all(|s| s.matching.pairs.len() == 16));
     }
@@ -492,10 +557,13 @@ mod tests {
         let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.2; 6]).unwrap();
         let mut legs: [Leg; 6] = b.legs();
         legs[2].platform.z += 0.1;
-        for other in [b, Manipulator::from_legs(legs).unwrap()] {
-            let v = verify(&a, &other, &SamplePlan { count: 0, ..plan() }, &FkOptions::default()).unwrap();
-            assert_eq!(v.verdict, Verdict::Inconclusive(InconclusiveReason::NoSamples));
-        }
+        let of = |other: &Manipulator| {
+            verify(&a, other, &SamplePlan { count: 0, ..plan() }, &FkOptions::default()).unwrap().verdict
+        };
+        // joints in doubles: within rounding nothing but poses could say more, and a joint off its line is proved to be
+        assert_eq!(of(&b), Verdict::Inconclusive(InconclusiveReason::NoSamples));
+        assert_eq!(of(&Manipulator::from_legs(legs).unwrap()), Verdict::NotEquivalent(None));
+        assert_eq!(of(&a), Verdict::Equivalent);
     }
 
     #[test]
@@ -506,7 +574,7 @@ mod tests {
         legs[2].platform.z += 1e-6 * a.size();
         let moved = Manipulator::from_legs(legs).unwrap();
         let v = verify(&a, &moved, &plan(), &FkOptions::default()).unwrap();
-        let Verdict::NotEquivalent(c) = v.verdict else { panic!("{:?}", v.verdict) };
+        let Verdict::NotEquivalent(Some(c)) = v.verdict else { panic!("{:?}", v.verdict) };
         assert!(c.miss > 1e-9 && c.certified());
     }
 
@@ -531,20 +599,15 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_off_its_line_by_less_than_the_map_tells_is_not_called_equivalent() {
+    fn a_joint_off_its_line_by_more_than_rounding_is_proved_not_equivalent() {
         let a = octahedral();
         let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.2; 6]).unwrap();
         let mut legs: [Leg; 6] = b.legs();
         legs[2].platform.z += 3e-10 * a.size();
         let moved = Manipulator::from_legs(legs).unwrap();
         let v = verify(&a, &moved, &plan(), &FkOptions::default()).unwrap();
-        assert_eq!(v.map.relation, Relation::Equivalent);
-        assert_ne!(
-            v.verdict,
-            Verdict::Equivalent,
-            "{:?}",
-            v.samples.iter().map(|s| &s.matching).collect::<Vec<_>>()
-        );
+        assert_eq!(v.map.relation, Relation::Unrelated);
+        assert!(matches!(v.verdict, Verdict::NotEquivalent(_)), "{:?}", v.verdict);
     }
 
     #[test]

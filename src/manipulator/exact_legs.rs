@@ -1,11 +1,21 @@
-//! Legs as the rational numbers that their doubles are, for ranks that no tolerance decides.
+//! Legs as the exact numbers that their joints are, for ranks that no tolerance decides.
 //!
+//! Joints of a design with constructions are numbers of a field of square roots; plain doubles are the rational numbers they are.
 //! A point is homogeneous, `(1, x, y, z)`; the leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`.
 
 use nalgebra::Point3;
 
-use super::{Body, Leg};
-use crate::num::exact::{ExactVector, Rational, product, rank, rational};
+use super::{Body, ExactEnds, JointKnowledge, Leg, Manipulator};
+use crate::num::algebraic::Algebraic;
+use crate::num::exact::{ExactVector, Number, Rational, product, rank, rational};
+use crate::num::modular::{Field, mantissa_and_exponent};
+use crate::num::split::{SplitField, degree_of};
+use crate::num::surd::Surd;
+use num_bigint::BigInt;
+use num_integer::Integer as _;
+
+/// A vector of numbers of one field of square roots.
+pub(crate) type AlgebraicVector = Vec<Algebraic>;
 
 /// A leg between two points in exact homogeneous coordinates, first coordinates 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,11 +28,11 @@ pub(crate) struct ExactLeg {
 #[derive(Debug, Clone)]
 pub(crate) struct ExactLegs {
     /// `(1, a_i)`.
-    pub(crate) base: Vec<ExactVector>,
+    pub(crate) base: Vec<AlgebraicVector>,
     /// `(1, b_i)`.
-    pub(crate) platform: Vec<ExactVector>,
+    pub(crate) platform: Vec<AlgebraicVector>,
     /// `(1, a_i) (x) (1, b_i)`.
-    pub(crate) vectors: Vec<ExactVector>,
+    pub(crate) vectors: Vec<AlgebraicVector>,
 }
 
 /// `(1, x)`; `None` when a coordinate is not finite.
@@ -31,7 +41,7 @@ pub(crate) fn homogeneous(p: &Point3<f64>) -> Option<ExactVector> {
 }
 
 /// Dimension of the flat of homogeneous points: 0 a point, 1 a line, 2 a plane, 3 space.
-pub(crate) fn flat_dimension<'a>(points: impl IntoIterator<Item = &'a ExactVector>) -> usize {
+pub(crate) fn flat_dimension<'a, N: Number + 'a>(points: impl IntoIterator<Item = &'a Vec<N>>) -> usize {
     rank(&points.into_iter().cloned().collect::<Vec<_>>()).saturating_sub(1)
 }
 
@@ -56,17 +66,124 @@ impl ExactLeg {
     }
 }
 
+/// Legs of which all joints are known exactly.
+#[derive(Debug, Clone)]
+pub(crate) enum ExactJoints {
+    /// As the doubles they are.
+    Doubles(Box<[Leg; 6]>),
+    /// As sums of square roots.
+    Surds(Box<[ExactEnds; 6]>),
+}
+
+impl ExactJoints {
+    /// `None` for joints that are known between bounds only.
+    pub(crate) fn of(m: &Manipulator) -> Option<Self> {
+        match m.joint_knowledge() {
+            JointKnowledge::Doubles => Some(Self::Doubles(Box::new(m.legs()))),
+            JointKnowledge::Exact => Some(Self::Surds(Box::new(m.exact_ends()?))),
+            JointKnowledge::Enclosed => None,
+        }
+    }
+
+    fn surds(&self) -> impl Iterator<Item = &Surd> {
+        let ends = match self {
+            Self::Doubles(_) => None,
+            Self::Surds(ends) => Some(ends.iter().flatten().flatten()),
+        };
+        ends.into_iter().flatten()
+    }
+
+    /// Degree of a field with all coordinates in it; `None` for too many square roots.
+    pub(crate) fn degree(&self) -> Option<usize> {
+        degree_of(self.surds())
+    }
+
+    /// Residues of both ends of every leg modulo one prime after the other.
+    ///
+    /// Without end for all practical purposes; empty for too many square roots.
+    pub(crate) fn residues(&self) -> impl Iterator<Item = LegResidues> {
+        let fields = SplitField::all(self.surds()).into_iter().flatten();
+        fields.filter_map(|field| Some(LegResidues { ends: self.modulo(&field)?, field: field.field() }))
+    }
+
+    fn modulo(&self, field: &SplitField) -> Option<[[[u64; 3]; 2]; 6]> {
+        let mut residues = [[[0; 3]; 2]; 6];
+        match self {
+            Self::Doubles(legs) => {
+                let of = |p: Point3<f64>| [p.x, p.y, p.z].map(|x| field.field().scaled(x, 0));
+                residues = legs.each_ref().map(|leg| [of(leg.base), of(leg.platform)]);
+            }
+            Self::Surds(ends) => {
+                let places = residues.iter_mut().flatten().flatten();
+                for (x, residue) in ends.iter().flatten().flatten().zip(places) {
+                    *residue = field.residue(x)?;
+                }
+            }
+        }
+        Some(residues)
+    }
+
+    /// Bits of a common denominator of all coordinates, and a power of two that none of their conjugates exceeds, as its exponent.
+    pub(crate) fn bits(&self) -> [i64; 2] {
+        match self {
+            Self::Doubles(legs) => {
+                let all = legs.iter().flat_map(|l| l.base.iter().chain(l.platform.iter()));
+                all.map(|x| mantissa_and_exponent(*x)).filter(|(m, _)| *m != 0).fold(
+                    [0_i64, 0],
+                    |[d, n], (m, e)| {
+                        let length = i64::from(64 - m.unsigned_abs().leading_zeros());
+                        [d.max(-i64::from(e)), n.max(length + i64::from(e))]
+                    },
+                )
+            }
+            Self::Surds(_) => {
+                let common = self.surds().fold(BigInt::from(1), |l, x| l.lcm(x.denominator()));
+                let magnitude = self.surds().map(Surd::magnitude_bits).fold(0, i64::max);
+                [common.bits().cast_signed(), magnitude]
+            }
+        }
+    }
+}
+
+/// The ends of legs modulo a prime: ranks there are not greater than the true ones.
+#[derive(Debug, Clone)]
+pub(crate) struct LegResidues {
+    pub(crate) field: Field,
+    /// Base and platform end of every leg.
+    pub(crate) ends: [[[u64; 3]; 2]; 6],
+}
+
 impl ExactLegs {
-    /// `None` when a coordinate is not finite, which no manipulator has.
-    pub(crate) fn of(legs: &[Leg; 6]) -> Option<Self> {
-        let legs = legs.iter().map(ExactLeg::of).collect::<Option<Vec<_>>>()?;
-        let vectors = legs.iter().map(ExactLeg::vector).collect();
-        let (base, platform) = legs.into_iter().map(|l| (l.base, l.platform)).unzip();
-        Some(Self { base, platform, vectors })
+    /// The legs as exactly as the joints are known; `None` for joints that are known between bounds only, and for coordinates with too many independent square roots.
+    pub(crate) fn of(m: &Manipulator) -> Option<Self> {
+        match ExactJoints::of(m)? {
+            ExactJoints::Doubles(legs) => Self::of_doubles(&legs),
+            ExactJoints::Surds(ends) => {
+                let all = Algebraic::all(&ends.iter().flatten().flatten().collect::<Vec<_>>())?;
+                let homogeneous = |p: &[Algebraic]| {
+                    std::iter::once(Algebraic::integer(1)).chain(p.iter().cloned()).collect()
+                };
+                let points: Vec<AlgebraicVector> = all.chunks(3).map(homogeneous).collect();
+                let (base, platform) = points.chunks(2).map(|p| (p[0].clone(), p[1].clone())).unzip();
+                Some(Self::between(base, platform))
+            }
+        }
+    }
+
+    /// Legs as the rational numbers that their doubles are; `None` when a coordinate is not finite, which no manipulator has.
+    pub(crate) fn of_doubles(legs: &[Leg; 6]) -> Option<Self> {
+        let of = |p: &Point3<f64>| Some(homogeneous(p)?.into_iter().map(Algebraic::Rational).collect());
+        let base = legs.iter().map(|l| of(&l.base)).collect::<Option<_>>()?;
+        Some(Self::between(base, legs.iter().map(|l| of(&l.platform)).collect::<Option<_>>()?))
+    }
+
+    fn between(base: Vec<AlgebraicVector>, platform: Vec<AlgebraicVector>) -> Self {
+        let vectors = base.iter().zip(&platform).map(|(a, b)| product(a, b)).collect();
+        Self { base, platform, vectors }
     }
 
     /// The ends on `body`.
-    pub(crate) fn ends(&self, body: Body) -> &[ExactVector] {
+    pub(crate) fn ends(&self, body: Body) -> &[AlgebraicVector] {
         body.of((&self.base, &self.platform))
     }
 
@@ -76,12 +193,12 @@ impl ExactLegs {
     }
 
     /// `|a|^2 + |b|^2` of a leg.
-    pub(crate) fn squares(&self, leg: usize) -> Rational {
-        squares(&self.base[leg], &self.platform[leg])
+    pub(crate) fn squares(&self, leg: usize) -> Algebraic {
+        self.base[leg][1..].iter().chain(&self.platform[leg][1..]).map(|x| x * x).sum()
     }
 
     /// The vectors of some legs.
-    pub(crate) fn vectors_of(&self, legs: &[usize]) -> Vec<ExactVector> {
+    pub(crate) fn vectors_of(&self, legs: &[usize]) -> Vec<AlgebraicVector> {
         legs.iter().map(|i| self.vectors[*i].clone()).collect()
     }
 

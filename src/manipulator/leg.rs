@@ -88,6 +88,8 @@ pub struct Manipulator {
     size: f64,
     /// What the joints are where they are not the doubles.
     pub(super) values: Option<Arc<JointValues>>,
+    /// Whether joints are given by constructions, and none by plain numbers that look rounded: all are exact as said.
+    pub(super) constructed: bool,
 }
 
 /// Why joints and legs do not make a manipulator.
@@ -190,7 +192,7 @@ impl Manipulator {
         if !(size * size).is_normal() {
             return Err(InvalidManipulator::TooSmall);
         }
-        Ok(Self { base, platform, legs, size, values: None })
+        Ok(Self { base, platform, legs, size, values: None, constructed: false })
     }
 
     /// Builds a manipulator from six legs; joints with exactly equal coordinates become one shared joint.

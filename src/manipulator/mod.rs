@@ -12,11 +12,14 @@ mod home;
 mod jacobian;
 mod leg;
 mod lengths;
+mod level;
 mod octahedral;
 mod values;
 
 pub use body::{Body, NoSuchBody};
-pub(crate) use exact_legs::{ExactLeg, ExactLegs, flat_dimension, homogeneous};
+pub(crate) use exact_legs::{
+    AlgebraicVector, ExactJoints, ExactLeg, ExactLegs, LegResidues, flat_dimension, homogeneous,
+};
 pub use home::default_home;
 pub(crate) use home::height_above_base;
 pub(crate) use jacobian::jacobian_of_legs;
@@ -24,6 +27,7 @@ pub(crate) use jacobian::leg_determinant;
 pub use jacobian::{inverse_condition, jacobian, plucker_matrix};
 pub use leg::{BaseJoint, InvalidManipulator, Leg, LegIndex, Manipulator, PlatformJoint};
 pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};
+pub use level::Level;
 pub(crate) use octahedral::is_collinear;
 pub use octahedral::{NotOctahedral, Octahedral};
 pub(crate) use values::{ExactEnds, JointKnowledge, squares_of_ends, vector_of_ends};

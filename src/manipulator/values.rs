@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Point3;
 
-use super::{Body, InvalidManipulator, Leg, Manipulator};
+use super::{Body, InvalidManipulator, Leg, Level, Manipulator};
 use crate::num::interval::Interval;
 use crate::num::surd::Surd;
 
@@ -72,6 +72,16 @@ fn low_part(x: &Surd, double: f64) -> Option<(f64, f64)> {
     Some((low, left.distance_from(low)))
 }
 
+/// Doubles of so many significant digits look like rounded numbers.
+const ROUNDED: usize = 15;
+
+/// Significant digits of the shortest decimal that is read as this double.
+fn significant_digits(x: f64) -> usize {
+    let text = format!("{x:e}");
+    let digits = text.split('e').next().unwrap_or_default();
+    digits.bytes().filter(u8::is_ascii_digit).count()
+}
+
 /// How the joints of a [`Manipulator`] are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum JointKnowledge {
@@ -115,8 +125,40 @@ impl Manipulator {
         let counts = [self.base_joints().len(), self.platform_joints().len()];
         assert_eq!(values.radius.each_ref().map(Vec::len), counts);
         let plain = values.radius.iter().flatten().all(|r| *r <= 0.0);
+        // a joint of plain numbers beside constructions may be a rounded one, such as one that was computed
+        let points = [self.base_joints(), self.platform_joints()];
+        let rounded = points.iter().zip(&values.radius).any(|(list, radius)| {
+            list.iter()
+                .zip(radius)
+                .any(|(p, r)| *r <= 0.0 && p.iter().any(|x| significant_digits(*x) >= ROUNDED))
+        });
+        self.constructed = !rounded;
         self.values = (!plain).then(|| Arc::new(values));
         self
+    }
+
+    /// The platform for a base and the base for a platform, joints as exact as they are.
+    pub(crate) fn exchanged(&self) -> Self {
+        let pairs = self.pairs().map(|(a, b)| (b, a));
+        let mut out = Self::try_new(self.platform_joints().to_vec(), self.base_joints().to_vec(), pairs)
+            .unwrap_or_else(|_| unreachable!("the joints and pairs of a design, the other way round"));
+        out.constructed = self.constructed;
+        out.values = self.values.as_ref().map(|values| {
+            let mut turned = JointValues::clone(values);
+            turned.radius.swap(0, 1);
+            turned.low.swap(0, 1);
+            turned.rest.swap(0, 1);
+            if let Some(exact) = &mut turned.exact {
+                exact.swap(0, 1);
+            }
+            Arc::new(turned)
+        });
+        out
+    }
+
+    /// The same doubles, taken as the joints.
+    pub(crate) fn without_values(&self) -> Self {
+        Self { values: None, constructed: false, ..self.clone() }
     }
 
     /// The same legs with ends that are at one place at one joint: by their doubles where these are the joints, by their exact coordinates where these are known, and
@@ -139,6 +181,7 @@ impl Manipulator {
         let pairs = self.pairs().map(|(a, b)| (first(Body::Base, a), first(Body::Platform, b)));
         let mut merged = Self::try_new(self.base_joints().to_vec(), self.platform_joints().to_vec(), pairs)?;
         merged.values.clone_from(&self.values);
+        merged.constructed = self.constructed;
         Ok(merged)
     }
 
@@ -149,6 +192,11 @@ impl Manipulator {
             Some(values) if values.exact.is_some() => JointKnowledge::Exact,
             Some(_) => JointKnowledge::Enclosed,
         }
+    }
+
+    /// What a proof about these joints is about, where there is one.
+    pub(crate) fn level(&self) -> Level {
+        if self.constructed { Level::ExactJoints } else { Level::DoublesAsWritten }
     }
 
     /// How far, at most, the coordinates of the ends of leg `i` on `body` are from their doubles.

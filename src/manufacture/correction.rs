@@ -90,7 +90,7 @@ impl Controller {
     ) -> Result<Self, NoFormula> {
         let octic = OcticSolver::new(octahedral)?;
         let map = leg_map(octahedral, nominal, LegMapTolerances::default())?;
-        let Some(forward) = map.map().filter(|_| map.relation == Relation::Equivalent) else {
+        let Some(forward) = map.map().filter(|_| map.is_regular_within_rounding()) else {
             return Err(NoFormula::NotEquivalent(map.relation));
         };
         Ok(Self {

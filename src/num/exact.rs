@@ -12,6 +12,25 @@ use super::modular::Field;
 /// A rational number of any size.
 pub(crate) type Rational = BigRational;
 
+/// Numbers of a field that knows the linear relations between its rows.
+pub(crate) trait Number: Clone {
+    /// The product of two.
+    fn product(&self, other: &Self) -> Self;
+
+    /// A basis of the linear relations between the rows, as [`relations`] gives it.
+    fn relations(rows: &[Vec<Self>]) -> Vec<Vec<Self>>;
+}
+
+impl Number for Rational {
+    fn product(&self, other: &Self) -> Self {
+        self * other
+    }
+
+    fn relations(rows: &[ExactVector]) -> Vec<ExactVector> {
+        relations_of_fractions(rows)
+    }
+}
+
 /// A vector of rational numbers.
 pub(crate) type ExactVector = Vec<Rational>;
 
@@ -25,13 +44,18 @@ fn zero() -> Rational {
 }
 
 /// A basis of the linear relations between the rows: vectors `c` with `sum_i c_i row_i = 0`, exactly.
+pub(crate) fn relations<N: Number>(rows: &[Vec<N>]) -> Vec<Vec<N>> {
+    N::relations(rows)
+}
+
+/// [`relations`] between rows of fractions.
 ///
 /// Elimination without fractions (Bareiss 1968) of integer rows beside an identity; row `i` of the result has `rows.len()` entries, that of the row it
 /// was made of is 1. The rank is the number of rows less the number of relations.
 ///
 /// Relations between rows do not change when a column is multiplied, so that every column is brought to integers without a common power of two first;
 /// numbers of a thousand digits beside ones stay that long and no longer, because no fraction is ever reduced on the way.
-pub(crate) fn relations(rows: &[ExactVector]) -> Vec<ExactVector> {
+fn relations_of_fractions(rows: &[ExactVector]) -> Vec<ExactVector> {
     let count = rows.len();
     let width = rows.first().map_or(0, Vec::len);
     let mut work = integers(rows);
@@ -70,13 +94,13 @@ pub(crate) fn relations(rows: &[ExactVector]) -> Vec<ExactVector> {
 }
 
 /// Rank of a list of rows.
-pub(crate) fn rank(rows: &[ExactVector]) -> usize {
+pub(crate) fn rank<N: Number>(rows: &[Vec<N>]) -> usize {
     rows.len() - relations(rows).len()
 }
 
 /// `a (x) b`, entry by entry.
-pub(crate) fn product(a: &[Rational], b: &[Rational]) -> ExactVector {
-    a.iter().flat_map(|x| b.iter().map(move |y| x * y)).collect()
+pub(crate) fn product<N: Number>(a: &[N], b: &[N]) -> Vec<N> {
+    a.iter().flat_map(|x| b.iter().map(move |y| x.product(y))).collect()
 }
 
 /// The rows with every column multiplied to integers, and common powers of two taken out of it.

@@ -1,5 +1,6 @@
 //! Numbers with known errors: double-double, interval and exact rational arithmetic, decompositions of small matrices, seeded random numbers, and the doors to faer and clarabel.
 
+pub(crate) mod algebraic;
 pub mod ball;
 pub(crate) mod batch;
 pub mod complex;

@@ -10,7 +10,7 @@ use num_bigint::BigInt;
 use num_integer::Integer as _;
 
 use super::Rng;
-use super::modular::Field;
+use super::modular::{Field, all_fields};
 use super::surd::Surd;
 
 /// Primes drawn for every one that is expected to have all square roots, before it is said that there is none.
@@ -32,6 +32,24 @@ impl SplitField {
     /// A field with square roots of all radicands and the cosines of the numbers, of a prime drawn uniformly from those between `2^60` and `2^61` that have them; `None`
     /// when none is found.
     pub(crate) fn drawn<'a>(rng: &mut Rng, numbers: impl IntoIterator<Item = &'a Surd>) -> Option<Self> {
+        let mut split = Self::over(numbers)?;
+        (0..split.patience()).find_map(|_| {
+            split.field = Field::drawn(rng);
+            split.found().then(|| split.clone())
+        })
+    }
+
+    /// The fields of primes below `2^61` that have the square roots and cosines of the numbers, largest prime first; `None` where [`degree_of`] is.
+    pub(crate) fn all<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> Option<impl Iterator<Item = Self>> {
+        let split = Self::over(numbers).filter(Self::radicands_fit)?;
+        Some(all_fields().filter_map(move |field| {
+            let mut split = Self { field, ..split.clone() };
+            split.found().then_some(split)
+        }))
+    }
+
+    /// What a field with the numbers needs, its prime still to be chosen; `None` for too many square roots.
+    fn over<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> Option<Self> {
         let (mut radicands, mut orders) = (BTreeSet::new(), BTreeSet::new());
         for (root, _) in numbers.into_iter().flat_map(Surd::terms) {
             radicands.insert(root.radicand());
@@ -43,15 +61,14 @@ impl SplitField {
         // their square roots are cosines
         radicands.extend(orders.iter().filter_map(|n| prime_within(*n)));
         let base = coprime_base(&radicands);
-        if base.len() > MOST_ROOTS {
-            return None;
-        }
-        let turns: Vec<(u32, u64)> = orders.into_iter().map(|n| (n, 0)).collect();
-        let mut split = Self { field: Field::MERSENNE, turns, roots: base.iter().map(|n| (*n, 0)).collect() };
-        (0..split.patience()).find_map(|_| {
-            split.field = Field::drawn(rng);
-            split.found().then(|| split.clone())
-        })
+        let turns = orders.into_iter().map(|n| (n, 0)).collect();
+        let roots: Vec<(u64, u64)> = base.iter().map(|n| (*n, 0)).collect();
+        (roots.len() <= MOST_ROOTS).then_some(Self { field: Field::MERSENNE, turns, roots })
+    }
+
+    /// Whether products of the numbers have radicands below `2^63`.
+    fn radicands_fit(&self) -> bool {
+        self.roots.iter().try_fold(1u64, |p, (n, _)| p.checked_mul(*n)).is_some_and(|p| p >> 63 == 0)
     }
 
     /// Finds the roots; whether they all exist.
@@ -156,6 +173,11 @@ fn prime_within(n: u32) -> Option<u64> {
 /// Euler's function of the order of a tower: one prime in as many is 1 modulo it.
 fn units(n: u32) -> u32 {
     (1..n).filter(|k| k.gcd(&n) == 1).count() as u32
+}
+
+/// Degree of a field with the numbers and all their products in it; `None` for too many square roots, and where a radicand of a product may exceed 63 bits.
+pub(crate) fn degree_of<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> Option<usize> {
+    SplitField::over(numbers).filter(SplitField::radicands_fit).map(|split| split.degree())
 }
 
 /// Pairwise coprime numbers above 1 of which all numbers given, squarefree, are products.

@@ -48,7 +48,20 @@ impl Surd {
     }
 
     /// In lowest terms; `None` when that is too long.
-    fn lowest(mut terms: BTreeMap<Root, BigInt>, denominator: BigInt) -> Option<Self> {
+    fn lowest(terms: BTreeMap<Root, BigInt>, denominator: BigInt) -> Option<Self> {
+        Self::reduced(terms, denominator).short()
+    }
+
+    /// The number itself, `None` when it is too long.
+    fn short(self) -> Option<Self> {
+        let short = |x: &BigInt| x.bits() <= MAX_BITS;
+        let fits =
+            self.terms.len() <= MAX_TERMS && short(&self.denominator) && self.terms.values().all(short);
+        fits.then_some(self)
+    }
+
+    /// In lowest terms, however long.
+    fn reduced(mut terms: BTreeMap<Root, BigInt>, denominator: BigInt) -> Self {
         terms.retain(|_, c| !c.is_zero());
         let mut common = denominator.clone();
         for c in terms.values() {
@@ -63,9 +76,12 @@ impl Surd {
                 *c = &*c / &common;
             }
         }
-        let short = |x: &BigInt| x.bits() <= MAX_BITS;
-        let fits = terms.len() <= MAX_TERMS && short(&denominator) && terms.values().all(short);
-        fits.then_some(Self { terms, denominator })
+        Self { terms, denominator }
+    }
+
+    /// A fraction, however long.
+    pub(super) fn long_rational(x: &Rational) -> Self {
+        Self::reduced(BTreeMap::from([(Root::ONE, x.numer().clone())]), x.denom().clone())
     }
 
     pub(crate) fn is_zero(&self) -> bool {
@@ -109,13 +125,18 @@ impl Surd {
     }
 
     pub(crate) fn plus(&self, other: &Self) -> Option<Self> {
+        self.sum(other).short()
+    }
+
+    /// The sum, however long.
+    pub(super) fn sum(&self, other: &Self) -> Self {
         let common = self.denominator.lcm(&other.denominator);
         let (f, g) = (&common / &self.denominator, &common / &other.denominator);
         let mut terms: BTreeMap<Root, BigInt> = self.terms.iter().map(|(r, c)| (*r, c * &f)).collect();
         for (r, c) in &other.terms {
             *terms.entry(*r).or_default() += c * &g;
         }
-        Self::lowest(terms, common)
+        Self::reduced(terms, common)
     }
 
     pub(crate) fn minus(&self, other: &Self) -> Option<Self> {
@@ -123,6 +144,11 @@ impl Surd {
     }
 
     pub(crate) fn times(&self, other: &Self) -> Option<Self> {
+        self.product(other)?.short()
+    }
+
+    /// The product, however long; `None` when a radicand exceeds 64 bits.
+    pub(super) fn product(&self, other: &Self) -> Option<Self> {
         let mut terms: BTreeMap<Root, BigInt> = BTreeMap::new();
         let doubled = [self, other].iter().all(|x| x.terms.keys().any(|r| r.has_twentieth()));
         for (r, c) in &self.terms {
@@ -134,7 +160,7 @@ impl Surd {
             }
         }
         let denominator = &self.denominator * &other.denominator;
-        Self::lowest(terms, if doubled { denominator << 1u32 } else { denominator })
+        Some(Self::reduced(terms, if doubled { denominator << 1u32 } else { denominator }))
     }
 
     /// A generator of its field over a smaller one; `None` for fractions.
@@ -143,30 +169,35 @@ impl Surd {
     }
 
     /// The image under the automorphism that moves the generator and none of those that come after it.
-    fn image(&self, generator: Generator) -> Option<Self> {
+    fn image(&self, generator: Generator) -> Self {
         let mut terms: BTreeMap<Root, BigInt> = BTreeMap::new();
         for (r, c) in &self.terms {
             for (root, factor) in r.image(generator) {
                 *terms.entry(root).or_default() += c * factor;
             }
         }
-        Self::lowest(terms, self.denominator.clone())
+        Self::reduced(terms, self.denominator.clone())
     }
 
     /// `1 / x`; `None` for zero and when the result is too long.
     pub(crate) fn inverse(&self) -> Option<Self> {
+        self.reciprocal()?.short()
+    }
+
+    /// `1 / x`, however long; `None` for zero and when a radicand exceeds 64 bits.
+    pub(super) fn reciprocal(&self) -> Option<Self> {
         if self.is_zero() {
             return None;
         }
         let Some(generator) = self.generator() else {
-            return Self::rational(&self.as_rational()?.recip());
+            return Some(Self::long_rational(&self.as_rational()?.recip()));
         };
         // the product of all images under the automorphism is a number of the smaller field
-        let mut others = self.image(generator)?;
+        let mut others = self.image(generator);
         if generator == Generator::Ninth {
-            others = others.times(&others.image(generator)?)?;
+            others = others.product(&others.image(generator))?;
         }
-        others.times(&self.times(&others)?.inverse()?)
+        others.product(&self.product(&others)?.reciprocal()?)
     }
 
     /// The square root that is not negative; `None` for negative numbers and when it is not found among these sums.
@@ -200,7 +231,7 @@ impl Surd {
         let generator = self.generator().filter(|g| depth > 0 && *g != Generator::Ninth)?;
         // (u + v)^2 = a + b with u^2 = (a +- c) / 2, c^2 = (a + b)(a - b), v = b / (2 u), where a - b is the image of a + b
         let half = Self::rational(&Rational::new(1.into(), 2.into()))?;
-        let image = self.image(generator)?;
+        let image = self.image(generator);
         let (a, tail) = (self.plus(&image)?.times(&half)?, self.minus(&image)?.times(&half)?);
         let c = self.times(&image)?.root(depth - 1)?;
         for c in [c.clone(), c.negated()] {

@@ -193,7 +193,7 @@ pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
         description: design.description.as_deref(),
         kind,
         size: design.manipulator().size(),
-        singular: architecture.as_ref().is_some_and(Architecture::is_singular),
+        singular: architecture.as_ref().is_some_and(|a| a.is_singular() == Some(true)),
         reason: finding.map(|f| f.case.sentence()),
         home: (&session.home).into(),
         centre: centre.coords.into(),

@@ -9,7 +9,7 @@ use super::{NamedPoints, Number, PoseRecord};
 use crate::design::{Design, DesignExactness, Exactness};
 use crate::entrance::CheckReport;
 use crate::fk::Theorem;
-use crate::manipulator::LegLengths;
+use crate::manipulator::{LegLengths, Level};
 use crate::singularity::{
     Architecture, Assembly, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound,
     RationalPose,
@@ -23,10 +23,12 @@ pub struct CheckAnswer {
     pub name: String,
     /// How exactly its joints are known.
     pub joints: JointsRecord,
-    /// Null: the design as written is regular, and a singular one lies within rounding of it.
+    /// Null: the design as written is regular, and a singular one lies within rounding of it or within the digits given; or joints are known between bounds only.
     pub architecturally_singular: Option<bool>,
-    /// Decided exactly, for the joints as the numbers they are.
-    pub singular_as_written: bool,
+    /// What the answer is proved about; within rounding: a singular design may have been meant. Null: not decided.
+    pub level: Option<Level>,
+    /// Decided exactly, for the joints as the numbers they are; null where they are known between bounds only.
+    pub singular_as_written: Option<bool>,
     /// A short code of the reason; null: regular.
     pub reason: Option<String>,
     /// One sentence.
@@ -74,6 +76,7 @@ impl From<&CheckReport> for CheckAnswer {
             name: c.design.name.clone(),
             joints: (&c.design.exactness()).into(),
             architecturally_singular: c.is_singular(),
+            level: c.level(),
             singular_as_written: a.is_singular(),
             reason: c.reason().map(str::to_owned),
             explanation: explanation(c),
@@ -146,7 +149,8 @@ impl From<Theorem> for PoseBoundRecord {
 /// What proves the answer for the joints as written.
 fn proof(a: &Architecture) -> ProofWord {
     match a.jacobian.bound {
-        _ if !a.is_singular() => ProofWord::RegularPose,
+        _ if a.is_singular().is_none() => ProofWord::None,
+        _ if a.is_singular() == Some(false) => ProofWord::RegularPose,
         RankBound::LegVectors | RankBound::Legs => ProofWord::LegVectors,
         RankBound::Lattice { .. } => ProofWord::PoseLattice,
     }
@@ -154,10 +158,23 @@ fn proof(a: &Architecture) -> ProofWord {
 
 /// Which design it is, in one sentence.
 fn explanation(c: &CheckReport) -> String {
+    if let Some(n) = c.meant() {
+        let units = &c.design.units;
+        return match n.within_digits {
+            Some(half) => format!(
+                "a singular design ({}) is {:.1e} {units} away, and no coordinate differs from it by more than half a unit of the last digit given ({half} {units}); as written the design is regular",
+                n.kind, n.distance
+            ),
+            None => format!(
+                "a singular design ({}) is {:.1e} {units} away, which is no more than rounding of the numbers; as written the design is regular",
+                n.kind, n.distance
+            ),
+        };
+    }
     match (c.is_singular(), c.architecture.findings.first()) {
-        (None, _) => "as written the design is regular, but a singular one differs from it by no more than rounding: which of the two \
-                      was meant cannot be told from the file"
-            .into(),
+        (None, _) => {
+            "joints are known between bounds only, and no pose is proved to hold the platform".into()
+        }
         (_, Some(f)) => format!("{} ({})", f.case.sentence(), list(&f.legs)),
         (_, None) => "almost every pose holds the platform".into(),
     }
@@ -171,17 +188,16 @@ fn proof_explanation(a: &Architecture) -> String {
         j.witness.quaternion,
         triple(&j.witness.pose().position)
     );
+    let Some(level) = a.level else { return "nothing is proved".into() };
+    let about = level.words();
     match j.bound {
-        RankBound::Legs => {
-            format!("{pose} has six independent leg lines, in exact arithmetic on the joints as written")
-        }
+        RankBound::Legs => format!("{pose} has six independent leg lines, proved {about}"),
         RankBound::LegVectors => format!(
-            "the leg vectors have rank {0} exactly, the lines never have more; {pose} has rank {0}",
+            "the leg vectors have rank {0}, proved {about}, and the lines never have more; {pose} has rank {0}",
             a.leg_rank
         ),
         RankBound::Lattice { poses, primes } => format!(
-            "the leg lines have rank {} or less at {poses} poses that decide all poses, in exact arithmetic ({primes} primes); {pose} has \
-             that rank",
+            "the leg lines have rank {} or less at {poses} poses that decide all poses, proved {about} ({primes} primes); {pose} has that rank",
             j.rank
         ),
     }
@@ -243,6 +259,8 @@ pub enum ProofWord {
     LegVectors,
     /// Ranks at the poses of a lattice that decide all poses.
     PoseLattice,
+    /// Nothing: joints are known between bounds only, and no pose is proved to hold the platform.
+    None,
 }
 
 /// A pose with rational coordinates.
@@ -443,6 +461,8 @@ pub struct NearestSingularRecord {
     pub residual: Number,
     /// Rounding of the file may be the only difference.
     pub within_rounding: bool,
+    /// Half a unit of the last digit given, design units, where no coordinate differs by more; null otherwise.
+    pub within_digits: Option<Number>,
     /// Its base joints by name, base frame.
     pub base: NamedPoints,
     /// Its platform joints by name, platform frame.
@@ -460,6 +480,7 @@ impl NearestSingularRecord {
             coefficients: n.coefficients.map(|c| c.map(Number)),
             residual: Number(n.residual),
             within_rounding: n.within_rounding,
+            within_digits: n.within_digits.map(Number),
             base: NamedPoints::new(design.base_names(), &n.base),
             platform: NamedPoints::new(design.platform_names(), &n.platform),
         }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, leg_number};
+use crate::manipulator::Level;
 use crate::synthesis::alignment::{
     Alignment, AlignmentUndecided, Difference, Invariant, Motion, NearestMotion,
 };
@@ -27,6 +28,10 @@ pub struct MapAnswer {
 pub struct MapRecord {
     /// What the designs have to do with each other; null: undecided, exit 3.
     pub relation: Option<Relation>,
+    /// What the relation is proved about; within rounding: nothing is proved.
+    pub level: Level,
+    /// It holds within rounding of the joints, or exactly.
+    pub holds_within_rounding: bool,
     /// One sentence with the numbers that decided.
     pub explanation: String,
     /// Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
@@ -38,7 +43,7 @@ pub struct MapRecord {
     /// The determinant of A.
     #[serde(rename = "det")]
     pub determinant: Number,
-    /// The determinant as an exact number, such as 64/243, where the identity of leg vectors was checked in exact arithmetic on exact joints; null elsewhere.
+    /// The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact arithmetic; null elsewhere, and for numbers too long to be read.
     pub det_exact: Option<String>,
     /// Rows of A as exact numbers; null where `det_exact` is.
     #[serde(rename = "A_exact")]
@@ -88,6 +93,8 @@ impl From<&LegMapOutcome> for MapRecord {
         let (c, exact): ([f64; 6], _) = (o.closest.c.into(), o.exact_numbers.as_ref());
         Self {
             relation: o.relation.decided(),
+            level: o.level,
+            holds_within_rounding: o.holds_within_rounding,
             explanation: o.explanation(),
             matrix: matrix(&o.closest),
             constants: c.map(Number),

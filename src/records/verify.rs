@@ -16,7 +16,7 @@ pub struct VerifyAnswer {
     pub verdict: VerdictWord,
     /// One sentence with the numbers that decided.
     pub explanation: String,
-    /// Whether the map is proved: every leg vector of B is a combination of those of A, checked in exact arithmetic on exact joints.
+    /// Whether the verdict is proved, in exact arithmetic on the leg vectors; `level` of the map says about which joints.
     pub proved: bool,
     /// The algebraic side; that of the designs as they are given where no motion was found.
     pub map: MapRecord,
@@ -94,7 +94,7 @@ impl VerifyAnswer {
             beyond_precision: Some(BeyondPrecisionRecord { a, b }),
             samples: v.samples.iter().map(SampleRecord::from).collect(),
             counterexample: match &v.verdict {
-                Verdict::NotEquivalent(c) => Some(c.as_ref().into()),
+                Verdict::NotEquivalent(Some(c)) => Some(c.as_ref().into()),
                 _ => None,
             },
             sampling: Some(plan.into()),

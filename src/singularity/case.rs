@@ -7,8 +7,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::dependency::{Dependency, subsets_by_size};
 use super::griffis_duffy::GriffisDuffy;
-use crate::manipulator::{Body, ExactLegs, Manipulator};
-use crate::num::exact::{ExactVector, Rational, product, rank, relations};
+use crate::manipulator::{AlgebraicVector, Body, ExactLegs, Manipulator};
+use crate::num::algebraic::Algebraic;
+use crate::num::exact::{product, rank, relations};
 use crate::num::linalg::{LinalgError, svd};
 
 /// A geometric reason for which the leg lines are dependent at every pose.
@@ -222,7 +223,7 @@ fn planar_case(legs: &ExactLegs, d: &Dependency, hexagon: Option<&GriffisDuffy>)
 }
 
 /// Whether points of a plane satisfy a quadratic equation of the plane that is not zero on all of it.
-fn on_a_conic(points: &[ExactVector]) -> bool {
+fn on_a_conic(points: &[AlgebraicVector]) -> bool {
     let squares: Vec<_> = points.iter().map(|x| product(x, x)).collect();
     // six quadratic monomials in the plane
     rank(&squares) < 6
@@ -336,14 +337,14 @@ impl std::fmt::Display for PlanarMap {
 }
 
 /// The most special regular map with `b_i` the image of `a_i`, points `(1, x, y, z)`; both sets span planes.
-fn planar_map(a: &[ExactVector], b: &[ExactVector]) -> Option<PlanarMap> {
+fn planar_map(a: &[AlgebraicVector], b: &[AlgebraicVector]) -> Option<PlanarMap> {
     if similar(a, b) {
         return Some(PlanarMap::Similar);
     }
-    let affine = |x: &[ExactVector], y: &[ExactVector]| {
+    let affine = |x: &[AlgebraicVector], y: &[AlgebraicVector]| {
         let rows = x.iter().zip(y).map(|(x, y)| x.iter().chain(&y[1..]).cloned().collect());
         // the graph of an affine map of a plane is a plane
-        rank(&rows.collect::<Vec<_>>()) == 3
+        rank(&rows.collect::<Vec<AlgebraicVector>>()) == 3
     };
     if affine(a, b) {
         return Some(PlanarMap::Affine);
@@ -351,38 +352,38 @@ fn planar_map(a: &[ExactVector], b: &[ExactVector]) -> Option<PlanarMap> {
     projective(&in_plane(a)?, &in_plane(b)?).then_some(PlanarMap::Projective)
 }
 
-fn squared_distance(x: &ExactVector, y: &ExactVector) -> Rational {
-    x.iter().zip(y).map(|(x, y)| (x - y) * (x - y)).sum()
+fn squared_distance(x: &AlgebraicVector, y: &AlgebraicVector) -> Algebraic {
+    x.iter().zip(y).map(|(x, y)| x - y).map(|d| &d * &d).sum()
 }
 
-fn similar(a: &[ExactVector], b: &[ExactVector]) -> bool {
+fn similar(a: &[AlgebraicVector], b: &[AlgebraicVector]) -> bool {
     let pairs = || (0..a.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-    let zero = Rational::from_integer(0.into());
-    let from = |list: &[ExactVector], (i, j): (usize, usize)| squared_distance(&list[i], &list[j]);
+    let zero = Algebraic::integer(0);
+    let from = |list: &[AlgebraicVector], (i, j): (usize, usize)| squared_distance(&list[i], &list[j]);
     let Some(unit) = pairs().find(|p| from(a, *p) != zero) else { return false };
     let (u, v) = (from(a, unit), from(b, unit));
-    v != zero && pairs().all(|p| from(a, p) * &v == from(b, p) * &u)
+    v != zero && pairs().all(|p| &from(a, p) * &v == &from(b, p) * &u)
 }
 
 /// Homogeneous coordinates in the plane: two coordinates in which the points still span a plane.
-fn in_plane(points: &[ExactVector]) -> Option<Vec<ExactVector>> {
+fn in_plane(points: &[AlgebraicVector]) -> Option<Vec<AlgebraicVector>> {
     [[1, 2], [2, 3], [3, 1]].into_iter().find_map(|[i, j]| {
-        let seen: Vec<ExactVector> =
+        let seen: Vec<AlgebraicVector> =
             points.iter().map(|p| [0, i, j].map(|k| p[k].clone()).to_vec()).collect();
         (rank(&seen) == 3).then_some(seen)
     })
 }
 
 /// Whether a regular 3 x 3 matrix `T` with `T a_i` a multiple of `b_i` exists: `b_i x T a_i = 0` is linear in `T`.
-fn projective(a: &[ExactVector], b: &[ExactVector]) -> bool {
-    let zero = || Rational::from_integer(0.into());
+fn projective(a: &[AlgebraicVector], b: &[AlgebraicVector]) -> bool {
+    let zero = || Algebraic::integer(0);
     // one row an entry T_kl, one column an equation
-    let equations = |k: usize, l: usize| -> Vec<Rational> {
+    let equations = |k: usize, l: usize| -> Vec<Algebraic> {
         a.iter()
             .zip(b)
             .flat_map(|(a, b)| {
                 let (mut e, next, last) = ([zero(), zero(), zero()], (k + 1) % 3, (k + 2) % 3);
-                e[next] = -(&b[last] * &a[l]);
+                e[next] = -&(&b[last] * &a[l]);
                 e[last] = &b[next] * &a[l];
                 e
             })
@@ -391,8 +392,12 @@ fn projective(a: &[ExactVector], b: &[ExactVector]) -> bool {
     let rows: Vec<_> = (0..9).map(|i| equations(i / 3, i % 3)).collect();
     let solutions = relations(&rows);
     let [t] = solutions.as_slice() else { return false };
-    let minor = |i: usize, j: usize, k: usize| &t[i] * (&t[3 + j] * &t[6 + k] - &t[3 + k] * &t[6 + j]);
-    minor(0, 1, 2) + minor(1, 2, 0) + minor(2, 0, 1) != zero()
+    let minor = |i: usize, j: usize, k: usize| {
+        let both = &(&t[3 + j] * &t[6 + k]) - &(&t[3 + k] * &t[6 + j]);
+        &t[i] * &both
+    };
+    let determinant: Algebraic = [minor(0, 1, 2), minor(1, 2, 0), minor(2, 0, 1)].into_iter().sum();
+    !determinant.is_zero()
 }
 
 #[cfg(test)]
@@ -410,7 +415,7 @@ mod tests {
         let joints = [[0., 0., 0.], [7., 1., 0.], [9., 6., 1.], [4., 9., -1.], [-3., 5., 2.], [-5., -2., 3.]];
         let legs = |base: [[f64; 3]; 6]| {
             let leg = |i: usize| Leg { base: Point3::from(base[i]), platform: Point3::from(joints[5 - i]) };
-            ExactLegs::of(&std::array::from_fn(leg)).unwrap()
+            ExactLegs::of_doubles(&std::array::from_fn(leg)).unwrap()
         };
         let all: Vec<usize> = (0..6).collect();
         assert_eq!(of_lines(&legs(joints), all.clone()).case, Case::Unnamed);
@@ -425,8 +430,10 @@ mod tests {
         assert_eq!(of_lines(&legs(lined), vec![0, 1, 2, 3, 4]).case, Case::Unnamed);
     }
 
-    fn points(list: &[[f64; 3]]) -> Vec<ExactVector> {
-        list.iter().map(|p| homogeneous(&Point3::from(*p)).unwrap()).collect()
+    fn points(list: &[[f64; 3]]) -> Vec<AlgebraicVector> {
+        let exact =
+            |p: &[f64; 3]| homogeneous(&Point3::from(*p)).unwrap().into_iter().map(Algebraic::Rational);
+        list.iter().map(|p| exact(p).collect()).collect()
     }
 
     #[test]
@@ -442,16 +449,16 @@ mod tests {
         assert_eq!(planar_map(&a, &image(&|x, y| [x + y, 2.0 * y, x])), Some(PlanarMap::Affine));
         // z = 8 / (8 + x): powers of two keep the quotients exact
         let b = image(&|x, y| [x, y, 0.0]);
-        let projected: Vec<ExactVector> = b
+        let projected: Vec<AlgebraicVector> = b
             .iter()
             .map(|p| {
-                let w = rational(8.0).unwrap() + &p[1];
+                let w = &Algebraic::integer(8) + &p[1];
                 vec![p[0].clone(), &p[1] / &w, &p[2] / &w, p[3].clone()]
             })
             .collect();
         assert_eq!(planar_map(&a, &projected), Some(PlanarMap::Projective));
         let mut spoilt = projected;
-        spoilt[4][2] += rational(1e-30).unwrap();
+        spoilt[4][2] = &spoilt[4][2] + &rational(1e-30).unwrap().into();
         assert_eq!(planar_map(&a, &spoilt), None);
     }
 }

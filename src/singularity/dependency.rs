@@ -1,6 +1,7 @@
 //! Exact linear relations between the leg vectors `v = (1, a) (x) (1, b)`.
 
 use crate::manipulator::{Body, ExactLegs, SquaredLegLengths};
+use crate::num::algebraic::Algebraic;
 use crate::num::exact::{Rational, approximate, relations};
 
 /// A smallest set of legs with dependent vectors: `sum c_i v_i = 0`, and no proper part of it is dependent.
@@ -50,18 +51,22 @@ impl ExactLegs {
         found
     }
 
-    fn dependency(&self, legs: &[usize], c: &[Rational]) -> Dependency {
-        let c = scaled(c);
+    fn dependency(&self, legs: &[usize], c: &[Algebraic]) -> Dependency {
+        let fractions: Option<Vec<Rational>> = c.iter().map(|x| x.as_rational().cloned()).collect();
+        let c = match fractions {
+            Some(fractions) => scaled(&fractions).into_iter().map(Algebraic::Rational).collect(),
+            None => scaled_to_one(c),
+        };
         let mut coefficients = [0.0; 6];
-        let mut constant = Rational::from_integer(0.into());
+        let mut constant = Algebraic::integer(0);
         for (i, c) in legs.iter().zip(&c) {
-            coefficients[*i] = approximate(c);
-            constant += c * self.squares(*i);
+            coefficients[*i] = c.approximate();
+            constant = &constant + &(c * &self.squares(*i));
         }
         Dependency {
             legs: legs.to_vec(),
             coefficients,
-            constant: approximate(&constant),
+            constant: constant.approximate(),
             base_dimension: self.dimension(Body::Base, legs),
             platform_dimension: self.dimension(Body::Platform, legs),
         }
@@ -75,6 +80,15 @@ pub(super) fn subsets_by_size(least: usize) -> Vec<Vec<usize>> {
     all.retain(|s: &Vec<usize>| s.len() >= least);
     all.sort_by(|x, y| x.len().cmp(&y.len()).then_with(|| x.cmp(y)));
     all
+}
+
+/// The multiple of `c` with a largest modulus of 1 and a positive first entry that is not zero.
+fn scaled_to_one(c: &[Algebraic]) -> Vec<Algebraic> {
+    let largest = c.iter().map(|x| x.approximate().abs()).enumerate().max_by(|x, y| x.1.total_cmp(&y.1));
+    let Some(most) = largest.map(|(k, _)| &c[k]).filter(|x| !x.is_zero()) else { return c.to_vec() };
+    let ratios: Vec<Algebraic> = c.iter().map(|x| x / most).collect();
+    let negative = ratios.iter().find(|x| !x.is_zero()).is_some_and(|x| x.approximate() < 0.0);
+    if negative { ratios.iter().map(|x| -x).collect() } else { ratios }
 }
 
 /// A multiple of `c` with a positive first entry: integers below a million without a common factor, or a largest modulus of 1.
@@ -121,7 +135,7 @@ mod tests {
             ([2.0, 3.0, 0.0], [-1.0, 2.0, 0.5]),
             ([0.0, -3.0, 2.0], [1.0, -2.0, 0.0]),
         ]);
-        let found = ExactLegs::of(&m.legs()).unwrap().dependencies();
+        let found = ExactLegs::of(&m).unwrap().dependencies();
         assert_eq!(found.len(), 1);
         let d = &found[0];
         assert_eq!((d.legs.as_slice(), d.base_dimension, d.platform_dimension), (&[0, 1, 2][..], 1, 0));

@@ -23,7 +23,7 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use crate::geom::Pose;
 use crate::manipulator::{ExactLegs, Manipulator, SquaredLegLengths, flat_dimension, is_collinear};
-use crate::num::exact::Rational;
+use crate::num::algebraic::Algebraic;
 use crate::num::linalg::{LinalgError, svd};
 use crate::synthesis::{hexagon_orders, offset_determinant, offset_products};
 
@@ -61,8 +61,7 @@ impl GriffisDuffy {
             }
         }
         let mut found = best?;
-        found.exactly_singular =
-            ExactLegs::of(&m.legs()).is_some_and(|legs| exactly_singular(&legs, found.order));
+        found.exactly_singular = ExactLegs::of(m).is_some_and(|legs| exactly_singular(&legs, found.order));
         Some(found)
     }
 
@@ -164,9 +163,9 @@ fn exactly_singular(legs: &ExactLegs, order: [usize; 6]) -> bool {
         }
         // a coordinate in which the two vertices differ
         let Some(axis) = (1..4).find(|i| from[*i] != to[*i]) else { return false };
-        offsets.push((&x[axis] - &from[axis]) / (&to[axis] - &from[axis]));
+        offsets.push(&(&x[axis] - &from[axis]) / &(&to[axis] - &from[axis]));
     }
-    let (rest, own) = offset_products(&Rational::from_integer(1.into()), offsets);
+    let (rest, own) = offset_products(&Algebraic::integer(1), offsets);
     rest == own
 }
 

@@ -4,13 +4,17 @@
 //! matrix of leg lines, times `(1 + c.c)^3`, is a polynomial of degree at most 6 in `c` and at most 3 in `p`. It is zero
 //! at all poses as soon as it is zero at the 84 x 20 poses with `c` in `{i + j + k <= 6}` and `p` in `{i + j + k <= 3}`
 //! (natural numbers; `p` in any unit).
+//!
+//! Minors are looked at modulo primes. With a common denominator of the coordinates taken out a minor is an algebraic integer of a field of degree `n`, and so are its
+//! conjugates, none of which exceeds `B` (Hadamard). Its norm is an integer below `B^n`, which every prime divides whose residue field has the minor zero:
+//! it is zero when the product of these primes is `B^n` or more. Doubles are the case `n = 1`.
 
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 
 use crate::geom::Pose;
-use crate::manipulator::{Leg, Manipulator, plucker_matrix};
+use crate::manipulator::{ExactJoints, LegResidues, Manipulator, plucker_matrix};
 use crate::num::Rng;
-use crate::num::modular::{Field, PRIME_BITS, fields, mantissa_and_exponent};
+use crate::num::modular::PRIME_BITS;
 use crate::num::small::singular_values;
 
 /// A pose whose numbers are integers: `R` of the quaternion `(q0, q1, q2, q3)`, `p` in powers of two of the design unit.
@@ -73,46 +77,49 @@ const DEGREES: [i64; 2] = [6, 3];
 /// Candidates among which the witness is chosen.
 const CANDIDATES: u64 = 96;
 
-/// The generic rank of the lines of some legs of `m`; `leg_rank` is the exact rank of their leg vectors.
-pub(crate) fn generic_rank(m: &Manipulator, chosen: &[usize], leg_rank: usize) -> GenericRank {
-    let legs = m.legs();
-    let legs: Vec<Leg> = chosen.iter().map(|i| legs[*i]).collect();
-    let first = fields(1)[0];
-    let rank_at = |pose: &RationalPose| rank(first, &legs, pose, 0);
+/// The generic rank of the lines of some legs of `m`, whose joints are `joints`; `leg_rank` is the exact rank of their leg vectors. `None` for coordinates with too many square
+/// roots.
+pub(crate) fn generic_rank(
+    m: &Manipulator,
+    joints: &ExactJoints,
+    chosen: &[usize],
+    leg_rank: usize,
+) -> Option<GenericRank> {
+    let degree = joints.degree()?;
+    let first = joints.residues().next()?;
     let (mut best, mut witness) = (0, RationalPose { quaternion: [1, 0, 0, 0], steps: [0; 3], unit: 0 });
     let unit = unit_of(m);
     for pose in candidates(m, unit, leg_rank).into_iter().chain(lattice(unit)) {
-        let r = rank_at(&pose);
+        let r = rank_at_least(&first, chosen, &pose);
         if r > best {
             (best, witness) = (r, pose);
         }
         if best == leg_rank {
-            let bound = if best == legs.len() { RankBound::Legs } else { RankBound::LegVectors };
-            return GenericRank { rank: best, witness, bound };
+            let bound = if best == chosen.len() { RankBound::Legs } else { RankBound::LegVectors };
+            return Some(GenericRank { rank: best, witness, bound });
         }
     }
-    let shift = integer_shift(&legs, unit);
-    let primes = fields(primes_needed(&legs, unit, shift));
+    let primes = primes_needed(joints.bits(), degree, chosen.len(), unit);
     let poses: Vec<RationalPose> = lattice(unit).collect();
-    for field in &primes {
-        let scaled: Vec<_> = legs.iter().map(|l| residues(*field, l, shift)).collect();
+    for residues in joints.residues().take(primes) {
         for pose in &poses {
-            let r = rank_of(*field, &scaled, pose, shift);
+            let r = rank_at_least(&residues, chosen, pose);
             if r > best {
                 (best, witness) = (r, *pose);
             }
         }
     }
-    GenericRank {
-        rank: best,
-        witness,
-        bound: RankBound::Lattice { poses: poses.len(), primes: primes.len() },
-    }
+    Some(GenericRank { rank: best, witness, bound: RankBound::Lattice { poses: poses.len(), primes } })
 }
 
-/// Rank of the lines of `legs` at `pose` modulo the first prime; a lower bound of the true one.
-pub(crate) fn rank_at_least(legs: &[Leg], pose: &RationalPose) -> usize {
-    rank(fields(1)[0], legs, pose, 0)
+/// Rank of the lines of some legs at `pose` modulo a prime; a lower bound of the true one.
+pub(crate) fn rank_at_least(legs: &LegResidues, chosen: &[usize], pose: &RationalPose) -> usize {
+    legs.field.rank(rows_at(legs, chosen, pose))
+}
+
+/// Poses with small numbers that hold the platform as well as any, best first.
+pub(crate) fn candidate_poses(m: &Manipulator) -> impl Iterator<Item = RationalPose> {
+    candidates(m, unit_of(m), 6).into_iter()
 }
 
 /// The power of two next below the size of the design.
@@ -161,49 +168,24 @@ fn candidates(m: &Manipulator, unit: i32, leg_rank: usize) -> Vec<RationalPose> 
     list.into_iter().map(|(_, pose)| pose).collect()
 }
 
-fn coordinates(legs: &[Leg]) -> impl Iterator<Item = f64> {
-    legs.iter().flat_map(|l| l.base.iter().chain(l.platform.iter()).copied().collect::<Vec<_>>())
-}
-
-/// The least power of two whose product with every coordinate, and with the unit of position, is an integer.
-fn integer_shift(legs: &[Leg], unit: i32) -> i32 {
-    coordinates(legs).map(|x| -mantissa_and_exponent(x).1).chain([-unit]).fold(0, i32::max)
-}
-
-/// Primes whose product exceeds every minor of the integer matrix at every pose of the lattice.
+/// Primes whose product exceeds the norm of every minor of so many legs at every pose of the lattice, with a common denominator taken out of the coordinates.
 ///
 /// With `X` a bound of `|a| + |b| + |p|` (scaled, at least 1) and `N = q.q` a row `(N (p - a) + M b, a x (N p + M b))` is shorter than
-/// `N X (1 + X) <= 2 N X^2`, and a minor is less than the product of its rows (Hadamard).
-fn primes_needed(legs: &[Leg], unit: i32, shift: i32) -> usize {
-    let bits_of = |x: f64| {
-        let (m, e) = mantissa_and_exponent(x);
-        (64 - m.unsigned_abs().leading_zeros()).cast_signed() + e
-    };
-    // |x| < 2^bits; lattice positions are shorter than 2^2 units
-    let largest =
-        coordinates(legs).filter(|x| *x != 0.0).map(bits_of).chain([unit + 2]).fold(i32::MIN, i32::max);
+/// `N X (1 + X) <= 2 N X^2`, and a minor is less than the product of its rows (Hadamard). So are its conjugates.
+fn primes_needed([denominator, magnitude]: [i64; 2], degree: usize, legs: usize, unit: i32) -> usize {
+    // lattice positions are shorter than 2^2 units, and multiples of one unit
+    let (unit, denominator) = (i64::from(unit), denominator.max(-i64::from(unit)));
+    let largest = magnitude.max(unit + 2);
     // three vectors, each at most sqrt 3 times its largest coordinate: below 2^3 times the largest of all
-    let sum = (largest + shift + 3).max(0).cast_unsigned();
+    let sum = (largest + denominator + 3).max(0).cast_unsigned();
     // N <= 1 + 6^2 < 2^6
     let row = 6 + 1 + 2 * sum;
-    (legs.len() as u32 * row).div_ceil(PRIME_BITS) as usize
-}
-
-fn residues(field: Field, leg: &Leg, shift: i32) -> [[u64; 3]; 2] {
-    [leg.base, leg.platform].map(|p| [p.x, p.y, p.z].map(|x| field.scaled(x, shift)))
-}
-
-fn rank(field: Field, legs: &[Leg], pose: &RationalPose, shift: i32) -> usize {
-    let scaled: Vec<_> = legs.iter().map(|l| residues(field, l, shift)).collect();
-    rank_of(field, &scaled, pose, shift)
-}
-
-fn rank_of(field: Field, legs: &[[[u64; 3]; 2]], pose: &RationalPose, shift: i32) -> usize {
-    field.rank(rows_at(field, legs, pose, shift))
+    (legs as u64 * row * degree as u64).div_ceil(u64::from(PRIME_BITS)) as usize
 }
 
 /// The rows `(N (p - a) + M b, a x (N p + M b))` modulo a prime, `R = M / N`: the line of a leg times `N`.
-fn rows_at(field: Field, legs: &[[[u64; 3]; 2]], pose: &RationalPose, shift: i32) -> Vec<[u64; 6]> {
+fn rows_at(legs: &LegResidues, chosen: &[usize], pose: &RationalPose) -> Vec<[u64; 6]> {
+    let field = legs.field;
     let (add, sub, mul) = (|x, y| field.add(x, y), |x, y| field.sub(x, y), |x, y| field.mul(x, y));
     let [w, x, y, z] = pose.quaternion;
     let n = field.integer(w * w + x * x + y * y + z * z);
@@ -213,9 +195,9 @@ fn rows_at(field: Field, legs: &[[[u64; 3]; 2]], pose: &RationalPose, shift: i32
         [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
     ]
     .map(|row| row.map(|v| field.integer(v)));
-    let unit = field.scaled(1.0, pose.unit + shift);
+    let unit = field.scaled(1.0, pose.unit);
     let p = pose.steps.map(|s| mul(mul(field.integer(s), unit), n));
-    let rows = legs.iter().map(|[a, b]| {
+    let rows = chosen.iter().map(|leg| &legs.ends[*leg]).map(|[a, b]| {
         let end: [u64; 3] = std::array::from_fn(|i| {
             let turned = add(add(mul(m[i][0], b[0]), mul(m[i][1], b[1])), mul(m[i][2], b[2]));
             add(p[i], turned)
@@ -230,7 +212,16 @@ fn rows_at(field: Field, legs: &[[[u64; 3]; 2]], pose: &RationalPose, shift: i32
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::manipulator::Leg;
+    use crate::num::modular::{Field, fields};
     use nalgebra::Point3;
+
+    /// The rank of the lines of some legs of a design in doubles.
+    fn generic(m: &Manipulator, chosen: &[usize], leg_rank: usize) -> GenericRank {
+        generic_rank(m, &ExactJoints::of(m).unwrap(), chosen, leg_rank).unwrap()
+    }
+
+    const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
 
     fn random(rng: &mut Rng) -> Manipulator {
         let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal());
@@ -260,8 +251,9 @@ mod tests {
     fn polynomial(field: Field, m: &Manipulator, c: [i64; 3], p: [i64; 3]) -> u64 {
         let pose = RationalPose { quaternion: [1, c[0], c[1], c[2]], steps: p, unit: 0 };
         let n = field.integer(1 + c.iter().map(|x| x * x).sum::<i64>());
-        let scaled: Vec<_> = m.legs().iter().map(|l| residues(field, l, 0)).collect();
-        let det = field.determinant(&rows_at(field, &scaled, &pose, 0));
+        let point = |p: Point3<f64>| [p.x, p.y, p.z].map(|x| field.scaled(x, 0));
+        let legs = LegResidues { field, ends: m.legs().map(|l| [point(l.base), point(l.platform)]) };
+        let det = field.determinant(&rows_at(&legs, &ALL, &pose));
         (0..3).fold(det, |d, _| field.mul(d, field.inverse(n)))
     }
 
@@ -293,12 +285,12 @@ mod tests {
     /// Rank of the determinants of as many random designs (flat bodies on request) at as many poses.
     fn dimension_of_the_determinants<const N: usize>(flat: bool) -> usize {
         let (field, mut rng) = (fields(1)[0], Rng::new(4));
-        let designs: Vec<Vec<[[u64; 3]; 2]>> = (0..N)
+        let designs: Vec<LegResidues> = (0..N)
             .map(|_| {
                 let mut leg = || {
                     [(); 2].map(|()| [0, 1, 2].map(|i| if flat && i == 2 { 0 } else { rng.next_u64() >> 4 }))
                 };
-                (0..6).map(|_| leg()).collect()
+                LegResidues { field, ends: std::array::from_fn(|_| leg()) }
             })
             .collect();
         let mut digit = || (rng.next_u64() >> 50).cast_signed();
@@ -311,7 +303,7 @@ mod tests {
             .collect();
         let rows: Vec<[u64; N]> = poses
             .iter()
-            .map(|pose| std::array::from_fn(|k| field.determinant(&rows_at(field, &designs[k], pose, 0))))
+            .map(|pose| std::array::from_fn(|k| field.determinant(&rows_at(&designs[k], &ALL, pose))))
             .collect();
         field.rank(rows)
     }
@@ -326,11 +318,10 @@ mod tests {
     fn the_bound_of_the_minors_holds_with_room() {
         let mut rng = Rng::new(2);
         let m = random(&mut rng);
-        let legs = m.legs();
-        let shift = integer_shift(&legs, unit_of(&m));
-        let primes = primes_needed(&legs, unit_of(&m), shift);
+        let bits = ExactJoints::of(&m).unwrap().bits();
+        let primes = primes_needed(bits, 1, 6, unit_of(&m));
         // log2 of the largest determinant of the integer rows, by doubles
-        let scale = 2f64.powi(shift);
+        let scale = 2f64.powi(i32::try_from(bits[0]).unwrap());
         let largest = lattice(unit_of(&m)).map(|pose| {
             let n = pose.quaternion.iter().map(|x| (x * x) as f64).sum::<f64>();
             let j = plucker_matrix(&m, &pose.pose(), 1.0);
@@ -350,7 +341,7 @@ mod tests {
         legs[4] = legs[1];
         legs[4].base.z = f64::from_bits(legs[1].base.z.to_bits() + 1);
         let m = Manipulator::from_legs(legs).unwrap();
-        let found = generic_rank(&m, &[0, 1, 2, 3, 4, 5], 6);
+        let found = generic(&m, &[0, 1, 2, 3, 4, 5], 6);
         assert_eq!((found.rank, found.bound), (6, RankBound::Legs));
     }
 
@@ -362,9 +353,9 @@ mod tests {
             legs[i].base = legs[0].base;
         }
         let m = Manipulator::from_legs(legs).unwrap();
-        let found = generic_rank(&m, &[0, 1, 2, 3], 4);
+        let found = generic(&m, &[0, 1, 2, 3], 4);
         assert_eq!(found.rank, 3);
         assert!(matches!(found.bound, RankBound::Lattice { poses: 1680, primes: 2.. }), "{:?}", found.bound);
-        assert_eq!(generic_rank(&m, &[0, 1, 2, 3, 4, 5], 6).rank, 5);
+        assert_eq!(generic(&m, &[0, 1, 2, 3, 4, 5], 6).rank, 5);
     }
 }

@@ -82,7 +82,7 @@ fn most_legs_at_a_joint(m: &Manipulator) -> f64 {
 }
 
 /// The bound from one pose, proved: every step encloses what it computes. 0 where nothing is proved.
-fn proved_at_pose(m: &Manipulator, pose: &Pose) -> f64 {
+pub(super) fn proved_at_pose(m: &Manipulator, pose: &Pose) -> f64 {
     let rotation = exact_rotation(pose);
     let point = |v: &Vector3<f64>| -> IntervalVector { std::array::from_fn(|k| Interval::from(v[k])) };
     let place = point(&pose.position);

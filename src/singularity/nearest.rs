@@ -11,7 +11,9 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
 
-use crate::manipulator::{Body, InvalidManipulator, Manipulator};
+use super::lattice::candidate_poses;
+use super::lower_bound::proved_at_pose;
+use crate::manipulator::{Body, InvalidManipulator, Level, Manipulator};
 use crate::num::Purpose;
 use crate::num::linalg::LinalgError;
 use crate::num::small::{bounded_svd, symmetric_eigen3};
@@ -37,6 +39,46 @@ pub struct NearestSingular {
     pub residual: f64,
     /// Whether every coordinate changes by at most `2^-50` of the largest coordinate of its body: rounding of the file may hide it.
     pub within_rounding: bool,
+    /// Half a unit of the last decimal that is given, design units, where no coordinate changes by more: the design is singular to the digits given.
+    pub within_digits: Option<f64>,
+}
+
+impl NearestSingular {
+    /// Whether the design may be a rounded value of this one.
+    #[must_use]
+    pub fn may_be_meant(&self) -> bool {
+        self.within_rounding || self.within_digits.is_some()
+    }
+}
+
+/// The singular design that plain doubles may be rounded values of, if any; asked of designs that are regular as written. Designs with exact joints are rounded values of none.
+///
+/// # Errors
+/// When a singular value decomposition does not converge.
+pub fn rounded_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSingular>, LinalgError> {
+    if m.level() == Level::ExactJoints {
+        return Ok(None);
+    }
+    // a design that one pose proves farther from every singular one than rounding reaches needs no search
+    let reach = ROUNDING * largest(m.base_joints()).max(largest(m.platform_joints()));
+    let reach = 6.0 * half_unit_given(m).map_or(reach, |half| reach.max(half));
+    if candidate_poses(m).take(4).any(|pose| proved_at_pose(m, &pose.pose()) > reach) {
+        return Ok(None);
+    }
+    Ok(nearest_singular(m, seed)?.filter(NearestSingular::may_be_meant))
+}
+
+fn largest(points: &[Point3<f64>]) -> f64 {
+    points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max)
+}
+
+/// Half a unit of the last decimal of the coordinates as they are written, design units; `None` where it is a large share of the design, so that the numbers are not meant to be rounded.
+fn half_unit_given(m: &Manipulator) -> Option<f64> {
+    let decimals = |x: f64| format!("{x}").split_once('.').map_or(0, |(_, digits)| digits.len());
+    let used = m.legs().into_iter().flat_map(|leg| [leg.base, leg.platform]);
+    let most = used.flat_map(|p| [p.x, p.y, p.z]).map(decimals).max().unwrap_or(0);
+    let half = 0.5 * 10f64.powi(-i32::try_from(most).ok()?);
+    (half <= COARSE * m.size()).then_some(half)
 }
 
 /// Changes of the joints that make a design singular.
@@ -57,6 +99,8 @@ impl Change {
 
 /// Share of the largest coordinate that counts as rounding: eight half units in its last place.
 const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
+/// Digits that are a greater share of the size than this are the design, not a rounding of it.
+const COARSE: f64 = 1.0 / 512.0;
 /// Two distances that differ by less than this are one.
 const SAME: f64 = 1e-6;
 /// Random starts besides the six singular vectors.
@@ -96,12 +140,11 @@ fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgEr
         }
         _ => (0.0, change.kind),
     };
-    let small = |from: &[Point3<f64>], by: &[Vector3<f64>]| {
-        let largest = from.iter().flat_map(|p| p.iter().copied()).fold(0.0, |x: f64, y| x.max(y.abs()));
-        by.iter().all(|d| d.amax() <= ROUNDING * largest)
-    };
-    let within_rounding =
-        small(m.base_joints(), &change.base) && small(m.platform_joints(), &change.platform);
+    let within = |by: &[Vector3<f64>], limit: f64| by.iter().all(|d| d.amax() <= limit);
+    let within_rounding = within(&change.base, ROUNDING * largest(m.base_joints()))
+        && within(&change.platform, ROUNDING * largest(m.platform_joints()));
+    let given = half_unit_given(m).filter(|_| m.level() == Level::DoublesAsWritten);
+    let within_digits = given.filter(|half| within(&change.base, *half) && within(&change.platform, *half));
     Ok(NearestSingular {
         distance: change.norm(),
         kind,
@@ -111,6 +154,7 @@ fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgEr
         platform,
         residual,
         within_rounding,
+        within_digits,
     })
 }
 

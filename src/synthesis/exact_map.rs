@@ -1,72 +1,94 @@
 //! The leg map between platforms whose joints are known exactly, as exact numbers.
 //!
 //! A leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`; `A` writes the vectors of TO as combinations of those of FROM, and
-//! `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. Both platforms are equivalent if and only if `det A` is not zero.
+//! `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. Both platforms are equivalent if and only if all three hold: the legs of FROM are independent, those
+//! of TO are, and every one of TO is in the span of FROM.
 
 use std::fmt::Write as _;
 
-use crate::manipulator::{ExactEnds, squares_of_ends, vector_of_ends};
-use crate::num::surd::{Surd, combination, eliminate};
+use crate::manipulator::{AlgebraicVector, ExactLegs};
+use crate::num::algebraic::Algebraic;
+use crate::num::exact::{rank, relations};
 
-/// `s(TO) = A s(FROM) + c` with exact numbers.
+/// `s(TO) = A s(FROM) + c` with exact numbers and `det A` not zero.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ExactMap {
     /// `A`, by rows.
-    pub(crate) a: Vec<Vec<Surd>>,
+    pub(crate) a: Vec<AlgebraicVector>,
     /// `c`.
-    pub(crate) c: Vec<Surd>,
+    pub(crate) c: AlgebraicVector,
     /// `det A`.
-    pub(crate) determinant: Surd,
+    pub(crate) determinant: Algebraic,
 }
 
-/// Why there is no map, decided without rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum NoExactMap {
-    /// The legs of FROM are dependent.
-    FromDependent,
-    /// A leg of TO, from 0, is not in the span of those of FROM.
-    OutOfSpan(usize),
-    /// Numbers become too long: nothing is decided.
-    TooLong,
+/// What two platforms have to do with each other, decided without rounding.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum ExactRelation {
+    /// A regular map.
+    Equivalent(Box<ExactMap>),
+    /// The leg vectors of FROM or of TO are dependent.
+    Singular {
+        /// Ranks of the leg vectors of FROM and of TO.
+        ranks: [usize; 2],
+        /// The map where the legs of FROM are independent and those of TO are in their span; its determinant is zero.
+        map: Option<Box<ExactMap>>,
+    },
+    /// Both are independent, and these legs of TO, from 0, are not in the span of those of FROM.
+    Unrelated(Vec<usize>),
+}
+
+impl ExactRelation {
+    /// Of six legs and six others.
+    pub(crate) fn of(from: &ExactLegs, to: &ExactLegs) -> Self {
+        let ranks = [from, to].map(|legs| rank(&legs.vectors));
+        let (mut a, mut off) = (Vec::new(), Vec::new());
+        if ranks[0] == 6 {
+            for (i, w) in to.vectors.iter().enumerate() {
+                let mut rows = from.vectors.clone();
+                rows.push(w.clone());
+                // the six are independent: at most one relation, and the seventh has a part in it
+                match relations(&rows).pop() {
+                    Some(relation) => a.push(relation[..6].iter().map(|x| -&(x / &relation[6])).collect()),
+                    None => off.push(i),
+                }
+            }
+        }
+        let map = (ranks[0] == 6 && off.is_empty()).then(|| Box::new(ExactMap::new(a, from, to)));
+        match map {
+            map if ranks != [6, 6] => Self::Singular { ranks, map },
+            Some(map) => Self::Equivalent(map),
+            None => Self::Unrelated(off),
+        }
+    }
+
+    /// The map, also where its determinant is zero.
+    pub(crate) fn map(&self) -> Option<&ExactMap> {
+        match self {
+            Self::Equivalent(map) | Self::Singular { map: Some(map), .. } => Some(map),
+            _ => None,
+        }
+    }
 }
 
 impl ExactMap {
-    /// The map from six legs to six others.
-    pub(crate) fn between(from: &[ExactEnds; 6], to: &[ExactEnds; 6]) -> Result<Self, NoExactMap> {
-        let [old, new] = [from, to].map(|legs| legs.iter().map(vector_of_ends).collect::<Option<Vec<_>>>());
-        let (old, new) = (old.ok_or(NoExactMap::TooLong)?, new.ok_or(NoExactMap::TooLong)?);
-        // one row for each of the 16 coordinates: the six of FROM, then the six of TO
-        let mut rows: Vec<Vec<Surd>> =
-            (0..16).map(|k| old.iter().chain(&new).map(|v| v[k].clone()).collect()).collect();
-        if eliminate(&mut rows, 6).ok_or(NoExactMap::TooLong)? < 6 {
-            return Err(NoExactMap::FromDependent);
-        }
-        if let Some(leg) = (0..6).find(|i| rows[6..].iter().any(|row| !row[6 + i].is_zero())) {
-            return Err(NoExactMap::OutOfSpan(leg));
-        }
-        let a: Vec<Vec<Surd>> = (0..6).map(|i| (0..6).map(|k| rows[k][6 + i].clone()).collect()).collect();
-        let map = || -> Option<Self> {
-            let c = (0..6).map(|i| {
-                let taken = combination(
-                    &a[i],
-                    &from.each_ref().map(squares_of_ends).into_iter().collect::<Option<Vec<_>>>()?,
-                )?;
-                squares_of_ends(&to[i])?.minus(&taken)
-            });
-            Some(Self { c: c.collect::<Option<_>>()?, determinant: determinant(&a)?, a: a.clone() })
-        };
-        let map = map().ok_or(NoExactMap::TooLong)?;
-        let holds = map.holds(&old, &new).ok_or(NoExactMap::TooLong)?;
-        // elimination and this sum are different ways to the same identity
-        if holds { Ok(map) } else { Err(NoExactMap::TooLong) }
+    fn new(a: Vec<AlgebraicVector>, from: &ExactLegs, to: &ExactLegs) -> Self {
+        let c = (0..6).map(|i| {
+            let taken: Algebraic = a[i].iter().enumerate().map(|(k, x)| x * &from.squares(k)).sum();
+            &to.squares(i) - &taken
+        });
+        Self { c: c.collect(), determinant: determinant(&a), a }
+    }
+
+    /// Most bits of a numerator, and of a denominator, in `A` and `c`.
+    pub(crate) fn bits(&self) -> u64 {
+        self.a.iter().flatten().chain(&self.c).map(Algebraic::bits).max().unwrap_or(0)
     }
 
     /// The columns of `1 - t` and of `t` where row `i` is these beside zeros.
     fn share_columns(&self, i: usize) -> Option<(usize, usize)> {
-        let (zero, one) = (Surd::zero(), Surd::integer(1));
-        let filled: Vec<usize> = (0..6).filter(|k| self.a[i][*k] != zero).collect();
+        let filled: Vec<usize> = (0..6).filter(|k| !self.a[i][*k].is_zero()).collect();
         let (first, second) = match filled[..] {
-            [j, k] if self.a[i][j].plus(&self.a[i][k])? == one => (j, k),
+            [j, k] if &self.a[i][j] + &self.a[i][k] == Algebraic::integer(1) => (j, k),
             _ => return None,
         };
         // in the circulant order of the legs a leg has its own number first
@@ -74,24 +96,25 @@ impl ExactMap {
     }
 
     /// The determinant with rows that have a single one each, in the columns given, in the place of those of `A`.
-    fn determinant_with(&self, columns: &[(usize, usize)]) -> Option<Surd> {
+    fn determinant_with(&self, columns: &[(usize, usize)]) -> Algebraic {
         let mut a = self.a.clone();
         for (i, column) in columns {
-            a[*i] = (0..6).map(|l| Surd::integer(i64::from(l == *column))).collect();
+            a[*i] = (0..6).map(|l| Algebraic::integer(i64::from(l == *column))).collect();
         }
         determinant(&a)
     }
 
     /// The share `t` for which the determinant vanishes when row `i` is `1 - t` and `t` beside zeros: `det A` is affine in `t`.
-    pub(crate) fn singular_share(&self, i: usize) -> Option<Surd> {
+    pub(crate) fn singular_share(&self, i: usize) -> Option<Algebraic> {
         let (own, other) = self.share_columns(i)?;
         let at = |k: usize| self.determinant_with(&[(i, k)]);
-        let start = at(own)?;
-        start.times(&start.minus(&at(other)?)?.inverse()?)
+        let start = at(own);
+        let slope = &start - &at(other);
+        (!slope.is_zero()).then(|| &start / &slope)
     }
 
     /// `det A` for all shares `t1` to `t6` at once, of the rows that are `1 - t` and `t` beside zeros, the other rows as they stand: a sum of products of `(1 - t)` and `t`, since the determinant is affine in
-    /// each row. Its zeros are the singular ones of the platforms whose leg ends stay on the same edges. `None` where there is no such row, or a number becomes too long.
+    /// each row. Its zeros are the singular ones of the platforms whose leg ends stay on the same edges. `None` where there is no such row.
     pub(crate) fn determinant_of_shares(&self) -> Option<String> {
         let free: Vec<(usize, (usize, usize))> =
             (0..6).filter_map(|i| Some((i, self.share_columns(i)?))).collect();
@@ -106,7 +129,7 @@ impl ExactMap {
                 .enumerate()
                 .map(|(k, (i, (own, other)))| (*i, if moved(k) { *other } else { *own }))
                 .collect();
-            let number = self.determinant_with(&columns)?;
+            let number = self.determinant_with(&columns);
             if number.is_zero() {
                 continue;
             }
@@ -133,48 +156,49 @@ impl ExactMap {
         // no choice gives a regular matrix: singular whatever the shares are
         Some(if text.is_empty() { "0".into() } else { text })
     }
-
-    /// Whether every vector of TO is the sum that `A` says, entry by entry.
-    fn holds(&self, old: &[Vec<Surd>], new: &[Vec<Surd>]) -> Option<bool> {
-        for (row, w) in self.a.iter().zip(new) {
-            for (k, entry) in w.iter().enumerate() {
-                let column: Vec<Surd> = old.iter().map(|v| v[k].clone()).collect();
-                if combination(row, &column)? != *entry {
-                    return Some(false);
-                }
-            }
-        }
-        Some(true)
-    }
 }
 
-fn determinant(a: &[Vec<Surd>]) -> Option<Surd> {
+fn determinant(a: &[AlgebraicVector]) -> Algebraic {
     let mut rows = a.to_vec();
-    let mut product = Surd::integer(1);
+    let mut product = Algebraic::integer(1);
     for column in 0..rows.len() {
         let Some(pivot) = (column..rows.len()).find(|i| !rows[*i][column].is_zero()) else {
-            return Some(Surd::zero());
+            return Algebraic::integer(0);
         };
         if pivot != column {
             rows.swap(pivot, column);
-            product = product.negated();
+            product = -&product;
         }
-        product = product.times(&rows[column][column])?;
-        let inverse = rows[column][column].inverse()?;
+        product = &product * &rows[column][column];
         let (above, below) = rows.split_at_mut(column + 1);
-        for row in below {
-            let factor = row[column].times(&inverse)?;
-            for (x, h) in row.iter_mut().zip(&above[column]).skip(column) {
-                *x = x.minus(&factor.times(h)?)?;
+        let head = &above[column];
+        for row in below.iter_mut().filter(|row| !row[column].is_zero()) {
+            let factor = &row[column] / &head[column];
+            for (x, h) in row.iter_mut().zip(head).skip(column).filter(|(_, h)| !h.is_zero()) {
+                *x = &*x - &(&factor * h);
             }
         }
     }
-    Some(product)
+    product
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::manipulator::{ExactEnds, Manipulator};
+    use crate::num::surd::Surd;
+
+    /// The relation of platforms by their exact ends.
+    fn relation(from: &[ExactEnds; 6], to: &[ExactEnds; 6]) -> ExactRelation {
+        let [from, to] =
+            [from, to].map(|ends| ExactLegs::of(&Manipulator::from_exact_ends(ends).unwrap()).unwrap());
+        ExactRelation::of(&from, &to)
+    }
+
+    fn equivalent(from: &[ExactEnds; 6], to: &[ExactEnds; 6]) -> ExactMap {
+        let ExactRelation::Equivalent(map) = relation(from, to) else { panic!("no regular map") };
+        *map
+    }
 
     fn surd(n: i64, d: i64) -> Surd {
         Surd::integer(n).times(&Surd::integer(d).inverse().unwrap()).unwrap()
@@ -205,25 +229,25 @@ mod tests {
     fn the_determinant_of_the_joint_free_platform_is_a_fraction() {
         let octahedral = slid(&std::array::from_fn(|_| Surd::zero()));
         let t = [1, 2, 3, 1, 2, 4].map(|n| surd(n, 5));
-        let map = ExactMap::between(&octahedral, &slid(&t)).unwrap();
+        let map = equivalent(&octahedral, &slid(&t));
         let one = Surd::integer(1);
         let product = |list: Vec<Surd>| list.iter().fold(one.clone(), |p, x| p.times(x).unwrap());
         let complement = t.iter().map(|t| one.minus(t).unwrap()).collect();
         let expected = product(complement).minus(&product(t.to_vec())).unwrap();
-        assert_eq!(map.determinant, expected);
+        assert_eq!(map.determinant.surd(), expected);
         for k in 0..6 {
-            assert_eq!(map.a[k][k], one.minus(&t[k]).unwrap());
-            assert_eq!(map.a[k][(k + 1) % 6], t[k]);
+            assert_eq!(map.a[k][k].surd(), one.minus(&t[k]).unwrap());
+            assert_eq!(map.a[k][(k + 1) % 6].surd(), t[k]);
             // -t (1 - t) d^2 with the edges 12 and 6
             let d = Surd::integer(if k % 2 == 0 { 144 } else { 36 });
             let c = t[k].times(&one.minus(&t[k]).unwrap()).unwrap().times(&d).unwrap().negated();
-            assert_eq!(map.c[k], c);
+            assert_eq!(map.c[k].surd(), c);
             // (1 - x) prod (1 - t) = x prod t over the other legs
             let others =
                 |f: &dyn Fn(&Surd) -> Surd| product((0..6).filter(|l| *l != k).map(|l| f(&t[l])).collect());
             let (stay, pass) = (others(&|t| one.minus(t).unwrap()), others(&Surd::clone));
             let singular = stay.times(&stay.plus(&pass).unwrap().inverse().unwrap()).unwrap();
-            assert_eq!(map.singular_share(k), Some(singular));
+            assert_eq!(map.singular_share(k).map(|t| t.surd()), Some(singular));
         }
     }
 
@@ -232,8 +256,9 @@ mod tests {
     fn the_singular_offsets_are_the_zeros_of_one_polynomial() {
         let octahedral = slid(&std::array::from_fn(|_| Surd::zero()));
         let of = |t: [i64; 6]| {
-            let map = ExactMap::between(&octahedral, &slid(&t.map(|n| surd(n, 5)))).unwrap();
-            (map.determinant_of_shares(), map.determinant)
+            let relation = relation(&octahedral, &slid(&t.map(|n| surd(n, 5))));
+            let map = relation.map().unwrap();
+            (map.determinant_of_shares(), map.determinant.clone())
         };
         let all = "(1 - t1) (1 - t2) (1 - t3) (1 - t4) (1 - t5) (1 - t6) - t1 t2 t3 t4 t5 t6";
         assert_eq!(of([1, 2, 3, 1, 2, 4]).0.as_deref(), Some(all));
@@ -242,18 +267,21 @@ mod tests {
         assert_eq!((polynomial.as_deref(), determinant.is_zero()), (Some(all), true));
         // with one leg where it was the product of the shares is zero, and only a share of one is singular
         assert_eq!(of([0, 2, 3, 1, 0, 4]).0.as_deref(), Some("(1 - t2) (1 - t3) (1 - t4) (1 - t6)"));
-        assert_eq!(of([0; 6]), (None, Surd::integer(1)));
+        assert_eq!(of([0; 6]), (None, Algebraic::integer(1)));
     }
 
     #[test]
     fn singular_and_unrelated_platforms_are_told_exactly() {
         let octahedral = slid(&std::array::from_fn(|_| Surd::zero()));
         let half = slid(&std::array::from_fn(|_| surd(1, 2)));
-        let map = ExactMap::between(&octahedral, &half).unwrap();
-        assert!(map.determinant.is_zero());
-        assert_eq!(ExactMap::between(&half, &octahedral), Err(NoExactMap::FromDependent));
+        let found = relation(&octahedral, &half);
+        assert!(
+            matches!(&found, ExactRelation::Singular { ranks: [6, 5], map: Some(map) } if map.determinant.is_zero())
+        );
+        let back = relation(&half, &octahedral);
+        assert_eq!(back, ExactRelation::Singular { ranks: [5, 6], map: None });
         let mut off = slid(&[1, 2, 3, 1, 2, 4].map(|n| surd(n, 5)));
         off[4][0][2] = surd(1, 1_000_000_000_000);
-        assert_eq!(ExactMap::between(&octahedral, &off), Err(NoExactMap::OutOfSpan(4)));
+        assert_eq!(relation(&octahedral, &off), ExactRelation::Unrelated(vec![4]));
     }
 }

@@ -5,9 +5,11 @@ use std::array::from_fn;
 use nalgebra::{Matrix6, Vector6};
 use thiserror::Error;
 
-use super::exact_leg_map::ExactFacts;
+use super::exact_map::{ExactMap, ExactRelation};
 use super::{LegSpan, Normalisation};
-use crate::manipulator::{Leg, LegIndex, Manipulator, SquaredLegLengths, inverse_condition};
+use crate::manipulator::{
+    ExactLegs, Leg, LegIndex, Level, Manipulator, SquaredLegLengths, inverse_condition,
+};
 use crate::num::double_double::DoubleDouble;
 use crate::num::linalg::LinalgError;
 
@@ -124,12 +126,11 @@ impl AffineLegMap {
 pub enum Relation {
     /// `s(TO) = A s(FROM) + c` at every pose with `det A != 0`: same poses, same singularities.
     Equivalent,
-    /// The relation holds, but not backwards: the legs of TO are dependent (`det A = 0`), or those of FROM
-    /// are (`leg_rank < 6`) and `A` is not unique.
+    /// The legs of FROM or those of TO are dependent: one of the two is architecturally singular.
     Singular,
     /// Some leg of TO is not an affine function of the legs of FROM.
     Unrelated,
-    /// The relation holds within the tolerance, and a singular design lies within what the tolerance and rounding leave open.
+    /// Not decided: the relation holds within rounding only, or a singular design lies within it.
     Undecided,
 }
 
@@ -160,11 +161,11 @@ impl std::fmt::Display for Relation {
 /// Dimensionless limits of [`leg_map`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegMapTolerances {
-    /// A leg of TO farther than this from the span of FROM, relative to its vector, is not in it.
+    /// A leg of TO farther than this from the span of FROM, relative to its vector, is not in it. Asked only where joints are not known exactly.
     pub residual: f64,
-    /// Leg vectors with singular values below this times the largest are left to exact arithmetic.
+    /// Leg vectors with singular values below this times the largest are left out of the span, where exact arithmetic does not find them independent.
     pub rank: f64,
-    /// `A` with `sigma_min / sigma_max` below this is left to exact arithmetic.
+    /// `A` with `sigma_min / sigma_max` below this cannot be told from a singular one. Asked only where joints are not known exactly.
     pub singular: f64,
 }
 
@@ -179,8 +180,12 @@ impl Default for LegMapTolerances {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LegMapOutcome {
-    /// The verdict.
+    /// The verdict: decided in exact arithmetic wherever the joints of both are known exactly, never by a tolerance.
     pub relation: Relation,
+    /// What the verdict is proved about; [`Level::WithinRounding`] where nothing is proved.
+    pub level: Level,
+    /// Whether the relation holds within rounding of the joints, so that they may be rounded values of equivalent platforms; true as well where it holds exactly.
+    pub holds_within_rounding: bool,
     /// The least-squares map. It is *the* map unless `relation` is [`Relation::Unrelated`]; then only the
     /// rows with a small residual mean anything.
     pub closest: AffineLegMap,
@@ -200,12 +205,16 @@ pub struct LegMapOutcome {
     /// and the condition of FROM, whichever is larger; below the tolerance the error alone, where exact arithmetic found both platforms independent;
     /// 0 where the map is exact.
     pub singular_limit: f64,
-    /// Whether the map is exact: every leg vector of TO lies in the span of those of FROM as rational numbers, not within a tolerance. Looked at
-    /// only where doubles do not decide.
+    /// Whether the map is exact: every leg vector of TO lies in the span of those of FROM, not within a tolerance.
     pub exact: bool,
-    /// The map in exact numbers, where the joints of both designs are known exactly and the identity of their leg vectors
-    /// was checked in exact arithmetic; `None` where it was not looked at, and where it does not hold.
+    /// The map in exact numbers, where it is exact; `None` elsewhere, and where the numbers are too long to be read.
     pub exact_numbers: Option<ExactNumbers>,
+    /// Whether the leg vectors of both are independent; not known where joints are known between bounds only.
+    leg_vectors_independent: bool,
+    /// How far a singular platform is from one of the two, design units, where that is within rounding.
+    pub near_singular: Option<f64>,
+    /// Legs of TO that are not in the span of FROM.
+    off: [bool; 6],
     /// The tolerances asked for.
     pub tolerances: LegMapTolerances,
 }
@@ -227,85 +236,128 @@ pub struct ExactNumbers {
 }
 
 impl LegMapOutcome {
-    /// The same with what the exact joints say, of which the doubles are rounded values.
-    #[cfg(feature = "files")]
+    /// Whether the map, and its inverse, may be computed with: the platforms are equivalent, proved or within rounding.
     #[must_use]
-    pub(crate) fn decided_exactly(self, map: &super::exact_map::ExactMap) -> Self {
-        let a = Matrix6::from_fn(|i, j| map.a[i][j].nearest());
-        let c = Vector6::from_fn(|i, _| map.c[i].nearest());
-        let relation = if map.determinant.is_zero() { Relation::Singular } else { Relation::Equivalent };
-        Self {
-            relation,
-            closest: AffineLegMap { a, c },
-            determinant: map.determinant.nearest(),
-            residuals: [0.0; 6],
-            residual: 0.0,
-            leg_rank: 6,
-            inverse_condition: inverse_condition(&a),
-            singular_limit: 0.0,
-            exact: true,
-            exact_numbers: Some(ExactNumbers {
-                a: from_fn(|i| from_fn(|j| map.a[i][j].to_string())),
-                c: from_fn(|i| map.c[i].to_string()),
-                determinant: map.determinant.to_string(),
-                singular_shares: from_fn(|i| map.singular_share(i).map(|share| share.to_string())),
-                determinant_of_shares: map.determinant_of_shares(),
-            }),
-            ..self
+    pub fn is_regular_within_rounding(&self) -> bool {
+        match self.relation {
+            Relation::Equivalent => true,
+            Relation::Undecided => {
+                self.holds_within_rounding
+                    && self.near_singular.is_none()
+                    && self.inverse_condition > self.singular_limit
+            }
+            Relation::Singular | Relation::Unrelated => false,
         }
+    }
+
+    /// The same where the leg lines of one of the two are dependent at every pose, proved at `level`.
+    pub(crate) fn with_dependent_lines(mut self, level: Level) -> Self {
+        (self.relation, self.level) = (Relation::Singular, level);
+        self
+    }
+
+    /// The same where a singular platform is within rounding of one of the two, at this distance.
+    pub(crate) fn near_singular(mut self, distance: f64) -> Self {
+        (self.relation, self.level) = (Relation::Undecided, Level::WithinRounding);
+        self.near_singular = Some(distance);
+        self
+    }
+
+    /// The same for a TO that was moved by numbers that are known to the tolerance only: its joints as written mean nothing. `dependent` where the legs of one of the two are, which no motion changes.
+    pub(super) fn of_moved(mut self, dependent: bool) -> Self {
+        self.holds_within_rounding = self.residual <= self.tolerances.residual;
+        if dependent && self.holds_within_rounding {
+            self.relation = Relation::Singular;
+        } else if self.holds_within_rounding {
+            (self.relation, self.level) = (Relation::Undecided, Level::WithinRounding);
+            self.off = [false; 6];
+            self.exact_numbers = None;
+        }
+        self
+    }
+
+    /// Takes over what exact arithmetic says of the joints, proved at `level`.
+    fn decided(&mut self, relation: &ExactRelation, level: Level) {
+        self.level = level;
+        self.leg_vectors_independent = !matches!(relation, ExactRelation::Singular { .. });
+        self.relation = match relation {
+            ExactRelation::Equivalent(_) => Relation::Equivalent,
+            ExactRelation::Singular { .. } => Relation::Singular,
+            ExactRelation::Unrelated(_) => Relation::Unrelated,
+        };
+        if let ExactRelation::Singular { ranks, .. } = relation {
+            self.leg_rank = ranks[0];
+        }
+        let Some(map) = relation.map() else { return };
+        let a = Matrix6::from_fn(|i, j| map.a[i][j].approximate());
+        self.closest = AffineLegMap { a, c: Vector6::from_fn(|i, _| map.c[i].approximate()) };
+        self.determinant = map.determinant.approximate();
+        self.inverse_condition = inverse_condition(&a);
+        (self.residuals, self.residual) = ([0.0; 6], 0.0);
+        (self.singular_limit, self.exact, self.holds_within_rounding) = (0.0, true, true);
+        let readable = if level == Level::ExactJoints { LONG } else { SHORT };
+        self.exact_numbers = (map.bits() <= readable).then(|| ExactNumbers::of(map));
     }
 
     /// One sentence: what was decided and by which number.
     #[must_use]
     pub fn explanation(&self) -> String {
         let (o, t) = (self, self.tolerances);
+        let level = o.level.words();
+        if let (Relation::Undecided, Some(distance)) = (o.relation, o.near_singular) {
+            return format!(
+                "within rounding, not proved: a singular platform is {distance:.1e} from one of the two, which is regular as written"
+            );
+        }
         match o.relation {
             Relation::Unrelated => {
                 let legs: Vec<String> = o.legs_off().map(|i| i.to_string()).collect();
+                let by = if o.level.is_proved() {
+                    format!("proved {level}")
+                } else {
+                    format!("tolerance {:.0e}, joints are known between bounds only", t.residual)
+                };
                 format!(
-                    "the squared length of {} of TO is no affine function of those of FROM: distance from the span \
-                     {:.3e}, tolerance {:.0e}; A and c are the closest fit only",
+                    "the squared length of {} of TO is no affine function of those of FROM ({by}): distance from the span {:.3e} of the size; A and c are the \
+                     closest fit only",
                     legs.join(", "),
                     o.residual,
-                    t.residual
                 )
             }
             Relation::Singular if o.leg_rank < 6 => format!(
-                "the leg vectors of FROM have rank {}: FROM is architecturally singular and the coefficients of the map \
-                 are not unique; the shortest ones are given",
+                "the leg vectors of FROM have rank {}, proved {level}: FROM is architecturally singular and the coefficients of the map are not unique",
                 o.leg_rank
             ),
+            Relation::Singular if o.leg_vectors_independent => format!(
+                "the leg lines of one of the two are dependent at every pose, proved {level}, although its leg vectors are independent: it is architecturally singular"
+            ),
             Relation::Singular => format!(
-                "det A = 0: the leg vectors of TO are dependent as the numbers they are, without a tolerance; TO is architecturally singular \
-                 (smallest singular value of A {:.3e} of the largest)",
-                o.inverse_condition
+                "the leg vectors of TO are dependent, proved {level}{}: TO is architecturally singular",
+                if o.exact { ", det A = 0" } else { "" }
             ),
             Relation::Undecided if o.singular_limit >= 1.0 => format!(
                 "neither platform is architecturally singular as the numbers they are, but rounding and the residual {:.1e} decide nothing about det A:                  the joints are too far from the origin for their size, or the platforms of too different size",
                 o.residual
             ),
             Relation::Undecided => format!(
-                "neither platform is architecturally singular as the numbers they are, but the smallest singular value of A, {:.3e} of the largest, is not above \
-                 the {:.1e} that rounding and the residual {:.1e} leave open",
-                o.inverse_condition, o.singular_limit, o.residual
+                "within rounding, not proved: the nearest map misses the legs of TO by {:.1e} of the size, no more than rounding of the joints explains{}",
+                o.residual,
+                if o.inverse_condition > o.singular_limit {
+                    String::new()
+                } else {
+                    format!(
+                        "; a singular A is within rounding too (smallest singular value {:.1e} of the largest)",
+                        o.inverse_condition
+                    )
+                }
             ),
-            Relation::Equivalent => match &o.exact_numbers {
-                Some(numbers) => format!(
-                    "proved: same poses for corresponding lengths, same singularities, since every leg vector of TO is a combination of those of FROM and \
-                     det A = {} is not zero, both in exact arithmetic on the exact joints",
-                    numbers.determinant
-                ),
-                None if o.exact => format!(
-                    "same poses for corresponding lengths, same singularities: every leg vector of TO is a combination of those of FROM and both are \
-                     independent, in exact arithmetic; smallest singular value of A {:.3e} of the largest",
-                    o.inverse_condition
-                ),
-                None => format!(
-                    "same poses for corresponding lengths, same singularities: residual {:.1e} (tolerance {:.0e}), smallest \
-                     singular value of A {:.3e} of the largest (limit {:.1e})",
-                    o.residual, t.residual, o.inverse_condition, o.singular_limit
-                ),
-            },
+            Relation::Equivalent => format!(
+                "proved {level}: same poses for corresponding lengths, same singularities, since every leg vector of TO is a combination of those of FROM and \
+                 det A{} is not zero",
+                o.exact_numbers
+                    .as_ref()
+                    .map_or_else(String::new, |numbers| format!(" = {}", numbers.determinant))
+            ),
         }
     }
 
@@ -317,9 +369,28 @@ impl LegMapOutcome {
 
     /// Legs of TO that are not affine functions of the legs of FROM.
     pub fn legs_off(&self) -> impl Iterator<Item = LegIndex> + '_ {
-        LegIndex::all().filter(|i| self.residuals[i.get()] > self.tolerances.residual)
+        LegIndex::all().filter(|i| self.off[i.get()])
     }
 }
+
+impl ExactNumbers {
+    fn of(map: &ExactMap) -> Self {
+        Self {
+            a: from_fn(|i| from_fn(|j| map.a[i][j].to_string())),
+            c: from_fn(|i| map.c[i].to_string()),
+            determinant: map.determinant.to_string(),
+            singular_shares: from_fn(|i| map.singular_share(i).map(|share| share.to_string())),
+            determinant_of_shares: map.determinant_of_shares(),
+        }
+    }
+}
+
+/// Most bits of exact numbers that are written out.
+const LONG: u64 = 2048;
+/// The same for doubles, whose fractions are long without need.
+const SHORT: u64 = 256;
+/// Coordinates count as rounded by this share of the largest coordinate of their body: eight half units in its last place.
+const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// The affine map from the squared leg lengths of `from` to those of `to`, leg by leg in leg order.
 ///
@@ -334,20 +405,15 @@ impl LegMapOutcome {
 /// likewise for `b`, a shift by `u` changes `c_i` by `2 u (a'_i - sum A_ij a_j) + |u|^2 (1 - sum A_ij) = 0`,
 /// so `c` is formed from the centred joints, where nothing large cancels.
 ///
-/// Degenerate cases: dependent legs of `from` (`leg_rank < 6`) leave the coefficients undetermined; the
-/// shortest ones are returned and the relation is `Singular` when all legs of `to` are in the span.
-///
-/// `Singular` is never said by a tolerance: the leg vectors of one of the two are dependent as the rational numbers that the coordinates are.
-/// Between that and a regular map whose `sigma_min` exceeds the error to expect in `A` the answer is `Undecided`.
+/// The relation is decided in exact arithmetic on the joints as they are: numbers of a field of square roots for designs with constructions, the rational numbers that
+/// doubles are for others. Platforms that are not equivalent as written, but miss it by no more than rounding of their doubles, are [`Relation::Undecided`]. Tolerances decide only where
+/// joints are known between bounds only, and never for a relation.
 ///
 /// ```
 /// use equipod::methods::manipulator::{Leg, Manipulator};
 /// use equipod::methods::synthesis::{LegMapTolerances, Relation, leg_map};
 /// use nalgebra::Point3;
-/// let joint = |r: f64, k: u32| {
-///     let (s, c) = (std::f64::consts::TAU * f64::from(k) / 3.0).sin_cos();
-///     Point3::new(r * c, r * s, 0.0)
-/// };
+/// let joint = |r: f64, k: usize| Point3::new([2.0, -1.0, -1.0][k] * r, [0.0, 1.5, -1.5][k] * r, 0.0);
 /// let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
 /// let mut legs = hexagon.map(|(i, j)| Leg { base: joint(2.0, i), platform: joint(1.0, j) });
 /// let octahedral = Manipulator::from_legs(legs)?;
@@ -369,78 +435,96 @@ pub fn leg_map(
     to: &Manipulator,
     tolerances: LegMapTolerances,
 ) -> Result<LegMapOutcome, LinalgError> {
-    leg_map_to_legs(from, &to.legs(), tolerances)
+    related(from, &to.legs(), ExactLegs::of(to).as_ref(), to.level(), tolerances)
 }
 
-/// As [`leg_map()`], for six legs of which two may be the same one, which no [`Manipulator`] has.
+/// As [`leg_map()`], for six legs that were computed from those of `from`, so that they are known to the tolerance only; two of them may be the same one, which no [`Manipulator`]
+/// has.
 pub(super) fn leg_map_to_legs(
     from: &Manipulator,
     legs: &[Leg; 6],
     tolerances: LegMapTolerances,
 ) -> Result<LegMapOutcome, LinalgError> {
+    let found =
+        related(from, legs, ExactLegs::of_doubles(legs).as_ref(), Level::DoublesAsWritten, tolerances)?;
+    Ok(if found.relation == Relation::Unrelated { found.of_moved(false) } else { found })
+}
+
+fn related(
+    from: &Manipulator,
+    legs: &[Leg; 6],
+    exact: Option<&ExactLegs>,
+    level: Level,
+    tolerances: LegMapTolerances,
+) -> Result<LegMapOutcome, LinalgError> {
+    let relation = ExactLegs::of(from).zip(exact).map(|(from, to)| ExactRelation::of(&from, to));
     let mut span = LegSpan::of(from, tolerances.rank)?;
-    let facts = || ExactFacts::of(&from.legs(), legs);
-    let mut exact = None;
-    if span.rank() < 6 {
-        exact = facts();
-        if exact.as_ref().is_some_and(|e| e.from_rank == 6) {
-            span = LegSpan::of(from, 0.0)?; // bodies of mixed scales: small singular values are no rounding
-        }
+    let independent = !matches!(relation, None | Some(ExactRelation::Singular { ranks: [..6, _], .. }));
+    if span.rank() < 6 && independent {
+        span = LegSpan::of(from, 0.0)?; // bodies of mixed scales: small singular values are no rounding
     }
     let residuals = legs.map(|leg| span.distance(&leg));
     let residual = residuals.iter().copied().fold(0.0, f64::max);
     let rows = legs.map(|leg| span.coefficients(&leg));
     let a = Matrix6::from_fn(|i, j| rows[i][j]);
     let closest = AffineLegMap { a, c: constants(&span.normalisation(), &a, &from.legs(), legs) };
-    let rounding = 64.0 * f64::EPSILON / span.inverse_condition();
-    let error = rounding + residual / span.inverse_condition();
+    let error = (64.0 * f64::EPSILON + residual) / span.inverse_condition();
     let inverse_condition = closest.inverse_condition();
     let mut outcome = LegMapOutcome {
-        relation: Relation::Equivalent,
+        relation: Relation::Undecided,
+        level: Level::WithinRounding,
+        holds_within_rounding: false,
         determinant: closest.determinant(),
         closest,
         residuals,
         residual,
-        leg_rank: exact.as_ref().map_or(6, |e| e.from_rank),
+        leg_rank: span.rank(),
         singular_values: span.singular_values(),
         inverse_condition,
         singular_limit: tolerances.singular.max(error),
         exact: false,
         exact_numbers: None,
+        leg_vectors_independent: false,
+        near_singular: None,
+        off: residuals.map(|r| r.is_nan() || r > tolerances.residual),
         tolerances,
     };
-    // the span itself is known to `rounding` only
-    let off = residual.is_nan() || residual > tolerances.residual;
-    if off && (exact.is_none() || outcome.leg_rank < 6 || residual > tolerances.residual + rounding) {
-        outcome.relation = Relation::Unrelated;
-        return Ok(outcome);
-    }
-    if exact.is_none() && inverse_condition > outcome.singular_limit {
-        return Ok(outcome);
-    }
-    let Some(exact) = exact.or_else(facts) else {
-        outcome.relation = Relation::Undecided;
+    let Some(relation) = relation else {
+        let off = outcome.off.contains(&true);
+        outcome.holds_within_rounding = !off;
+        // rounding reaches as far as the span is known
+        if off && residual > tolerances.residual + 64.0 * f64::EPSILON / span.inverse_condition() {
+            outcome.relation = Relation::Unrelated;
+        }
         return Ok(outcome);
     };
-    outcome.leg_rank = exact.from_rank;
-    // dependent legs of TO that are off the span say nothing about FROM
-    let holds = !off || exact.map.is_some();
-    if holds && (exact.from_rank < 6 || exact.to_rank < 6) {
-        outcome.relation = Relation::Singular;
-    } else if let Some((a, c)) = exact.map {
-        // independent vectors that are combinations of six independent ones: det A is not zero
-        outcome.closest = AffineLegMap { a: Matrix6::from_fn(|i, j| a[i][j]), c: c.into() };
-        outcome.determinant = outcome.closest.determinant();
-        outcome.inverse_condition = outcome.closest.inverse_condition();
-        (outcome.residuals, outcome.residual) = ([0.0; 6], 0.0);
-        (outcome.singular_limit, outcome.exact) = (0.0, true);
-    } else {
-        outcome.singular_limit = error;
-        if off || !(inverse_condition > error) {
-            outcome.relation = Relation::Undecided;
+    let level = level.min(from.level());
+    outcome.leg_rank = 6;
+    // of dependent legs a map says little, but whether there is one is known within the tolerance
+    outcome.holds_within_rounding =
+        matches!(relation, ExactRelation::Singular { .. }) && residual <= tolerances.residual;
+    outcome.decided(&relation, level);
+    if let ExactRelation::Unrelated(legs_off) = &relation {
+        outcome.off = from_fn(|i| legs_off.contains(&i));
+        let limits = rounding_of_residuals(from, legs, &outcome.closest.a, &span.normalisation());
+        if level == Level::DoublesAsWritten && residuals.iter().zip(limits).all(|(r, limit)| *r <= limit) {
+            // rounded values of equivalent platforms look like this
+            (outcome.relation, outcome.level) = (Relation::Undecided, Level::WithinRounding);
+            outcome.holds_within_rounding = true;
         }
     }
     Ok(outcome)
+}
+
+/// How far, relative to its vector, a leg of TO that is a combination of those of FROM may be from their span when all coordinates are rounded: with coordinates off by `d`, in normalised units, every
+/// leg vector is off by `4 d` of itself at most, and a combination by as much for each of its terms.
+fn rounding_of_residuals(from: &Manipulator, to: &[Leg; 6], a: &Matrix6<f64>, n: &Normalisation) -> [f64; 6] {
+    let legs = from.legs();
+    let all = || legs.iter().chain(to);
+    let base = all().map(|leg| leg.base.coords.amax()).fold(0.0, f64::max) / n.base_unit;
+    let platform = all().map(|leg| leg.platform.coords.amax()).fold(0.0, f64::max) / n.platform_unit;
+    let offset = 4.0 * ROUNDING * (base + platform);
+    from_fn(|i| offset * (1.0 + a.row(i).iter().map(|x| x.abs()).sum::<f64>()))
 }
 
 /// `c` in squared design units from the centred joints.

@@ -10,7 +10,6 @@ mod determinant;
 mod dot;
 mod drawing;
 mod enumerate;
-mod exact_leg_map;
 #[cfg(feature = "files")]
 pub(crate) mod exact_map;
 mod family;

@@ -91,7 +91,7 @@ joints: exact numbers of Q(sqrt(3))
 
 rank of the leg vectors     5
 generic rank of the lines   5
-proof: the leg vectors have rank 5 exactly, the lines never have more; the pose with quaternion [4, -3, -1, 1] and p = (0, 4, -8) has rank 5
+proof: the leg vectors have rank 5, proved about the exact joints, and the lines never have more; the pose with quaternion [4, -3, -1, 1] and p = (0, 4, -8) has rank 5
 
 dependency of legs 1, 2, 3, 4, 5, 6: v1 - v2 + v3 - v4 + v5 - v6 = 0
   base ends span dimension 2, platform ends 2

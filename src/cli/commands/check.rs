@@ -7,6 +7,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
+use crate::entrance::CheckReport;
 use crate::records::{
     AssemblyRecord, CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number,
 };
@@ -29,8 +30,22 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Some(true) => Exit::No,
         None => Exit::Inconclusive,
     };
-    let text = text(&answer, m.size(), &design.units);
+    let text = format!("{}\n{}", headline(&found), text(&answer, m.size(), &design.units));
     Ok(Answer::new(exit, answer, text))
+}
+
+/// The verdict with its level; a singular design that may have been meant is named here, with its distance.
+fn headline(found: &CheckReport) -> String {
+    let name = &found.design.name;
+    match (found.meant(), found.is_singular()) {
+        (Some(n), _) => match n.within_digits.filter(|_| !n.within_rounding) {
+            Some(half) => format!("{name}: singular to the digits given ({half} {})", found.design.units),
+            None => format!("{name}: singular within rounding ({:.1e} {})", n.distance, found.design.units),
+        },
+        (None, Some(true)) => format!("{name}: architecturally singular"),
+        (None, Some(false)) => format!("{name}: regular"),
+        (None, None) => format!("{name}: not decided"),
+    }
 }
 
 fn list(legs: &[usize]) -> String {
@@ -40,12 +55,7 @@ fn list(legs: &[usize]) -> String {
 
 /// The answer in words; `size` and `units` are those of the design.
 fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
-    let verdict = match c.architecturally_singular {
-        Some(true) => "architecturally singular",
-        Some(false) => "regular",
-        None => "regular as written, singular within rounding",
-    };
-    let mut text = format!("{}: {verdict}\n{}\n", c.name, c.explanation);
+    let mut text = format!("{}\n", c.explanation);
     let _ = writeln!(text, "joints: {}", c.joints.explanation);
     let _ = writeln!(text, "\nrank of the leg vectors     {}", c.leg_rank);
     let _ = writeln!(text, "generic rank of the lines   {}", c.jacobian_rank);

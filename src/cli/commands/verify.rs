@@ -8,11 +8,11 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::entrance::{SAMPLES, sample_plan, verified_exactly};
-use crate::equivalence::{Verdict, VerifyError, verify};
+use crate::entrance::{SAMPLES, sample_plan};
+use crate::equivalence::{Verdict, VerifyError, verify_mapped};
 use crate::fk::FkOptions;
 use crate::records::{SampleRecord, VerifyAnswer};
-use crate::synthesis::{LegMapTolerances, Relation, leg_map};
+use crate::synthesis::Relation;
 
 /// Arguments of `verify`.
 #[derive(Debug, clap::Args)]
@@ -40,9 +40,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let (a, b) = (context.load(&args.a)?, context.load(&args.b)?);
     same_units(&a, &b, "verify::different_units")?;
     let second = args.frames.apply(&a, &b, context)?;
+    let map = second.judged(a.manipulator()).map_err(|e| failure_of(&e.into()))?;
     if let Some(none) = second.refuted() {
-        let map = leg_map(a.manipulator(), &second.manipulator, LegMapTolerances::default())
-            .map_err(|e| failure_of(&e.into()))?;
         if map.relation == Relation::Unrelated {
             let exit = if none { Exit::No } else { Exit::Inconclusive };
             let explanation = second.explanation().unwrap_or_default();
@@ -53,8 +52,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let plan = sample_plan(&a, args.samples, context.seed());
     let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
-    let found = verify(a.manipulator(), &second.manipulator, &plan, &options).map_err(|e| failure_of(&e))?;
-    let found = if second.is_given() { verified_exactly(found, &a, &b) } else { found };
+    let found = verify_mapped(a.manipulator(), &second.manipulator, map, &plan, &options)
+        .map_err(|e| failure_of(&e))?;
     let record = VerifyAnswer::new(&found, &plan, second.record());
     let text = second.text() + &text(&record, &a.name, &b.name);
     Ok(Answer::new(exit_of(&found.verdict), record, text))
@@ -74,6 +73,7 @@ pub(crate) fn failure_of(error: &VerifyError) -> Failure {
     match error {
         VerifyError::Lengths { .. } => Failure::refused("verify::lengths", error.to_string())
             .with_help("give design A a [home] pose and a [workspace] that the platform can reach"),
+        VerifyError::Contradiction { .. } => Failure::internal(error.to_string()),
         VerifyError::LegMap(_) | VerifyError::ForwardKinematics { .. } | VerifyError::Cancelled => {
             Failure::new(Exit::Inconclusive, "verify::breakdown", error.to_string())
                 .with_help("try another --seed")

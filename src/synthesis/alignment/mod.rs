@@ -12,7 +12,7 @@ mod tests;
 
 pub use outcome::{Alignment, AlignmentUndecided, Difference, Invariant, Motion, NearestMotion};
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Rotation3, Vector3};
 
 use self::leg_space::{Canonical, ShiftSensitivity};
 use self::rotations::{Fit, refine};
@@ -44,6 +44,8 @@ pub fn align(a: &Manipulator, b: &Manipulator, seed: u64) -> Result<Alignment, L
     if of_a.span.dimensions != of_b.span.dimensions {
         return Ok(outcome::dimensions_differ(&of_a, &of_b));
     }
+    let given = leg_map(a, b, LegMapTolerances::default())?;
+    let here = Pose { rotation: Rotation3::identity(), position: Vector3::zeros() };
     let (distance, candidates) = of_a.nearest(&of_b, seed);
     let mut motions: Vec<Motion> = Vec::new();
     let mut nearest: Option<NearestMotion> = None;
@@ -51,20 +53,23 @@ pub fn align(a: &Manipulator, b: &Manipulator, seed: u64) -> Result<Alignment, L
     for turns in &candidates.turns {
         let fit = refine(&of_a.span.space, &of_b.centred_legs(), turns)?;
         let (base, platform) = in_frames(&fit, &of_a, &of_b);
-        let map = match transformed(b, &base, &platform) {
-            Ok(moved) => leg_map(a, &moved, LegMapTolerances::default())?,
-            Err(_) => continue, // coordinates beyond the range of doubles
-        };
+        let at_home = Motion { base, platform, map: given.clone() };
+        // b as it is given is compared exactly, and moved joints are known to rounding only
+        let (base, platform, map) =
+            if at_home.extent(a.size()) < SAME && given.relation != Relation::Unrelated {
+                (here, here, given.clone())
+            } else {
+                let Ok(moved) = transformed(b, &base, &platform) else {
+                    continue; // coordinates beyond the range of doubles
+                };
+                let found = leg_map(a, &moved, LegMapTolerances::default())?;
+                (base, platform, found.of_moved(given.relation == Relation::Singular))
+            };
         let motion = NearestMotion { base, platform, residual: map.residual };
         if nearest.as_ref().is_none_or(|n| motion.residual < n.residual) {
             nearest = Some(motion);
         }
-        // an undecided map of legs off the span is no evidence that they are in it
-        let related = match map.relation {
-            Relation::Unrelated => false,
-            Relation::Undecided => map.residual <= map.tolerances.residual,
-            _ => true,
-        };
+        let related = map.holds_within_rounding;
         if related && !motions.iter().any(|m| m.is_near(&base, &platform)) {
             freedom = freedom.max(fit.freedom);
             motions.push(Motion { base, platform, map });
@@ -134,9 +139,7 @@ pub fn transformed(m: &Manipulator, base: &Pose, platform: &Pose) -> Result<Mani
 /// The same legs between a platform for a base and a base for a platform: its poses are the inverse poses.
 #[must_use]
 pub fn exchanged(m: &Manipulator) -> Manipulator {
-    let pairs = m.pairs().map(|(a, b)| (b, a));
-    Manipulator::try_new(m.platform_joints().to_vec(), m.base_joints().to_vec(), pairs)
-        .unwrap_or_else(|_| unreachable!("the joints and pairs of a design, the other way round"))
+    m.exchanged()
 }
 
 /// Both bodies seen in a mirror, the plane `z = 0` of each frame.

@@ -1,5 +1,7 @@
 //! Answers of [`align`](super::align), and the reasons for them.
 
+use nalgebra::{Rotation3, Vector3};
+
 use super::leg_space::Canonical;
 use super::{CLEAR, RoundingBounds, SAME};
 use crate::geom::{Pose, rotation_vector};
@@ -20,6 +22,13 @@ impl Motion {
     pub(super) fn is_near(&self, base: &Pose, platform: &Pose) -> bool {
         let apart = |x: &Pose, y: &Pose| (x.rotation.matrix() - y.rotation.matrix()).amax();
         apart(&self.base, base) < SAME && apart(&self.platform, platform) < SAME
+    }
+
+    /// Whether it moves anything.
+    #[must_use]
+    pub fn is_motion(&self) -> bool {
+        let still = Pose { rotation: Rotation3::identity(), position: Vector3::zeros() };
+        self.base != still || self.platform != still
     }
 
     /// Angles of rotation and translations over `size`, added up.

@@ -1,15 +1,15 @@
 //! Which legs and which partners of a point lie in the span of legs, exactly.
 
-use crate::manipulator::{Body, ExactLeg, ExactLegs, Leg};
-use crate::num::exact::{ExactVector, Rational, product, rank, relations};
+use crate::manipulator::{AlgebraicVector, Body, ExactLeg, ExactLegs, Leg};
+use crate::num::algebraic::Algebraic;
+use crate::num::exact::{product, rank, relations};
 
 /// `sum_k c_k rows_k`, the coefficients being small integers.
-pub(super) fn combination(rows: &[&ExactVector], c: &[i32]) -> ExactVector {
-    let zero = || Rational::from_integer(0.into());
-    let mut out: ExactVector = vec![zero(); rows.first().map_or(0, |r| r.len())];
+pub(super) fn combination(rows: &[&AlgebraicVector], c: &[i32]) -> AlgebraicVector {
+    let mut out: AlgebraicVector = vec![Algebraic::integer(0); rows.first().map_or(0, |r| r.len())];
     for (row, c) in rows.iter().zip(c) {
-        let c = Rational::from_integer((*c).into());
-        out.iter_mut().zip(row.iter()).for_each(|(o, x)| *o += &c * x);
+        let c = Algebraic::integer((*c).into());
+        out.iter_mut().zip(row.iter()).for_each(|(o, x)| *o = &*o + &(&c * x));
     }
     out
 }
@@ -19,19 +19,18 @@ impl ExactLegs {
     pub(super) fn contains(&self, leg: &Leg) -> bool {
         let Some(leg) = ExactLeg::of(leg) else { return false };
         let mut rows = self.vectors.clone();
-        rows.push(leg.vector());
-        let zero = Rational::from_integer(0.into());
-        relations(&rows).iter().any(|c| c[self.vectors.len()] != zero)
+        rows.push(leg.vector().into_iter().map(Algebraic::Rational).collect());
+        relations(&rows).iter().any(|c| !c[self.vectors.len()].is_zero())
     }
 
     /// Dimension of the space of `y` in the span of the other ends of `legs` for which `x (x) y` lies in the span of
     /// the vectors of `legs`; `x` is a point of `body`.
-    pub(super) fn fibre(&self, body: Body, x: &ExactVector, legs: &[usize]) -> usize {
+    pub(super) fn fibre(&self, body: Body, x: &AlgebraicVector, legs: &[usize]) -> usize {
         self.partners(body, x, legs, independent(&self.other_ends(body, legs)))
     }
 
     /// The part of [`fibre`](Self::fibre) at infinity: with first entry 0.
-    pub(super) fn fibre_at_infinity(&self, body: Body, x: &ExactVector, legs: &[usize]) -> usize {
+    pub(super) fn fibre_at_infinity(&self, body: Body, x: &AlgebraicVector, legs: &[usize]) -> usize {
         let ends = independent(&self.other_ends(body, legs));
         // all ends have first entry 1: the vectors of their span with first entry 0 are spanned by differences
         let differences = ends.iter().skip(1).map(|e| e.iter().zip(&ends[0]).map(|(x, y)| x - y).collect());
@@ -39,13 +38,19 @@ impl ExactLegs {
         self.partners(body, x, legs, differences)
     }
 
-    fn other_ends(&self, body: Body, legs: &[usize]) -> Vec<ExactVector> {
+    fn other_ends(&self, body: Body, legs: &[usize]) -> Vec<AlgebraicVector> {
         let others = body.other().of((&self.base, &self.platform));
         legs.iter().map(|i| others[*i].clone()).collect()
     }
 
     /// Dimension of the `y` in the span of independent `directions` for which `x (x) y` lies in the span of the vectors of `legs`.
-    fn partners(&self, body: Body, x: &ExactVector, legs: &[usize], directions: Vec<ExactVector>) -> usize {
+    fn partners(
+        &self,
+        body: Body,
+        x: &AlgebraicVector,
+        legs: &[usize],
+        directions: Vec<AlgebraicVector>,
+    ) -> usize {
         let mut rows = self.vectors_of(legs);
         let leg_rank = rank(&rows);
         let count = directions.len();
@@ -58,8 +63,8 @@ impl ExactLegs {
 }
 
 /// A maximal independent part of the rows, the first ones preferred.
-fn independent(rows: &[ExactVector]) -> Vec<ExactVector> {
-    let mut kept: Vec<ExactVector> = Vec::new();
+fn independent(rows: &[AlgebraicVector]) -> Vec<AlgebraicVector> {
+    let mut kept: Vec<AlgebraicVector> = Vec::new();
     for row in rows {
         kept.push(row.clone());
         if rank(&kept) < kept.len() {
@@ -78,7 +83,7 @@ mod tests {
     fn three_decimal_points_on_a_line_are_not_collinear_as_doubles_unless_they_are() {
         let leg = |x: f64, y: f64| Leg { base: Point3::new(x, y, 0.0), platform: Point3::new(0.0, 0.0, 1.0) };
         let legs = [leg(0.1, 0.1), leg(0.2, 0.2), leg(0.3, 0.3), leg(0.1, 0.3), leg(0.2, 0.6), leg(0.3, 0.9)];
-        let e = ExactLegs::of(&legs).unwrap();
+        let e = ExactLegs::of_doubles(&legs).unwrap();
         assert_eq!(e.dimension(Body::Base, &[0, 1, 2]), 1);
         // 3 * 0.2 is not 0.6 as doubles
         assert_eq!(e.dimension(Body::Base, &[3, 4, 5]), 2);

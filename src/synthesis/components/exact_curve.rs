@@ -8,8 +8,8 @@ use super::exact_form::{
     rationals, split,
 };
 use super::form::{SingularKind, exponents, laplace, power};
-use crate::manipulator::{Body, ExactLegs};
-use crate::num::exact::{ExactVector, Rational, approximate, rank, relations};
+use crate::manipulator::{AlgebraicVector, Body, ExactLegs};
+use crate::num::exact::{ExactVector, rank, relations};
 
 /// Bits of coefficients up to which greatest common divisors of minors are computed.
 const LONG: u64 = 300;
@@ -62,6 +62,8 @@ pub struct ExactCurve {
 pub enum NoExactCurve {
     /// The exact joints do not have these flats: the pair exists within the tolerance only.
     OtherFlats,
+    /// Coordinates are no fractions.
+    Irrational,
     /// The greatest common divisor of minors with coefficients of so many bits is not computed.
     TooLong {
         /// Bits of the longest coefficient.
@@ -73,6 +75,12 @@ impl std::fmt::Display for NoExactCurve {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::OtherFlats => write!(f, "as written the joints do not have these flats"),
+            Self::Irrational => {
+                write!(
+                    f,
+                    "the joints have square roots in their coordinates; curves are split for fractions only"
+                )
+            }
             Self::TooLong { bits } => {
                 write!(
                     f,
@@ -168,10 +176,11 @@ fn common_minor(m: &[Vec<ExactForm>], order: usize) -> Result<ExactForm, NoExact
 impl ExactCurve {
     /// Over the plane of the ends of legs on a body.
     pub(super) fn of(exact: &ExactLegs, legs: &[usize], body: Body) -> Result<Self, NoExactCurve> {
-        let pick =
-            |list: &[ExactVector]| -> Vec<ExactVector> { legs.iter().map(|i| list[*i].clone()).collect() };
-        let ends = |body: Body| pick(body.of((&exact.base, &exact.platform)));
-        let (near, far) = (ends(body), ends(body.other()));
+        let fractions = |p: &AlgebraicVector| p.iter().map(|x| x.as_rational().cloned()).collect();
+        let ends = |body: Body| -> Option<Vec<ExactVector>> {
+            legs.iter().map(|i| fractions(&exact.ends(body)[*i])).collect()
+        };
+        let (near, far) = ends(body).zip(ends(body.other())).ok_or(NoExactCurve::Irrational)?;
         let width = exact.dimension(body.other(), legs);
         let chosen = coordinates(&near, 2).zip(coordinates(&far, width));
         let Some(((kept, near), (_, far))) = chosen else { return Err(NoExactCurve::OtherFlats) };
@@ -253,18 +262,17 @@ impl ExactCurve {
 }
 
 /// The exact point in which the lines through two pairs of points of a plane meet, homogeneous; `None` where they do not meet in one point.
-pub(super) fn meeting(lines: [[&ExactVector; 2]; 2]) -> Option<ExactVector> {
-    let rows: Vec<ExactVector> = lines.iter().flatten().map(|p| (*p).clone()).collect();
-    let [relation] = <[ExactVector; 1]>::try_from(relations(&rows)).ok()?;
-    let point: ExactVector =
-        (0..4).map(|k| &relation[0] * &rows[0][k] + &relation[1] * &rows[1][k]).collect();
-    point.iter().any(|x| *x != Rational::from_integer(BigInt::ZERO)).then_some(point)
+pub(super) fn meeting(lines: [[&AlgebraicVector; 2]; 2]) -> Option<AlgebraicVector> {
+    let rows: Vec<AlgebraicVector> = lines.iter().flatten().map(|p| (*p).clone()).collect();
+    let [relation] = <[AlgebraicVector; 1]>::try_from(relations(&rows)).ok()?;
+    let point: AlgebraicVector =
+        (0..4).map(|k| &(&relation[0] * &rows[0][k]) + &(&relation[1] * &rows[1][k])).collect();
+    point.iter().any(|x| !x.is_zero()).then_some(point)
 }
 
 /// The double nearest to a point, for comparison; `None` at infinity.
-pub(super) fn place(point: &ExactVector) -> Option<Vector3<f64>> {
-    (point[0] != Rational::from_integer(BigInt::ZERO))
-        .then(|| Vector3::from_fn(|k, _| approximate(&(&point[k + 1] / &point[0]))))
+pub(super) fn place(point: &AlgebraicVector) -> Option<Vector3<f64>> {
+    (!point[0].is_zero()).then(|| Vector3::from_fn(|k, _| (&point[k + 1] / &point[0]).approximate()))
 }
 
 #[cfg(test)]
@@ -275,7 +283,7 @@ mod tests {
     use nalgebra::Point3;
 
     fn base(legs: &[Leg; 6]) -> ExactCurve {
-        ExactCurve::of(&ExactLegs::of(legs).unwrap(), &[0, 1, 2, 3, 4, 5], Body::Base).unwrap()
+        ExactCurve::of(&ExactLegs::of_doubles(legs).unwrap(), &[0, 1, 2, 3, 4, 5], Body::Base).unwrap()
     }
 
     #[test]

@@ -39,8 +39,9 @@ pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
 use self::flats::{BothReadings, ClosedPair, closed_pairs};
 use self::search::Search;
 use super::leg_vector::{LegSpan, Normalisation};
-use crate::manipulator::{Body, ExactLegs, Leg, LegIndex, Manipulator, homogeneous};
+use crate::manipulator::{AlgebraicVector, Body, ExactLegs, Leg, LegIndex, Level, Manipulator, homogeneous};
 use crate::num::Rng;
+use crate::num::algebraic::Algebraic;
 use crate::num::linalg::LinalgError;
 
 /// Limits of [`components`].
@@ -117,7 +118,7 @@ pub struct Components {
 
 /// All families of replaceable legs of `m`.
 ///
-/// Every rank is decided twice: exactly, on the doubles as rational numbers, and within the tolerance; the families of both
+/// Every rank is decided twice: exactly, on the joints as the numbers they are, and within the tolerance; the families of both
 /// readings are listed, and each says which it belongs to ([`Component::exact`]).
 ///
 /// # Errors
@@ -148,7 +149,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     let ends = BothReadings {
         base: scaled.map(|l| l.base.coords),
         platform: scaled.map(|l| l.platform.coords),
-        exact: ExactLegs::of(&legs).ok_or(ComponentsError::NonFinite)?,
+        exact: ExactLegs::of(m).or_else(|| ExactLegs::of_doubles(&legs)).ok_or(ComponentsError::NonFinite)?,
         design: legs,
         tolerance: options.tolerance,
     };
@@ -184,7 +185,18 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
         options.tolerance,
     )
     .beside(Some(ends.exact.rank(&all)));
-    let doubts = search.doubts;
+    let mut doubts = search.doubts;
+    let leg_rank = match leg_rank.exact {
+        // no tolerance has a say about exact joints
+        Some(exact) if m.level() == Level::ExactJoints && exact != leg_rank.value => {
+            doubts.push(format!(
+                "the exact joints have leg vectors of rank {exact}, of rank {} within the tolerance: families of the exact joints alone are not found",
+                leg_rank.value
+            ));
+            leg_rank.taken(exact)
+        }
+        _ => leg_rank,
+    };
     let pairs = pairs.iter().map(|p| record(p, &components)).collect();
     Ok(Components { components, pairs, planes, leg_rank, doubts, span, options })
 }
@@ -192,7 +204,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
 /// Whether the vector of a leg is a combination of those of six, all coordinates taken as the rational numbers they are.
 #[must_use]
 pub fn exactly_replaceable(legs: &[Leg; 6], leg: &Leg) -> bool {
-    ExactLegs::of(legs).is_some_and(|e| e.contains(leg))
+    ExactLegs::of_doubles(legs).is_some_and(|e| e.contains(leg))
 }
 
 /// Homogeneous partners of a point of one body: the `y` for which point and `y` are a leg that is a combination of some of the six. Exact.
@@ -211,7 +223,8 @@ pub(super) fn exact_partners(
     point: &Point3<f64>,
     among: &[usize],
 ) -> Option<ExactPartners> {
-    let (exact, x) = (ExactLegs::of(legs)?, homogeneous(point)?);
+    let x: AlgebraicVector = homogeneous(point)?.into_iter().map(Algebraic::Rational).collect();
+    let exact = ExactLegs::of_doubles(legs)?;
     Some(ExactPartners {
         dimension: exact.fibre(body, &x, among),
         at_infinity: exact.fibre_at_infinity(body, &x, among),

@@ -15,9 +15,9 @@ use super::found::{FoundComponents, View};
 use super::planes::{PlaneSide, joints_on_line, line_points, plane_side, points_of};
 use super::shape::FamilyShape;
 use super::spectrum::{APART, AT_INFINITY, COMPUTED, Question, SAME, nearness, unit};
-use crate::manipulator::{Body, LegIndex};
+use crate::manipulator::{AlgebraicVector, Body, LegIndex};
 use crate::num::Rng;
-use crate::num::exact::ExactVector;
+
 use crate::num::linalg::LinalgError;
 use crate::synthesis::leg_vector::{LegSpan, Normalisation};
 
@@ -409,15 +409,15 @@ impl Search<'_> {
             return Some(usize::MAX);
         }
         let ends = view.carrying.of((&self.ends.exact.base, &self.ends.exact.platform));
-        let mut kept: Vec<&ExactVector> = Vec::new();
+        let mut kept: Vec<&AlgebraicVector> = Vec::new();
         for i in &pair.legs {
-            let mut rows: Vec<ExactVector> = kept.iter().map(|r| (*r).clone()).collect();
+            let mut rows: Vec<AlgebraicVector> = kept.iter().map(|r| (*r).clone()).collect();
             rows.push(ends[*i].clone());
             if crate::num::exact::rank(&rows) == rows.len() {
                 kept.push(&ends[*i]);
             }
         }
-        let points: Vec<ExactVector> = match kept.len() {
+        let points: Vec<AlgebraicVector> = match kept.len() {
             2 => steps.iter().map(|s| combination(&kept, &[1, *s])).collect(),
             3 => (0..5)
                 .flat_map(|x| (0..5 - x).map(move |y| [x, y, 4 - x - y]))
@@ -499,9 +499,9 @@ impl Search<'_> {
         }
         let ends = view.carrying.of((&self.ends.exact.base, &self.ends.exact.platform));
         let (centre, unit) = self.frame(view);
-        let distance = |p: &ExactVector| place(p).map_or(f64::MAX, |x| ((x - centre) / unit - at).norm());
-        let mut best: Option<(f64, ExactVector)> = None;
-        let lines: Vec<[&ExactVector; 2]> = (0..pair.legs.len())
+        let distance = |p: &AlgebraicVector| place(p).map_or(f64::MAX, |x| ((x - centre) / unit - at).norm());
+        let mut best: Option<(f64, AlgebraicVector)> = None;
+        let lines: Vec<[&AlgebraicVector; 2]> = (0..pair.legs.len())
             .flat_map(|k| (0..k).map(move |l| [k, l]))
             .map(|pair_of| pair_of.map(|k| &ends[pair.legs[k]]))
             .filter(|[p, q]| p != q)

@@ -21,7 +21,7 @@ use thiserror::Error;
 pub use self::names::{counted_from, family_between, spanning_joints};
 pub use self::singular::SingularParameters;
 use super::components::{Component, Components, Parametrisation, exactly_replaceable};
-use super::leg_map::{AffineLegMap, LegMapOutcome, LegMapTolerances, Relation, leg_map_to_legs};
+use super::leg_map::{AffineLegMap, LegMapOutcome, LegMapTolerances, leg_map_to_legs};
 use crate::manipulator::{InvalidManipulator, Leg, LegIndex, Manipulator};
 use crate::num::linalg::LinalgError;
 
@@ -76,10 +76,10 @@ pub struct Relocation {
 }
 
 impl Relocation {
-    /// Whether the new platform is equivalent to the old one.
+    /// Whether the new platform is equivalent to the old one, within the rounding of its computed joints.
     #[must_use]
     pub fn is_regular(&self) -> bool {
-        self.map.relation == Relation::Equivalent
+        self.map.is_regular_within_rounding()
     }
 }
 
@@ -131,7 +131,7 @@ pub enum RelocateError {
 
 /// Moves legs together: the families are those of `m`, [`components`](super::components::components())`(m, ..)`, for all of them.
 ///
-/// The answer with `det A = 0` is a value too: [`Relation::Singular`], with the parameters where that happens. A single move of a leg on which the family does not
+/// The answer with `det A = 0` is a value too: [`Relation::Singular`](super::Relation::Singular), with the parameters where that happens. A single move of a leg on which the family does not
 /// depend at all is refused.
 ///
 /// ```
@@ -224,6 +224,17 @@ pub enum JointOrigin {
     Displaced(usize),
     /// A leg left the old joint for this one.
     Split(usize),
+}
+
+impl JointOrigin {
+    /// The joint that it is, where it stayed.
+    #[must_use]
+    pub fn kept(&self) -> Option<usize> {
+        match self {
+            Self::Kept(k) => Some(*k),
+            Self::Displaced(_) | Self::Split(_) => None,
+        }
+    }
 }
 
 /// The new platform.

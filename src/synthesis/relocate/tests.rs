@@ -7,7 +7,7 @@ use crate::geom::{Pose, random_rotation};
 use crate::manipulator::Octahedral;
 use crate::num::Rng;
 use crate::synthesis::components::{ComponentOptions, components};
-use crate::synthesis::{AffineLegMap, joint_free, leg_map};
+use crate::synthesis::{AffineLegMap, Relation, joint_free, leg_map};
 
 pub(super) fn corner(r: f64, k: usize) -> Point3<f64> {
     let (s, c) = (std::f64::consts::TAU * k as f64 / 3.0).sin_cos();

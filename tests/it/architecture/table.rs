@@ -92,7 +92,7 @@ const LINES: &[Line] = &[
     ("offsets", &["num", "geom", "manipulator", "synthesis"], &[MATRICES, ERRORS]),
     (
         "equivalence",
-        &["num", "geom", "manipulator", "synthesis", "fk", "solve::certify"],
+        &["num", "geom", "manipulator", "synthesis", "singularity", "fk", "solve::certify"],
         &[MATRICES, COMPLEX, ERRORS],
     ),
     (

@@ -11,10 +11,10 @@ use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::entrance::leg_map;
-use crate::equivalents::Original;
+use crate::equivalents::{Original, Origins};
 use crate::manipulator::{Body, Octahedral};
 use crate::records::{FamilyAnswer, InstanceRecord, PatternPlace, PatternRecord};
-use crate::synthesis::{Family, FamilyMember, Pattern, Relation};
+use crate::synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]
@@ -47,27 +47,7 @@ pub(crate) struct Args {
 /// Lists the class, or one pattern of it.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let original = Original::of(&design).ok_or_else(|| {
-        let why = Octahedral::recognise(design.manipulator()).err().map_or_else(String::new, |e| format!(": {e}"));
-        Failure::refused(
-            "family::not_octahedral",
-            format!("{} is neither octahedral nor made from an octahedral platform{why}", design.name),
-        )
-        .with_help(format!(
-            "the class is that of a design with three joints on each body and two legs at each joint, or with its joints on the sides of two triangles; {NEAREST} {GENERAL}"
-        ))
-    })?;
-    if original.seen.is_some()
-        && !leg_map(&original.design, &design).is_ok_and(|m| m.relation == Relation::Equivalent)
-    {
-        let message = format!(
-            "{} is made from an octahedral platform, but singular: it is equivalent to none",
-            design.name
-        );
-        return Err(
-            Failure::refused("family::singular", message).with_help("`equipod check DESIGN` says why")
-        );
-    }
+    let original = original(&design)?;
     let family = Family::octahedral();
     if let Some(path) = &args.dot {
         files::write_text(path, &family.to_dot())?;
@@ -79,10 +59,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let members: Vec<&FamilyMember> =
         family.members().iter().filter(|m| wanted.as_ref().is_none_or(|p| m.pattern == *p)).collect();
     let mut answer = FamilyAnswer::new(&design.name, &original, &family, &members);
-    let mut relation = None;
+    let mut built = None;
     if let (Some(pattern), Some(offsets)) = (&wanted, &args.offsets) {
         let (record, found) = realise(args, pattern, &design, &original, offsets)?;
-        (answer.instance, relation) = (Some(record), Some(found));
+        (answer.instance, built) = (Some(record), Some(found));
     }
     let mut text = summary(&answer);
     if wanted.is_some() {
@@ -93,19 +73,58 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     if let Some(r) = &answer.instance {
         let _ = writeln!(text, "\nat these offsets det A = {}", r.determinant.0);
     }
-    let exit = match relation {
-        None | Some(Relation::Equivalent) => Exit::Yes,
-        Some(Relation::Singular) => Exit::No,
-        Some(_) => Exit::Inconclusive,
+    if let Some(map) = original.map.as_ref().filter(|map| map.relation == Relation::Undecided) {
+        text = format!("{} is made from an octahedral platform {}\n\n{text}", design.name, map.explanation());
+    }
+    // what is asked of a design that is made from the platform holds as far as the design does
+    let of_design = original.map.as_ref().map_or(Relation::Equivalent, |map| map.relation);
+    let exit = match (of_design, built.as_ref().map(|map| map.relation)) {
+        (_, Some(Relation::Singular | Relation::Unrelated)) => Exit::No,
+        (Relation::Equivalent, None | Some(Relation::Equivalent)) => Exit::Yes,
+        _ => Exit::Inconclusive,
     };
     if let Some(path) = &args.output {
+        let written = built.as_ref().is_some_and(LegMapOutcome::is_regular_within_rounding);
         let _ = match exit {
-            Exit::Yes => writeln!(text, "wrote {}", path.display()),
+            _ if written => writeln!(text, "wrote {}", path.display()),
             Exit::No => writeln!(text, "no design is written: the platform is architecturally singular"),
             _ => writeln!(text, "no design is written: the platform may be architecturally singular"),
         };
     }
     Ok(Answer::new(exit, answer, text))
+}
+
+/// The octahedral platform that a design is or is made of; a design that is proved to be equivalent to none is the answer no.
+fn original(design: &Design) -> Result<Original, Failure> {
+    let no = |code, message: String| Failure::new(Exit::No, code, message);
+    let original = match Original::behind(design) {
+        Origins::Of(original) => *original,
+        Origins::Refuted(map) => {
+            let message = format!(
+                "{} is not equivalent to the octahedral platform of its triangles: {}",
+                design.name,
+                map.explanation()
+            );
+            return Err(no("family::not_equivalent", message).with_help(NEAREST));
+        }
+        Origins::None => {
+            let why = Octahedral::recognise(design.manipulator());
+            let why = why.err().map_or_else(String::new, |e| format!(": {e}"));
+            let message =
+                format!("{} is neither octahedral nor made from an octahedral platform{why}", design.name);
+            return Err(Failure::refused("family::not_octahedral", message).with_help(format!(
+                "the class is that of a design with three joints on each body and two legs at each joint, or with its joints on the sides of two triangles; {NEAREST} {GENERAL}"
+            )));
+        }
+    };
+    if original.map.as_ref().is_some_and(|map| map.relation == Relation::Singular) {
+        let message = format!(
+            "{} is made from an octahedral platform, but singular: it is equivalent to none",
+            design.name
+        );
+        return Err(no("family::singular", message).with_help("`equipod check DESIGN` says why"));
+    }
+    Ok(original)
 }
 
 fn parse_pattern(text: &str) -> Result<Pattern, Failure> {
@@ -122,17 +141,16 @@ fn realise(
     design: &Design,
     original: &Original,
     offsets: &[f64],
-) -> Result<(InstanceRecord, Relation), Failure> {
+) -> Result<(InstanceRecord, LegMapOutcome), Failure> {
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
     let (built, map) = original.equivalent(pattern, offsets).map_err(|e| refused(&e))?;
     let record = InstanceRecord::new(pattern, offsets, &built, &map).map_err(|e| refused(&e))?;
-    let relation = leg_map(design, &built)
-        .map_err(|e| Failure::new(Exit::Inconclusive, "family::breakdown", e.to_string()))?
-        .relation;
-    if let (Some(path), Relation::Equivalent) = (&args.output, relation) {
+    let found = leg_map(design, &built)
+        .map_err(|e| Failure::new(Exit::Inconclusive, "family::breakdown", e.to_string()))?;
+    if let Some(path) = args.output.as_ref().filter(|_| found.is_regular_within_rounding()) {
         files::write_design(path, &built)?;
     }
-    Ok((record, relation))
+    Ok((record, found))
 }
 
 fn summary(r: &FamilyAnswer) -> String {

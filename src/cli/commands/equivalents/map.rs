@@ -8,9 +8,8 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::entrance::decided_exactly;
 use crate::records::{CorrespondenceRecord, MapAnswer, MapRecord};
-use crate::synthesis::{LegCorrespondence, LegMapTolerances, Relation, leg_map};
+use crate::synthesis::{LegCorrespondence, Relation};
 
 /// Arguments of `equivalents map`.
 #[derive(Debug, clap::Args)]
@@ -28,9 +27,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let (from, to) = (context.load(&args.from)?, context.load(&args.to)?);
     same_units(&from, &to, "map::different_units")?;
     let second = args.frames.apply(&from, &to, context)?;
-    let outcome = leg_map(from.manipulator(), &second.manipulator, LegMapTolerances::default())
+    let outcome = second
+        .judged(from.manipulator())
         .map_err(|e| Failure::new(Exit::Inconclusive, "map::breakdown", e.to_string()))?;
-    let outcome = if second.is_given() { decided_exactly(outcome, &from, &to) } else { outcome };
     let exit = match (outcome.relation, second.refuted()) {
         (Relation::Equivalent, _) => Exit::Yes,
         (Relation::Unrelated, Some(false)) | (Relation::Undecided, _) => Exit::Inconclusive,

@@ -258,7 +258,7 @@ fn finish(made: Made, output: Option<&OutputPath>) -> Result<Answer, Failure> {
     } else {
         design.lengths = home.lengths(design.manipulator());
         toml = with_lengths(&toml, lengths);
-        singular = Architecture::of(design.manipulator()).is_singular();
+        singular = Architecture::of(design.manipulator()).is_singular() == Some(true);
     }
     let (file, text) = match output {
         None => (PresetFile::Given { text: toml.clone() }, toml),

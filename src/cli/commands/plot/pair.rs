@@ -6,8 +6,9 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::poses;
+use crate::equivalence::judge;
 use crate::plot::{PairFigure, platform_pair};
-use crate::synthesis::{LegMapTolerances, Relation, leg_map};
+use crate::synthesis::Relation;
 
 /// Arguments of `plot pair`.
 #[derive(Debug, clap::Args)]
@@ -26,8 +27,7 @@ pub(super) struct Args {
 pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
     let (a, b) = (context.load(&args.first)?, context.load(&args.second)?);
     let pose = poses::parse(&args.pose, &a, "--pose", "plot::bad_pose")?;
-    let found = leg_map(a.manipulator(), b.manipulator(), LegMapTolerances::default())
-        .map_err(|e| Failure::internal(e.to_string()))?;
+    let found = judge(a.manipulator(), b.manipulator()).map_err(|e| Failure::internal(e.to_string()))?;
     let between = match found.relation {
         Relation::Equivalent => {
             vec!["s\u{2032} = A s + c".into(), format!("det A = {:.3}", found.determinant)]

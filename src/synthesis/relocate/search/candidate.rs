@@ -11,7 +11,7 @@ use crate::manipulator::{Leg, LegIndex, Manipulator, inverse_condition, jacobian
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 use crate::synthesis::components::Components;
-use crate::synthesis::leg_map::{LegMapOutcome, LegMapTolerances, Relation, leg_map_to_legs};
+use crate::synthesis::leg_map::{LegMapOutcome, LegMapTolerances, leg_map_to_legs};
 use crate::synthesis::relocate::{Assembled, assemble};
 
 /// Margins of the platforms of one pattern.
@@ -241,7 +241,7 @@ pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>,
     placements.sort_by_key(|p| p.leg);
     let assembled = assemble(scorer.m, &new);
     let map = leg_map_to_legs(scorer.m, &assembled.legs, LegMapTolerances::default())?;
-    if map.relation != Relation::Equivalent {
+    if !map.is_regular_within_rounding() {
         return Ok(None);
     }
     let Ok(platform) = &assembled.platform else { return Ok(None) };

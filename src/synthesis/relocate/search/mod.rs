@@ -60,6 +60,11 @@ pub enum SearchError {
         "the leg vectors have rank {0}: the platform is architecturally singular, and so is every one made of its legs"
     )]
     Dependent(usize),
+    /// The exact leg vectors are independent, and dependent within the tolerance of the search.
+    #[error(
+        "the platform is regular, but its leg vectors have rank {0} within the tolerance: the search does not tell it from a singular one"
+    )]
+    NearlyDependent(usize),
     /// No pose to look at.
     #[error("no pose is given at which the legs are looked at")]
     NoPoses,
@@ -136,6 +141,9 @@ pub fn search(
 ) -> Result<SearchOutcome, SearchError> {
     if found.leg_rank.value < 6 {
         return Err(SearchError::Dependent(found.leg_rank.value));
+    }
+    if found.span.rank() < 6 {
+        return Err(SearchError::NearlyDependent(found.span.rank()));
     }
     wishes.validate()?;
     let mut outcome = SearchOutcome {

@@ -65,6 +65,9 @@ pub(in crate::cli::commands) fn platforms(
     options: &MoveSearchOptions,
 ) -> Result<Found, Failure> {
     let outcome = search(design.manipulator(), families, wishes, options).map_err(|e| match e {
+        SearchError::NearlyDependent(_) => {
+            Failure::new(Exit::Inconclusive, "move::nearly_singular_design", e.to_string())
+        }
         SearchError::Linalg(_) => Failure::internal(e.to_string()),
         SearchError::Dependent(_) => Failure::refused("move::singular_design", e.to_string())
             .with_help("`equipod check DESIGN` says why"),
@@ -108,7 +111,8 @@ impl JudgedPlatform<'_> {
 /// The platforms as designs with their requirements; those that fulfil everything come first, in the order of the search.
 fn judged<'a>(design: &Design, outcome: &'a SearchOutcome, seed: u64) -> Vec<JudgedPlatform<'a>> {
     let judge = |candidate: &'a Candidate| {
-        let built = moved_design(design, &candidate.assembled);
+        let shares: Vec<f64> = candidate.placements.iter().flat_map(|p| p.parameters.clone()).collect();
+        let built = moved_design(design, &candidate.assembled, &shares);
         // what misses a wish is not fulfilled whatever is proved of its requirements
         let assess = if candidate.fulfilled { AssessAnswer::of } else { AssessAnswer::briefly };
         let assessment = built.as_ref().and_then(|d| assess(d, seed));

@@ -207,7 +207,8 @@ fn one_step(
         let type_name = found.components[step.family].type_name();
         names.push((type_name, family_names(current, &found, step.family)?));
     }
-    let design = moved_design(current, &relocation.assembled);
+    let shares: Vec<f64> = wanted.iter().flat_map(|r| r.parameters.clone()).collect();
+    let design = moved_design(current, &relocation.assembled, &shares);
     Ok(Done { relocation, families: names, design })
 }
 

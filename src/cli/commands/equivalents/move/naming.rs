@@ -5,6 +5,7 @@ use nalgebra::Point3;
 use super::request::Along;
 use crate::cli::failure::Failure;
 use crate::design::{Design, Origin};
+use crate::manipulator::Body;
 use crate::num::linalg::LinalgError;
 use crate::synthesis::components::{Components, Parametrisation};
 use crate::synthesis::relocate::{Assembled, JointOrigin, counted_from, family_between, spanning_joints};
@@ -130,8 +131,11 @@ pub(super) fn list_families(design: &Design, found: &Components) -> Result<Strin
 
 /// The design with the joints of the new platform: one that all legs left keeps its name where the first of them goes, the ends of others that left get the
 /// name with a letter. `None` when the legs make no platform.
-pub(super) fn moved_design(design: &Design, new: &Assembled) -> Option<Design> {
+///
+/// A new joint that is at one of the `shares` of the way between two joints that stay is constructed there: then it is exact.
+pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[f64]) -> Option<Design> {
     let platform = new.platform.clone().ok()?;
+    let points = [platform.base_joints().to_vec(), platform.platform_joints().to_vec()];
     let mut taken: Vec<String> = design.base_names().iter().chain(design.platform_names()).cloned().collect();
     let mut names = |origins: &[JointOrigin], old: &[String]| -> Vec<String> {
         origins
@@ -146,16 +150,30 @@ pub(super) fn moved_design(design: &Design, new: &Assembled) -> Option<Design> {
     let on_platform = names(&new.platform_joints, design.platform_names());
     let built =
         Design::new(design.name.clone(), design.units.clone(), platform).with_joint_names(base, on_platform);
-    let origins = |of: &[JointOrigin]| -> Vec<Origin> {
-        let origin = |o: &JointOrigin| match o {
-            JointOrigin::Kept(k) => Origin::Kept(*k),
-            JointOrigin::Displaced(_) | JointOrigin::Split(_) => Origin::New,
+    let limit = ON_LINE * design.manipulator().size();
+    let origins = |body: Body, of: &[JointOrigin]| -> Vec<Origin> {
+        let old = design.manipulator().joints(body);
+        let kept: Vec<usize> = of.iter().filter_map(JointOrigin::kept).collect();
+        let pairs = || kept.iter().flat_map(|i| kept.iter().filter(move |j| *j != i).map(move |j| [*i, *j]));
+        let between = |x: &Point3<f64>| {
+            let at = |[i, j]: [usize; 2], t: f64| old[i] + (old[j] - old[i]) * t;
+            let places = shares.iter().flat_map(|t| pairs().map(move |ends| (ends, *t)));
+            places.into_iter().find(|(ends, t)| (at(*ends, *t) - x).norm() <= limit)
         };
-        of.iter().map(origin).collect()
+        let origin = |(k, o): (usize, &JointOrigin)| match o {
+            JointOrigin::Kept(k) => Origin::Kept(*k),
+            JointOrigin::Displaced(_) | JointOrigin::Split(_) => {
+                between(&points[body.index()][k]).map_or(Origin::New, |(ends, t)| Origin::Between(ends, t))
+            }
+        };
+        of.iter().enumerate().map(origin).collect()
     };
-    let kept = [origins(&new.base), origins(&new.platform_joints)];
+    let kept = [origins(Body::Base, &new.base), origins(Body::Platform, &new.platform_joints)];
     built.ok().map(|d| d.with_tables_of(design).constructed_from(design, [&kept[0], &kept[1]]))
 }
+
+/// A joint is on a line of others within this share of the size.
+const ON_LINE: f64 = 1e-12;
 
 fn fresh(name: &str, taken: &mut Vec<String>) -> String {
     let letters = ('a'..='z').map(|c| format!("{name}{c}"));

@@ -19,7 +19,7 @@ use crate::plot::{MotionFigure, motion};
 use crate::records::OriginWord;
 use crate::singularity::{
     CriticalPoses, CurveDegree, CurveEnd, MotionOptions, SelfMotion, critical_poses, curve_degree,
-    self_motion,
+    rounds_to_singular, self_motion,
 };
 
 /// Arguments of `singular motion`.
@@ -103,6 +103,13 @@ pub(in crate::cli::commands) fn drawing(
 fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, Found), Failure> {
     let design = context.load(&args.design)?;
     let m = design.manipulator();
+    if rounds_to_singular(m) {
+        let message = format!(
+            "{} is regular, proved about the exact joints, but their doubles are singular: curves are followed in doubles, and would be those of another design",
+            design.name
+        );
+        return Err(Failure::new(Exit::Inconclusive, "motion::beyond_doubles", message));
+    }
     let (start, squares) = beginning(args, &design)?;
     let options = MotionOptions { turn: args.turn, seed: context.seed(), ..MotionOptions::default() };
     let given: Vec<Pose> = start.into_iter().collect();

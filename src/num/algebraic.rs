@@ -1,0 +1,281 @@
+//! Numbers of one field of square roots, of any length, for decisions that neither rounding nor length must take.
+//!
+//! [`Surd`] refuses long results, because designs are written and printed with it.
+//! Here sums, products and quotients always exist: [`Algebraic::all`] admits only numbers of one field whose radicands stay below `2^63`.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use num_traits::Zero;
+
+use super::exact::{self, Number, Rational};
+use super::split::{SplitField, degree_of};
+use super::surd::Surd;
+
+/// A number of the field of square roots of a design.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Algebraic {
+    /// A fraction.
+    Rational(Rational),
+    /// A sum of square roots that is no fraction.
+    Irrational(Surd),
+}
+
+impl Algebraic {
+    /// The numbers, in their order; `None` when they have too many independent square roots.
+    pub(crate) fn all(numbers: &[&Surd]) -> Option<Vec<Self>> {
+        degree_of(numbers.iter().copied())?;
+        Some(numbers.iter().map(|x| Self::of((*x).clone())).collect())
+    }
+
+    fn of(x: Surd) -> Self {
+        x.as_rational().map_or(Self::Irrational(x), Self::Rational)
+    }
+
+    /// A small integer.
+    pub(crate) fn integer(x: i64) -> Self {
+        Self::Rational(Rational::from_integer(x.into()))
+    }
+
+    /// Whether it is zero.
+    pub(crate) fn is_zero(&self) -> bool {
+        matches!(self, Self::Rational(x) if x.is_zero())
+    }
+
+    /// The number when it is a fraction.
+    pub(crate) fn as_rational(&self) -> Option<&Rational> {
+        match self {
+            Self::Rational(x) => Some(x),
+            Self::Irrational(_) => None,
+        }
+    }
+
+    /// The number as a sum of square roots.
+    pub(crate) fn surd(&self) -> Surd {
+        match self {
+            Self::Rational(x) => Surd::long_rational(x),
+            Self::Irrational(x) => x.clone(),
+        }
+    }
+
+    /// The value as a double, within one unit in the last place.
+    pub(crate) fn approximate(&self) -> f64 {
+        match self {
+            Self::Rational(x) => exact::approximate(x),
+            Self::Irrational(x) => x.nearest(),
+        }
+    }
+
+    /// Bits of the longest of its integers: numerators and the denominator.
+    pub(crate) fn bits(&self) -> u64 {
+        match self {
+            Self::Rational(x) => x.numer().bits().max(x.denom().bits()),
+            Self::Irrational(x) => x.terms().map(|(_, c)| c.bits()).fold(x.denominator().bits(), u64::max),
+        }
+    }
+
+    fn with(&self, other: &Self, of: impl FnOnce(&Surd, &Surd) -> Option<Surd>) -> Self {
+        let found = of(&self.surd(), &other.surd());
+        Self::of(found.unwrap_or_else(|| unreachable!("the radicands of one field stay below 2^63")))
+    }
+}
+
+impl From<Rational> for Algebraic {
+    fn from(x: Rational) -> Self {
+        Self::Rational(x)
+    }
+}
+
+impl Add for &Algebraic {
+    type Output = Algebraic;
+
+    fn add(self, other: Self) -> Algebraic {
+        match (self, other) {
+            (Algebraic::Rational(x), Algebraic::Rational(y)) => Algebraic::Rational(x + y),
+            _ => self.with(other, |x, y| Some(x.sum(y))),
+        }
+    }
+}
+
+impl Sub for &Algebraic {
+    type Output = Algebraic;
+
+    fn sub(self, other: Self) -> Algebraic {
+        match (self, other) {
+            (Algebraic::Rational(x), Algebraic::Rational(y)) => Algebraic::Rational(x - y),
+            _ => self.with(other, |x, y| Some(x.sum(&y.negated()))),
+        }
+    }
+}
+
+impl Mul for &Algebraic {
+    type Output = Algebraic;
+
+    fn mul(self, other: Self) -> Algebraic {
+        match (self, other) {
+            (Algebraic::Rational(x), Algebraic::Rational(y)) => Algebraic::Rational(x * y),
+            _ => self.with(other, Surd::product),
+        }
+    }
+}
+
+/// The divisor is not zero.
+impl Div for &Algebraic {
+    type Output = Algebraic;
+
+    fn div(self, other: Self) -> Algebraic {
+        match (self, other) {
+            (Algebraic::Rational(x), Algebraic::Rational(y)) => Algebraic::Rational(x / y),
+            _ => self.with(other, |x, y| x.product(&y.reciprocal()?)),
+        }
+    }
+}
+
+impl Neg for &Algebraic {
+    type Output = Algebraic;
+
+    fn neg(self) -> Algebraic {
+        match self {
+            Algebraic::Rational(x) => Algebraic::Rational(-x),
+            Algebraic::Irrational(x) => Algebraic::Irrational(x.negated()),
+        }
+    }
+}
+
+impl Mul for Algebraic {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        &self * &other
+    }
+}
+
+impl Sub for Algebraic {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        &self - &other
+    }
+}
+
+impl std::iter::Sum for Algebraic {
+    fn sum<I: Iterator<Item = Self>>(numbers: I) -> Self {
+        numbers.fold(Self::integer(0), |sum, x| &sum + &x)
+    }
+}
+
+impl Number for Algebraic {
+    fn product(&self, other: &Self) -> Self {
+        self * other
+    }
+
+    /// Fractions go the way of fractions; other rows are eliminated in the field, if they are not independent modulo a prime, where they would be independent.
+    fn relations(rows: &[Vec<Self>]) -> Vec<Vec<Self>> {
+        let rational = rows.iter().map(|row| row.iter().map(|x| x.as_rational().cloned()).collect());
+        if let Some(rows) = rational.collect::<Option<Vec<Vec<Rational>>>>() {
+            let found = Rational::relations(&rows);
+            return found.into_iter().map(|c| c.into_iter().map(Self::Rational).collect()).collect();
+        }
+        if independent_modulo_a_prime(rows) { Vec::new() } else { eliminated(rows) }
+    }
+}
+
+fn independent_modulo_a_prime(rows: &[Vec<Algebraic>]) -> bool {
+    let surds: Vec<Vec<Surd>> = rows.iter().map(|row| row.iter().map(Algebraic::surd).collect()).collect();
+    let Some(field) = SplitField::all(surds.iter().flatten()).and_then(|mut all| all.next()) else {
+        return false;
+    };
+    let residues: Option<Vec<Vec<u64>>> =
+        surds.iter().map(|row| row.iter().map(|x| field.residue(x)).collect()).collect();
+    residues.is_some_and(|rows| {
+        let count = rows.len();
+        field.field().rank(rows) == count
+    })
+}
+
+/// The relations by elimination in the field; that of a row has a one in its own place.
+fn eliminated(rows: &[Vec<Algebraic>]) -> Vec<Vec<Algebraic>> {
+    let (count, width) = (rows.len(), rows.first().map_or(0, Vec::len));
+    let mut work = rows.to_vec();
+    for (i, row) in work.iter_mut().enumerate() {
+        row.extend((0..count).map(|j| Algebraic::integer(i64::from(i == j))));
+    }
+    let mut rank = 0;
+    for column in 0..width {
+        let Some(pivot) = (rank..count).find(|i| !work[*i][column].is_zero()) else { continue };
+        work.swap(rank, pivot);
+        let (top, below) = work.split_at_mut(rank + 1);
+        let head = &top[rank];
+        for row in below.iter_mut().filter(|row| !row[column].is_zero()) {
+            let factor = &row[column] / &head[column];
+            for (x, h) in row.iter_mut().zip(head).skip(column).filter(|(_, h)| !h.is_zero()) {
+                *x = &*x - &(&factor * h);
+            }
+        }
+        rank += 1;
+    }
+    work.split_off(rank).into_iter().map(|row| row[width..].to_vec()).collect()
+}
+
+/// As an expression.
+impl std::fmt::Display for Algebraic {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.surd().fmt(f)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `sum c_k sqrt(r_k)`, from surds.
+    fn all(parts: &[&[(i64, i64)]]) -> Vec<Algebraic> {
+        let surd = |parts: &&[(i64, i64)]| {
+            parts.iter().fold(Surd::zero(), |sum, (c, r)| {
+                let root = Surd::integer(*r).sqrt().unwrap();
+                sum.plus(&root.times(&Surd::integer(*c)).unwrap()).unwrap()
+            })
+        };
+        let surds: Vec<Surd> = parts.iter().map(surd).collect();
+        Algebraic::all(&surds.iter().collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn relations_between_rows_of_square_roots_are_found_and_spoilt_ones_are_not() {
+        let numbers =
+            all(&[&[(1, 2)], &[(3, 1)], &[(1, 6), (-1, 1)], &[(2, 3)], &[(1, 5), (1, 2)], &[(7, 1)]]);
+        let (first, second) = (numbers[..3].to_vec(), numbers[3..].to_vec());
+        let factors = all(&[&[(1, 3), (2, 1)], &[(-1, 10)]]);
+        let third: Vec<Algebraic> =
+            first.iter().zip(&second).map(|(x, y)| &(x * &factors[0]) + &(y * &factors[1])).collect();
+        let rows = [first, second, third];
+        let found = Algebraic::relations(&rows);
+        assert_eq!(found.len(), 1);
+        for k in 0..3 {
+            let sum: Algebraic = found[0].iter().zip(&rows).map(|(c, row)| c * &row[k]).sum();
+            assert!(sum.is_zero() && !found[0][k].is_zero());
+        }
+        let mut spoilt = rows;
+        let trace = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(400));
+        spoilt[2][1] = &spoilt[2][1] + &trace.into();
+        assert!(Algebraic::relations(&spoilt).is_empty());
+        // elimination alone says the same, without the prime
+        assert!(eliminated(&spoilt).is_empty());
+    }
+
+    #[test]
+    fn sums_that_become_fractions_are_fractions() {
+        let x = all(&[&[(1, 2), (1, 3)], &[(-1, 2), (1, 3)]]);
+        assert_eq!(&x[0] * &x[1], Algebraic::integer(1));
+        assert_eq!(&x[0] / &x[0], Algebraic::integer(1));
+        assert!((&x[0] - &x[0]).is_zero());
+        assert_eq!((&x[0] / &x[1]).to_string(), "5 + 2*sqrt(6)");
+    }
+
+    #[test]
+    fn fields_of_too_many_square_roots_are_refused() {
+        let roots: Vec<Surd> =
+            [2, 3, 5, 7, 11, 13, 17, 19, 23].map(|p| Surd::integer(p).sqrt().unwrap()).to_vec();
+        assert!(Algebraic::all(&roots[..8].iter().collect::<Vec<_>>()).is_some());
+        assert!(Algebraic::all(&roots.iter().collect::<Vec<_>>()).is_none());
+    }
+}
