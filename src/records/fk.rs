@@ -84,7 +84,7 @@ pub struct FkOneAnswer {
     /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as doubles, to the platform, and certificates hold for these tips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
-    /// Whether all angles given are within their limits, the ends included; null: none were given, or the design limits no angle. Poses beyond the limits are listed all the same.
+    /// Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub within_limits: Option<bool>,
     /// The legs whose cranks are beyond their limits at these angles, from 1.

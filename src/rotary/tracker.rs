@@ -42,8 +42,10 @@ impl RotaryTracker {
         &self.angles
     }
 
-    /// Continues to other angles; where the pose is lost or a singular one is in the way the tracker stays where it was. Angles that are more than 79 turns away are lost: [`WhyLost::AnglesTooFar`]. `fraction` of the outcome counts from the last angles to the new ones, and the
+    /// Continues to other angles; where the pose is lost or a singular one is in the way the tracker stays where it was. `fraction` of the outcome counts from the last angles to the new ones, and the
     /// evidence is that of all parts: residual and Frobenius ratio at the pose, segments and Newton steps in all, the greatest Kantorovich number.
+    ///
+    /// Angles that are more than 79 turns away are lost: [`WhyLost::AnglesTooFar`].
     ///
     /// # Errors
     /// Angles that are not finite, or tips and joints that make no platform.

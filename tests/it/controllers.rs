@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use equipod::methods::design::{Format, parse_with_cranks};
 use equipod::prelude::*;
 use tempfile::TempDir;
 
@@ -125,11 +126,7 @@ fn checks_of_poses_find_planted_faults() {
     assert!(!exported.mapped().0 && !exported.kinematics("poses.c", "linuxcnc").0);
     // a corrected pose that need not continue the start
     let exported = Exported::of(&design);
-    exported.plant(
-        "equipod.c",
-        "|| !ball_holds(&place, at_end.beta",
-        "|| 0 * !ball_holds(&place, at_end.beta",
-    );
+    exported.plant("equipod.c", "at_end.epsilon, &from)) {", "at_end.epsilon, &place)) {");
     assert!(!exported.mapped().0);
     // a tool that is not taken off the octahedral pose
     let exported = Exported::of(&design);
@@ -177,8 +174,9 @@ base_joint = { model = "universal", first_axis = [[0, 1, 0], [0, 1, 0], [-0.866,
 platform_joint = { model = "universal", first_axis = [[0, 1, 0], [0, 1, 0], [-0.866, -0.5, 0], [-0.866, -0.5, 0], [0.866, -0.5, 0], [0.866, -0.5, 0]], offset = 9 }
 "#;
     let text = std::fs::read_to_string("designs/symmetric-hexapod.toml").unwrap();
-    let drives = Design::from_toml(&format!("{text}{universal}")).unwrap();
-    let cranks = Design::load_with_cranks("designs/presets/reachy-mini.toml").unwrap();
+    let parsed = |text: &str| parse_with_cranks(text, Format::Toml).unwrap().0;
+    let drives = parsed(&format!("{text}{universal}"));
+    let cranks = parsed(&std::fs::read_to_string("designs/presets/reachy-mini.toml").unwrap());
     let legs = Design::load("designs/worked/linuxcnc-griffis-duffy.toml").unwrap();
     for (design, count, modules) in [(&legs, 3, 3), (&drives, 4, 3), (&cranks, 4, 0)] {
         let exported = Exported::of(design);
