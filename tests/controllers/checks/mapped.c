@@ -8,7 +8,9 @@
 
 #define CASES 60u
 /* Joints that are far off need many cases to tell a pose that continues the start from one that does not. */
+#ifndef MANY
 #define MANY 3000u
+#endif
 #define SEGMENTS 1000u
 
 static double apart(const equipod_pose *a, const equipod_pose *b)

@@ -7,7 +7,9 @@
 
 #include "check.h"
 
+#ifndef CASES
 #define CASES 40u
+#endif
 
 static machine_t machine;
 static double size; /* millimetres */
