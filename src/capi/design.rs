@@ -193,6 +193,7 @@ pub unsafe extern "C" fn eqp_ik(
 }
 
 /// The Jacobian at a pose, row `i` `[u_i, ((R b_i) x u_i) / L]`: speed of leg `i` from the velocity of the platform origin and the angular velocity times `L`, base frame.
+/// `EQP_STATUS_BAD_LENGTHS` where the characteristic length `L` is not positive and finite, `EQP_STATUS_COMPUTATION` where a leg has length zero.
 ///
 /// # Safety
 /// `design` is a design, `pose` points to a pose, `rows` to places for six rows of six numbers, `error` is null or points to a place for an error.
@@ -209,7 +210,17 @@ pub unsafe extern "C" fn eqp_jacobian(
         told(error, || {
             let design = &read(design, "design")?.design;
             let pose = read(pose, "pose")?.checked()?;
+            if !(characteristic_length > 0.0 && characteristic_length.is_finite()) {
+                let message = format!(
+                    "characteristic_length is {characteristic_length}; give a positive finite length"
+                );
+                return Err(CallFault::new(EqpStatus::BadLengths, message));
+            }
             let j = jacobian(design.manipulator(), &pose, characteristic_length);
+            if let Some(leg) = (0..6).find(|i| j.row(*i).iter().any(|x| !x.is_finite())) {
+                let message = format!("leg {} has no direction at this pose, or its row overflows", leg + 1);
+                return Err(CallFault::new(EqpStatus::Computation, message));
+            }
             *write(rows.cast::<[[f64; 6]; 6]>(), "rows")? =
                 std::array::from_fn(|i| std::array::from_fn(|k| j[(i, k)]));
             Ok(())

@@ -41,7 +41,7 @@ typedef enum eqp_status {
      */
     EQP_STATUS_BAD_JOINTS = 5,
     /*
-     Values that are no leg lengths.
+     Values that are no leg lengths, or a characteristic length that is not positive and finite.
      */
     EQP_STATUS_BAD_LENGTHS = 6,
     /*
@@ -61,7 +61,7 @@ typedef enum eqp_status {
      */
     EQP_STATUS_BAD_INDEX = 10,
     /*
-     A computation that broke down.
+     A computation that broke down, or a leg of length zero, which has no direction.
      */
     EQP_STATUS_COMPUTATION = 11,
     /*
@@ -394,6 +394,7 @@ enum eqp_status eqp_ik(const struct eqp_design *design,
 
 /*
  The Jacobian at a pose, row `i` `[u_i, ((R b_i) x u_i) / L]`: speed of leg `i` from the velocity of the platform origin and the angular velocity times `L`, base frame.
+ `EQP_STATUS_BAD_LENGTHS` where the characteristic length `L` is not positive and finite, `EQP_STATUS_COMPUTATION` where a leg has length zero.
 
  # Safety
  `design` is a design, `pose` points to a pose, `rows` to places for six rows of six numbers, `error` is null or points to a place for an error.

@@ -22,7 +22,7 @@ pub enum EqpStatus {
     File = 4,
     /// Joints and legs that make no platform.
     BadJoints = 5,
-    /// Values that are no leg lengths.
+    /// Values that are no leg lengths, or a characteristic length that is not positive and finite.
     BadLengths = 6,
     /// Numbers that are no pose.
     BadPose = 7,
@@ -32,7 +32,7 @@ pub enum EqpStatus {
     NoAllowedPose = 9,
     /// An index beyond the number of items.
     BadIndex = 10,
-    /// A computation that broke down.
+    /// A computation that broke down, or a leg of length zero, which has no direction.
     Computation = 11,
     /// A fault of the library.
     Internal = 12,
@@ -63,12 +63,12 @@ pub extern "C" fn eqp_status_text(status: i32) -> *const c_char {
         3 => c"the text of a design is refused",
         4 => c"a file cannot be read",
         5 => c"joints and legs that make no platform",
-        6 => c"values that are no leg lengths",
+        6 => c"values that are no leg lengths, or a characteristic length that is not positive and finite",
         7 => c"numbers that are no pose",
         8 => c"a pose so far away that lengths overflow",
         9 => c"no pose was found that meets the requirements",
         10 => c"an index beyond the number of items",
-        11 => c"a computation that broke down",
+        11 => c"a computation that broke down, or a leg of length zero",
         12 => c"a fault of the library",
         13 => c"legs that are rods on cranks, which the C of `equipod export DESIGN --to c` takes",
         _ => c"no status of this library",
@@ -216,8 +216,9 @@ fn checked_count<T>(count: usize, what: &str) -> Result<(), CallFault> {
 /// # Safety
 /// As [`write`].
 pub(super) unsafe fn give<T>(value: T, to: *mut *mut T, what: &str) -> Result<(), CallFault> {
-    // SAFETY: the caller's promise.
-    *unsafe { write(to, what) }? = Box::into_raw(Box::new(value));
+    // SAFETY: the caller's promise. The place comes first: without one the value is dropped here.
+    let to = unsafe { write(to, what) }?;
+    *to = Box::into_raw(Box::new(value));
     Ok(())
 }
 

@@ -203,6 +203,105 @@ fn what_cannot_be_is_a_code_with_a_text() {
 }
 
 #[test]
+fn a_jacobian_has_a_length_and_legs_with_directions() {
+    // SAFETY: the pointers are those of the test's own values.
+    unsafe {
+        let design = design();
+        let mut home = MaybeUninit::<EqpPose>::uninit();
+        eqp_design_home(design, home.as_mut_ptr(), null_mut());
+        let home = home.assume_init();
+        let (mut rows, mut error) = ([[7.0_f64; 6]; 6], no_error());
+        for length in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let status =
+                eqp_jacobian(design, &raw const home, length, (&raw mut rows).cast(), &raw mut error);
+            assert_eq!(status, EqpStatus::BadLengths, "{length}");
+            assert!(message(&error).contains("characteristic_length"), "{}", message(&error));
+        }
+        // moments over so short a length overflow
+        let status = eqp_jacobian(design, &raw const home, 1e-320, (&raw mut rows).cast(), null_mut());
+        assert_eq!((status, rows), (EqpStatus::Computation, [[7.0; 6]; 6]), "refused rows stay");
+        let status = eqp_jacobian(design, &raw const home, 50.0, (&raw mut rows).cast(), null_mut());
+        assert_eq!(status, EqpStatus::Ok);
+        assert!(rows.iter().all(|row| (row[..3].iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-12));
+        eqp_design_free(design);
+        // at the identity the second leg of this platform has both ends in one point
+        let base = [
+            [1.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [-1.0, -1.0, 0.0],
+            [-1.0, -1.0, 0.0],
+        ];
+        let platform = [
+            [0.0, 1.0, 1.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [-1.0, 0.0, 1.0],
+            [-1.0, 0.0, 1.0],
+            [0.0, 1.0, 1.0],
+        ];
+        let mut made = null_mut();
+        let status = eqp_design_from_joints(
+            (&raw const base).cast(),
+            (&raw const platform).cast(),
+            &raw mut made,
+            &raw mut error,
+        );
+        assert_eq!(status, EqpStatus::Ok, "{}", message(&error));
+        let flat =
+            EqpPose { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], position: [0.0; 3] };
+        let status = eqp_jacobian(made, &raw const flat, 1.0, (&raw mut rows).cast(), &raw mut error);
+        assert_eq!(status, EqpStatus::Computation);
+        assert!(message(&error).starts_with("leg 2 "), "{}", message(&error));
+        eqp_design_free(made);
+    }
+}
+
+#[test]
+fn joints_are_counted_as_legs_are() {
+    // SAFETY: the pointers are those of the test's own values.
+    unsafe {
+        let (mut made, mut error) = (null_mut(), no_error());
+        let good: [[f64; 3]; 6] = std::array::from_fn(|i| [i as f64, (i * i) as f64, 0.0]);
+        let mut bad = good;
+        bad[1] = bad[0]; // one joint of two legs
+        bad[3][2] = f64::NAN;
+        let (good, bad) = ((&raw const good).cast(), (&raw const bad).cast());
+        let status = eqp_design_from_joints(bad, good, &raw mut made, &raw mut error);
+        assert_eq!(status, EqpStatus::BadJoints);
+        assert!(message(&error).contains("base joint 4 "), "{}", message(&error));
+        let status = eqp_design_from_joints(good, bad, &raw mut made, &raw mut error);
+        assert_eq!(status, EqpStatus::BadJoints);
+        assert!(message(&error).contains("platform joint 4 "), "{}", message(&error));
+    }
+}
+
+#[test]
+fn a_value_without_a_place_is_dropped() {
+    struct Counted<'a>(&'a std::cell::Cell<u32>);
+    impl Drop for Counted<'_> {
+        fn drop(&mut self) {
+            self.0.set(self.0.get() + 1);
+        }
+    }
+    let dropped = std::cell::Cell::new(0);
+    // SAFETY: the pointers are null or those of the test's own values.
+    unsafe {
+        let status = told(null_mut(), || give(Counted(&dropped), null_mut(), "place"));
+        assert_eq!((status, dropped.get()), (EqpStatus::BadPointer, 1));
+        let mut place = null_mut();
+        assert_eq!(told(null_mut(), || give(Counted(&dropped), &raw mut place, "place")), EqpStatus::Ok);
+        assert_eq!(dropped.get(), 1, "what is given stays");
+        take_back(place);
+        assert_eq!(dropped.get(), 2);
+        let design = design();
+        assert_eq!(eqp_solver_new(design, 1, null_mut(), null_mut()), EqpStatus::BadPointer);
+        eqp_design_free(design);
+    }
+}
+
+#[test]
 fn a_panic_stays_inside_and_long_messages_are_cut_between_characters() {
     let mut error = no_error();
     // SAFETY: the pointer is that of the test's own value.

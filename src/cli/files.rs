@@ -417,6 +417,17 @@ pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Writes a file into a folder and gives its path; a name with a folder before it makes that folder too.
+///
+/// # Errors
+/// As [`make_folder`] and [`write_text`].
+pub(crate) fn write_into(folder: &Path, name: &str, text: &str) -> Result<PathBuf, Failure> {
+    let path = folder.join(name);
+    path.parent().map_or(Ok(()), make_folder)?;
+    write_text(&path, text)?;
+    Ok(path)
+}
+
 /// Writes a design in the notation of the file name.
 ///
 /// # Errors

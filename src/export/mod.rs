@@ -48,7 +48,7 @@ pub use units::{LengthUnit, UnknownUnit};
 /// A file: its name and its text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExportedFile {
-    /// Name without folder.
+    /// Name, after `linuxcnc/` for files of the folder of that name.
     pub name: String,
     /// All of it.
     pub text: String,

@@ -97,15 +97,15 @@ pub struct Manipulator {
 #[non_exhaustive]
 pub enum InvalidManipulator {
     /// A coordinate is NaN or infinite.
-    #[error("{body} joint {index} has a coordinate that is not a finite number")]
+    #[error("{body} joint {} has a coordinate that is not a finite number", .index + 1)]
     NonFinite {
         /// The body.
         body: Body,
-        /// 0-based index of the joint.
+        /// 0-based index of the joint, of its leg where joints were given by legs; messages count from 1.
         index: usize,
     },
     /// A leg names a joint that does not exist.
-    #[error("{leg} names {body} joint {index}, but there are only {count}")]
+    #[error("{leg} names {body} joint {}, but there are only {count}", .index + 1)]
     MissingJoint {
         /// The leg.
         leg: LegIndex,
@@ -129,12 +129,12 @@ pub enum InvalidManipulator {
     NoSize,
     /// A coordinate whose square, and with it every squared leg length, overflows double precision.
     #[error(
-        "{body} joint {index} has a coordinate of {coordinate:e}, whose square overflows double precision"
+        "{body} joint {} has a coordinate of {coordinate:e}, whose square overflows double precision", .index + 1
     )]
     TooFar {
         /// The body.
         body: Body,
-        /// 0-based index of the joint.
+        /// 0-based index of the joint, of its leg where joints were given by legs; messages count from 1.
         index: usize,
         /// The coordinate.
         coordinate: f64,
@@ -149,6 +149,19 @@ pub enum InvalidManipulator {
 /// Coordinates up to here have leg lengths whose squares, sums of three squares of differences, are finite: `12 x^2 < 2^1024`.
 const FARTHEST: f64 = 3.8e153;
 
+/// Refuses coordinates that are not finite or too large.
+fn check_coordinates(body: Body, joints: &[Point3<f64>]) -> Result<(), InvalidManipulator> {
+    if let Some(index) = joints.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        return Err(InvalidManipulator::NonFinite { body, index });
+    }
+    for (index, joint) in joints.iter().enumerate() {
+        if let Some(&coordinate) = joint.iter().find(|x| x.abs() > FARTHEST) {
+            return Err(InvalidManipulator::TooFar { body, index, coordinate });
+        }
+    }
+    Ok(())
+}
+
 impl Manipulator {
     /// Builds a manipulator from joints and six pairs (base joint, platform joint) in leg order.
     ///
@@ -159,17 +172,8 @@ impl Manipulator {
         platform: Vec<Point3<f64>>,
         legs: [(usize, usize); 6],
     ) -> Result<Self, InvalidManipulator> {
-        for (body, joints) in [(Body::Base, &base), (Body::Platform, &platform)] {
-            let bad = joints.iter().position(|p| p.iter().any(|x| !x.is_finite()));
-            if let Some(index) = bad {
-                return Err(InvalidManipulator::NonFinite { body, index });
-            }
-            for (index, joint) in joints.iter().enumerate() {
-                if let Some(&coordinate) = joint.iter().find(|x| x.abs() > FARTHEST) {
-                    return Err(InvalidManipulator::TooFar { body, index, coordinate });
-                }
-            }
-        }
+        check_coordinates(Body::Base, &base)?;
+        check_coordinates(Body::Platform, &platform)?;
         for (leg, &(a, b)) in LegIndex::all().zip(&legs) {
             let ends = [(Body::Base, a, base.len()), (Body::Platform, b, platform.len())];
             for (body, index, count) in ends {
@@ -200,6 +204,9 @@ impl Manipulator {
     /// # Errors
     /// As [`Manipulator::try_new`].
     pub fn from_legs(legs: [Leg; 6]) -> Result<Self, InvalidManipulator> {
+        // before equal joints become one, so that joints are counted as legs are
+        check_coordinates(Body::Base, &legs.map(|l| l.base))?;
+        check_coordinates(Body::Platform, &legs.map(|l| l.platform))?;
         let mut base: Vec<Point3<f64>> = Vec::new();
         let mut platform: Vec<Point3<f64>> = Vec::new();
         let index_of = |list: &mut Vec<Point3<f64>>, p: Point3<f64>| {
@@ -381,7 +388,7 @@ mod tests {
             |r: f64| Manipulator::try_new(triangle(r), triangle(1.0), hexagon).unwrap_err().to_string();
         assert_eq!(
             sizes(f64::MAX),
-            "base joint 0 has a coordinate of 1.7976931348623157e308, whose square overflows double precision"
+            "base joint 1 has a coordinate of 1.7976931348623157e308, whose square overflows double precision"
         );
     }
 

@@ -34,7 +34,7 @@ pub enum NotOctahedral {
         count: usize,
     },
     /// A joint carries other than two legs.
-    #[error("{body} joint {index} carries {count} legs; in an octahedral platform each joint carries two")]
+    #[error("{body} joint {} carries {count} legs; in an octahedral platform each joint carries two", .index + 1)]
     LegsAtJoint {
         /// The body.
         body: Body,

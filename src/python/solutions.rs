@@ -120,8 +120,8 @@ impl NativeSolutions {
                 let solved = solved.with_real_poses(&tips, &design.home_or_default());
                 let solved = solved.with_elbows(platform, angles);
                 let symmetric_finite = platform.symmetric_pose_count(angles);
-                let angles_deg = Some(angles.map(f64::to_degrees));
-                (design, FkOneAnswer { angles_deg, symmetric_finite, ..solved.into() })
+                let answer = FkOneAnswer { symmetric_finite, ..solved.into() };
+                (design, answer.with_angles(platform, angles, angles.map(f64::to_degrees)))
             }
         };
         document(answer, &[design], Some(self.found.seed))

@@ -84,6 +84,12 @@ pub struct FkOneAnswer {
     /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as doubles, to the platform, and certificates hold for these tips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
+    /// Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within_limits: Option<bool>,
+    /// The legs whose cranks are beyond their limits at these angles, from 1.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outside: Vec<usize>,
     /// Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the tips as doubles are so far out that their rounding decides whether there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symmetric_finite: Option<usize>,
@@ -100,7 +106,27 @@ pub struct FkOneAnswer {
 
 impl From<SolvedRecord> for FkOneAnswer {
     fn from(solved: SolvedRecord) -> Self {
-        Self { solved, angles_deg: None, symmetric_finite: None, near: None, drives: None, closure: None }
+        Self {
+            solved,
+            angles_deg: None,
+            within_limits: None,
+            outside: Vec::new(),
+            symmetric_finite: None,
+            near: None,
+            drives: None,
+            closure: None,
+        }
+    }
+}
+
+impl FkOneAnswer {
+    /// With the angles of cranks that were given, in radians and in degrees, and the limits that they violate.
+    #[must_use]
+    pub fn with_angles(self, platform: &RotaryPlatform, angles: &[f64; 6], degrees: [f64; 6]) -> Self {
+        let outside = platform.beyond_limits(angles);
+        let limited = platform.legs().iter().any(|leg| leg.limits.is_some());
+        let within_limits = limited.then_some(outside.is_empty());
+        Self { angles_deg: Some(degrees), within_limits, outside, ..self }
     }
 }
 

@@ -151,7 +151,7 @@ impl RotaryIkRecord {
         };
         self.cranks = (0..6).map(crank).collect();
         self.angles_deg = Some(kept.map(f64::to_degrees));
-        self.outside = (1..=6).filter(|leg| left[leg - 1] < 0.0).collect();
+        self.outside = platform.beyond_limits(&kept);
         if legs.iter().any(|leg| leg.limits.is_some()) {
             self.within_limits = Some(self.outside.is_empty());
         }

@@ -284,7 +284,14 @@ impl RotaryPlatform {
     /// Whether all angles are within their limits, the ends included.
     #[must_use]
     pub fn within_limits(&self, angles: &[f64; 6]) -> bool {
-        self.limit_margins(angles).iter().all(|margin| *margin >= 0.0)
+        self.beyond_limits(angles).is_empty()
+    }
+
+    /// The legs whose cranks are beyond their limits at these angles, from 1.
+    #[must_use]
+    pub fn beyond_limits(&self, angles: &[f64; 6]) -> Vec<usize> {
+        let margins = self.limit_margins(angles);
+        (1..=6).filter(|leg| !(margins[leg - 1] >= 0.0)).collect()
     }
 
     /// All finite poses, real and complex, with the cranks at these angles. Certificates hold for the tips as computed, rounded to doubles.

@@ -1,7 +1,7 @@
 use nalgebra::{Point3, Rotation3, Unit, Vector3, Vector6};
 
 use super::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform, RotaryTracker};
-use crate::fk::{FkOptions, NearOutcome, NearSolver, Reality};
+use crate::fk::{FkOptions, NearOutcome, NearSolver, Reality, WhyLost};
 use crate::geom::{Angles, Pose, rotation_vector, turn_between};
 use crate::num::Rng;
 
@@ -180,6 +180,30 @@ fn the_tracker_keeps_the_head_upright_where_newtons_method_flips_it() {
 }
 
 #[test]
+fn a_crank_that_would_turn_too_often_is_lost() {
+    let m = reachy_mini();
+    let start = m.ik(&home()).unwrap();
+    let mut tracker = RotaryTracker::new(m, home(), start);
+    let with = |turns: f64| {
+        let mut angles = start;
+        angles[4] += std::f64::consts::TAU * turns;
+        angles
+    };
+    for turns in [80.0, 1e6, -1e6, 1e300] {
+        let outcome = tracker.step(&with(turns)).unwrap();
+        let NearOutcome::Lost { reason, fraction, pose, evidence } = outcome else { panic!("{outcome:?}") };
+        assert_eq!((reason, fraction, pose), (WhyLost::AnglesTooFar, 0.0, home()));
+        assert!(evidence.residual < 1e-12 && evidence.frobenius_ratio > 0.01, "of the pose where it stays");
+        assert_eq!(tracker.angles(), &start);
+    }
+    assert!(tracker.step(&with(f64::INFINITY)).is_err() && tracker.step(&with(f64::NAN)).is_err());
+    // as far as a step goes parts are followed one by one, and small ones reach their end
+    let far = tracker.step(&with(79.0)).unwrap();
+    assert!(far.tracked().is_none() && far.evidence().segments > 1, "the crank is not free to turn: {far:?}");
+    assert!(tracker.step(&with(1e-3)).unwrap().tracked().is_some());
+}
+
+#[test]
 fn what_makes_no_platform_is_refused() {
     let m = reachy_mini();
     let with = |change: fn(&mut RotaryLeg)| {
@@ -195,4 +219,5 @@ fn what_makes_no_platform_is_refused() {
     let limited = RotaryPlatform::try_new(legs).unwrap();
     assert!(limited.within_limits(&[0.5; 6]) && !limited.within_limits(&[1.5; 6]));
     assert!((limited.limit_margins(&[0.9; 6])[0] - 0.1).abs() < 1e-15);
+    assert_eq!(limited.beyond_limits(&[f64::NAN, 2.0, -2.0, 0.0, 0.0, 0.0]), [1]);
 }

@@ -3,12 +3,14 @@
 use nalgebra::{Point3, Vector3};
 
 use super::RotaryPlatform;
-use crate::fk::{NearEvidence, NearOutcome, NearSolver};
+use crate::fk::{NearEvidence, NearOutcome, NearSolver, WhyLost};
 use crate::geom::{Pose, turn_between};
 use crate::manipulator::InvalidManipulator;
 
 /// Angles move by at most this much at once, radians.
 const LONGEST: f64 = 0.05;
+/// Most parts of a step: 79 turns, since further ones would take longer parts.
+const PARTS: f64 = 1e4;
 
 /// Follows the pose of a machine with cranks.
 ///
@@ -43,12 +45,20 @@ impl RotaryTracker {
     /// Continues to other angles; where the pose is lost or a singular one is in the way the tracker stays where it was. `fraction` of the outcome counts from the last angles to the new ones, and the
     /// evidence is that of all parts: residual and Frobenius ratio at the pose, segments and Newton steps in all, the greatest Kantorovich number.
     ///
+    /// Angles that are more than 79 turns away are lost: [`WhyLost::AnglesTooFar`].
+    ///
     /// # Errors
     /// Angles that are not finite, or tips and joints that make no platform.
     pub fn step(&mut self, angles: &[f64; 6]) -> Result<NearOutcome, InvalidManipulator> {
         let largest = (0..6).map(|i| (angles[i] - self.angles[i]).abs()).fold(0.0, f64::max);
-        let parts = (largest / LONGEST).ceil().clamp(1.0, 1e4);
+        let parts = (largest / LONGEST).ceil().max(1.0);
         let squares = self.platform.rods().squared();
+        if parts > PARTS {
+            self.platform.at(angles)?;
+            let here = NearSolver::new(&self.platform.at(&self.angles)?).solve(&squares, &self.pose);
+            let (reason, evidence) = (WhyLost::AnglesTooFar, *here.evidence());
+            return Ok(NearOutcome::Lost { pose: self.pose, reason, fraction: 0.0, evidence });
+        }
         let (mut pose, mut part) = (self.pose, 1.0);
         let mut before: Option<NearEvidence> = None;
         loop {

@@ -244,19 +244,19 @@ def table_of_operations(folder, name, rows):
         return
     options = ["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]
     own = ["-I", HERE / "kins"]
-    code, out = run("gcc", *options, *own, "-fsyntax-only", folder / "equipodkins.c")
+    code, out = run("gcc", *options, *own, "-fsyntax-only", folder / "linuxcnc/equipodkins.c")
     told(code == 0, f"{name}: equipodkins suits the stand-in", out)
     binary = folder / "kins"
     text = "".join(" ".join(map(repr, [*pose, *lengths])) + "\n" for pose, lengths in rows)
     for fault in (False, True):
-        source = folder / "equipodkins_ops.c"
+        source = folder / "linuxcnc/equipodkins_ops.c"
         if fault:
             # a planted fault: degrees that are a little off
             place = folder / "kins-wrong"
             shutil.copytree(folder, place)
-            header = place / "equipodkins.h"
+            header = place / "linuxcnc/equipodkins.h"
             header.write_text(header.read_text().replace("#define DEGREE 0.017453292519943295", "#define DEGREE 0.0174532925"))
-            source = place / "equipodkins_ops.c"
+            source = place / "linuxcnc/equipodkins_ops.c"
         sources = [source, HERE / "kins/check.c", "-lm"]
         code, out = run("gcc", *options, "-O2", *SANITIZE, f"-DHOME_Z={rows[0][0][2]!r}", *own, *sources, "-o", binary)
         if told(code == 0, f"{name}: equipodkins_ops suits the stand-in", out):
@@ -270,7 +270,7 @@ def table_of_operations(folder, name, rows):
         print("  KINS_HEADERS is not set: equipodkins_ops was not compiled with LinuxCNC's own headers")
         return
     true = [x for part in headers for x in ("-I", part)]
-    code, out = run("gcc", *options, "-DRTAPI", "-DUSPACE", "-D_GNU_SOURCE", *true, "-fsyntax-only", folder / "equipodkins_ops.c")
+    code, out = run("gcc", *options, "-DRTAPI", "-DUSPACE", "-D_GNU_SOURCE", *true, "-fsyntax-only", folder / "linuxcnc/equipodkins_ops.c")
     told(code == 0, f"{name}: equipodkins_ops compiles with LinuxCNC's own headers", out)
 
 

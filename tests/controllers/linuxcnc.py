@@ -16,7 +16,7 @@ FLAGS = ["-std=gnu11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-DRTAPI"
 
 def build(root, folder):
     """Compiles the module; what the compiler complains about."""
-    out = subprocess.run(["gcc", *FLAGS, f"-I{root}/usr/include/linuxcnc", "equipodkins.c", "-o", "equipodkins.so", "-lm"], cwd=folder, capture_output=True, text=True)
+    out = subprocess.run(["gcc", *FLAGS, f"-I{root}/usr/include/linuxcnc", "equipodkins.c", "-o", "equipodkins.so", "-lm"], cwd=folder / "linuxcnc", capture_output=True, text=True)
     return out.stderr if out.returncode else ""
 
 
@@ -28,7 +28,7 @@ class Machine:
         self.hal = ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
         self.silent = Handler(lambda *_: None)
         self.hal.rtapi_set_msg_handler(self.silent)
-        self.module = ctypes.CDLL(str(folder / "equipodkins.so"))
+        self.module = ctypes.CDLL(str(folder / "linuxcnc/equipodkins.so"))
         if self.module.rtapi_app_main() != 0:
             raise SystemExit("equipodkins does not start")
 

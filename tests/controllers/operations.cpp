@@ -58,7 +58,7 @@ int main()
     place_of(&equipod_nominal, &equipod_home, &place);
     make_rotation(&place);
     pose_of(&equipod_nominal, &place, &moved);
-    measure(&equipod_nominal, target, error, &place, &place, &r);
+    measure(&equipod_nominal, target, error, &place, &place, &start, &r);
     end("call");
     // once a segment: the test, the ball, the squares between
     begin();

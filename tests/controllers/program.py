@@ -208,7 +208,7 @@ def main(program, design, folder):
     # isolated: `linuxcnc` is the module of the system, not the file beside this one
     script.write_text(f"#!/bin/sh\nexec /usr/bin/python3 -I {pathlib.Path(__file__).resolve()} --display {folder}\n")
     script.chmod(0o755)
-    done = subprocess.run(["halcompile", "--install", "equipodkins.c"], cwd=folder / "c", capture_output=True, text=True)
+    done = subprocess.run(["halcompile", "--install", "equipodkins.c"], cwd=folder / "c/linuxcnc", capture_output=True, text=True)
     if done.returncode:
         print(done.stderr)
         return 1

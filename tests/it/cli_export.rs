@@ -145,7 +145,7 @@ fn refusals() {
 }
 
 /// Files of the format `c`, in the order in which they are told.
-const C_FILES: [&str; 10] = [
+const C_FILES: [&str; 11] = [
     "equipod.h",
     "equipod.c",
     "equipod_design.h",
@@ -154,8 +154,9 @@ const C_FILES: [&str; 10] = [
     "equipod_selftest.c",
     "CMakeLists.txt",
     "equipodkins.h",
-    "equipodkins.c",
-    "equipodkins_ops.c",
+    "linuxcnc/equipodkins.h",
+    "linuxcnc/equipodkins.c",
+    "linuxcnc/equipodkins_ops.c",
 ];
 
 /// The program's own folder of C for a design, as texts.
@@ -165,9 +166,34 @@ fn c_files(design: &str, options: &[&str], folder: &Path) -> Vec<String> {
     assert_eq!(code, Some(0), "{doc}");
     let told: Vec<&str> =
         doc["formats"][0]["files"].as_array().unwrap().iter().map(|f| f.as_str().unwrap()).collect();
-    let names: Vec<&str> = told.iter().map(|f| f.rsplit('/').next().unwrap()).collect();
-    assert_eq!(names, C_FILES);
+    let names: Vec<&Path> = told.iter().map(|f| Path::new(f).strip_prefix(folder).unwrap()).collect();
+    assert_eq!(names, C_FILES.map(Path::new));
     C_FILES.map(|name| read(folder, name)).to_vec()
+}
+
+#[test]
+fn the_folder_for_linuxcnc_keeps_the_rules_of_writing() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("c");
+    std::fs::create_dir_all(&to).unwrap();
+    // a file in place of the folder is refused and stays
+    let in_the_way = to.join("linuxcnc");
+    std::fs::write(&in_the_way, "mine").unwrap();
+    let design = "designs/rbt-octahedral.toml";
+    let (code, doc) = run(&[design, "--to", "c", "-o", to.to_str().unwrap()]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("file::not_writable")));
+    assert_eq!(std::fs::read_to_string(&in_the_way).unwrap(), "mine");
+    std::fs::remove_file(&in_the_way).unwrap();
+    // in that folder as elsewhere a design is never replaced by something else, and an older file of an export is
+    std::fs::create_dir(&in_the_way).unwrap();
+    let own = in_the_way.join("equipodkins.h");
+    std::fs::copy(design, &own).unwrap();
+    let (code, doc) = run(&[design, "--to", "c", "-o", to.to_str().unwrap()]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("file::overwrites_design")));
+    assert_eq!(std::fs::read(&own).unwrap(), std::fs::read(design).unwrap());
+    std::fs::write(&own, "old").unwrap();
+    assert_eq!(run(&[design, "--to", "c", "-o", to.to_str().unwrap()]).0, Some(0));
+    assert!(std::fs::read_to_string(&own).unwrap().contains("../equipod.c"));
 }
 
 #[test]

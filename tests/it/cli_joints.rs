@@ -314,10 +314,10 @@ fn what_takes_drives_for_distances_refuses_joints_that_are_not_ideal() {
     let of = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).unwrap();
     assert!(of("equipod_design.h").contains("#define EQUIPOD_HAS_DRIVES 1"));
     assert!(
-        of("equipodkins.h").contains("equipod_track_drives")
-            && of("equipodkins.c").contains("base-joint-offset")
+        of("linuxcnc/equipodkins.h").contains("equipod_track_drives")
+            && of("linuxcnc/equipodkins.c").contains("base-joint-offset")
     );
-    assert!(of("equipodkins_ops.c").contains("base-joint-offset"));
+    assert!(of("linuxcnc/equipodkins_ops.c").contains("base-joint-offset"));
     let written = folder.path().join("written.toml").display().to_string();
     assert_eq!(equipod(&["design", "convert", &path, "-o", &written]).status.code(), Some(0));
     assert!(std::fs::read_to_string(&written).unwrap().contains("offset = 14"));

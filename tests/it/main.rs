@@ -45,6 +45,7 @@ mod cli_verify;
 mod cli_view;
 mod closure;
 mod completeness;
+mod controllers;
 mod cranks;
 mod design_files;
 mod documents;

@@ -99,9 +99,7 @@ fn wanted(args: &Args) -> Vec<&'static dyn Writer> {
 }
 
 fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
-    let path = folder.join(&file.name);
-    files::write_text(&path, &file.text)?;
-    Ok(path.display().to_string())
+    Ok(files::write_into(folder, &file.name, &file.text)?.display().to_string())
 }
 
 /// Writes every format that can hold the design; exit 1 when one cannot.

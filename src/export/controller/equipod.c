@@ -615,12 +615,28 @@ static void target_of(const equipod_legs *legs, const real_t s[6], const real_t 
     }
 }
 
+/* Whether a place is in the ball about `centre` in which 2 beta |x| < 1: every pose of it is regular, and no two have the same lengths. */
+static int ball_holds(const place_t *centre, real_t beta, real_t epsilon, const place_t *place)
+{
+    const real_t radius = place_distance(centre, place, epsilon);
+    real_t room, greatest = R(0);
+    int k;
+    for (k = 0; k < 3; k++) {
+        greatest = larger(greatest, FABS(centre->position[k]));
+    }
+    for (k = 0; k < 3; k++) {
+        greatest = larger(greatest, FABS(place->position[k]));
+    }
+    room = R(ROOM) * (R(1) + greatest);
+    return R(2) * beta * (radius + room / epsilon) <= PROVED;
+}
+
 /* Newton's method to the root for `target` in the Kantorovich ball about `place`; 0 when it ends elsewhere. */
 static int correct(const equipod_legs *legs, const real_t target[6], const start_t *start, real_t part, place_t *place, unsigned *steps)
 {
     const real_t beta = start->beta + part * start->eta + start->slack;
     const place_t from = *place;
-    real_t step[6], radius, room, greatest = R(0);
+    real_t step[6];
     unsigned n;
     int k;
     for (k = 0; k < 6; k++) {
@@ -643,15 +659,7 @@ static int correct(const equipod_legs *legs, const real_t target[6], const start
             return 0;
         }
     }
-    radius = place_distance(&from, place, start->epsilon);
-    for (k = 0; k < 3; k++) {
-        greatest = larger(greatest, FABS(from.position[k]));
-    }
-    for (k = 0; k < 3; k++) {
-        greatest = larger(greatest, FABS(place->position[k]));
-    }
-    room = R(ROOM) * (R(1) + greatest);
-    return R(2) * beta * (radius + room / start->epsilon) <= PROVED;
+    return ball_holds(&from, beta, start->epsilon, place);
 }
 
 typedef enum { ARRIVED, ADVANCED, SINGULAR, STUCK } segment_end;
@@ -706,28 +714,28 @@ static segment_end segment(const equipod_legs *legs, const real_t target[6], con
 }
 
 /* Residual, condition, distance and error at the end. The error is that of Newton's method: at a pose with 4 (beta + eta) eta <= 1 the root
- * is within 2 eta in the norm max(|h|, |w|), h a shift over the unit, w half the turn to first order. */
-static void measure(const equipod_legs *legs, const real_t target[6], const real_t target_error[6], const place_t *from, const place_t *place,
-                    equipod_result *result)
+ * is within 2 eta in the norm max(|h|, |w|), h a shift over the unit, w half the turn to first order. 1 where the errors have these bounds. */
+static int measure(const equipod_legs *legs, const real_t target[6], const real_t target_error[6], const place_t *from, const place_t *place,
+                   start_t *start, equipod_result *result)
 {
     local_t here;
     blur_t blur;
-    start_t start;
     real_t largest = R(0), p[3];
-    int i, k;
+    int i, k, bounded = 0;
     local_at(legs, place, target, &here);
     for (i = 0; i < 6; i++) {
         largest = is_nan(here.f[i]) ? here.f[i] : larger(largest, R(2) * FABS(here.f[i]));
     }
     result->residual = largest * legs->residual_scale;
     blur_of(legs, place, &here, target_error, &blur);
-    if (start_of(&here, &blur, &start)) {
-        result->frobenius_ratio = start.frobenius_ratio;
-        if (R(4) * (start.beta + start.eta) * start.eta <= PROVED) {
-            const real_t angle = (R(4) * start.eta + blur.turn) * UP;
+    if (start_of(&here, &blur, start)) {
+        result->frobenius_ratio = start->frobenius_ratio;
+        if (R(4) * (start->beta + start->eta) * start->eta <= PROVED) {
+            const real_t angle = (R(4) * start->eta + blur.turn) * UP;
             const real_t sizes = norm(legs->origin) + norm(legs->centre) + legs->unit * norm(place->position);
             result->angle_error = angle;
-            result->position_error = (R(2) * start.eta * legs->unit + angle * norm(legs->centre) + R(12) * U * sizes) * UP;
+            result->position_error = (R(2) * start->eta * legs->unit + angle * norm(legs->centre) + R(12) * U * sizes) * UP;
+            bounded = is_finite(result->position_error);
         }
     } else {
         result->frobenius_ratio = R(0);
@@ -736,12 +744,14 @@ static void measure(const equipod_legs *legs, const real_t target[6], const real
         p[k] = place->position[k] - from->position[k];
     }
     result->distance = norm(p) * legs->unit;
+    return bounded;
 }
 
 equipod_status equipod_track(const equipod_legs *legs, const real_t s[6], const real_t *radius, const equipod_pose *start, real_t singular,
                              unsigned segments, equipod_result *result)
 {
     place_t from, place;
+    start_t at_end;
     real_t target[6], target_error[6], left = R(1);
     int end = 0, is_singular;
     target_of(legs, s, radius, target, target_error);
@@ -789,7 +799,7 @@ equipod_status equipod_track(const equipod_legs *legs, const real_t s[6], const 
             break;
         }
     }
-    measure(legs, target, target_error, &from, &place, result);
+    (void)measure(legs, target, target_error, &from, &place, &at_end, result);
     pose_of(legs, &place, &result->pose);
     is_singular = !(result->frobenius_ratio >= singular);
     if (is_singular || (result->reason == EQUIPOD_NO_REASON && result->fraction < R(1))) {
@@ -855,28 +865,61 @@ int equipod_map_squares(const equipod_map *map, const real_t s[6], real_t to[6],
     return first;
 }
 
-equipod_status equipod_track_mapped(const equipod_map *map, const equipod_legs *octahedral, const equipod_legs *measured, const real_t s[6],
-                                    const equipod_pose *start, real_t singular, unsigned segments, unsigned corrections,
-                                    equipod_result *result)
+/* Corrects the pose of a result by `steps` Newton steps on the measured joints, and by more until rounding is all that is left. 1 where
+ * these joints prove the pose reached: its errors have bounds, and a ball of regular poses about it holds the start. */
+static int correct_on(const equipod_legs *measured, const real_t s[6], const equipod_pose *start, real_t singular, unsigned steps,
+                      equipod_result *result)
 {
-    real_t squares[6], radius[6], target[6], target_error[6];
     place_t from, place;
-    /* squares that no pose has are below zero here: the tracker says how far it is possible to go */
-    (void)equipod_map_squares(map, s, squares, radius);
-    if (equipod_track(octahedral, squares, radius, start, singular, segments, result) != EQUIPOD_TRACKED || corrections == 0u) {
-        return result->status;
-    }
+    start_t at_end;
+    real_t target[6], target_error[6];
+    unsigned n;
+    int converged = 0;
     target_of(measured, s, 0, target, target_error);
     place_of(measured, start, &from);
     place_of(measured, &result->pose, &place);
     result->position_error = R(INFINITY);
     result->angle_error = R(INFINITY);
-    if (!make_rotation(&place) || !step_on(measured, target, corrections, &place)) {
-        result->status = EQUIPOD_NEAR_SINGULAR;
+    if (!make_rotation(&from) || !make_rotation(&place)) {
+        return 0;
+    }
+    for (n = 0; n < EQUIPOD_CORRECTIONS && !converged; n++) {
+        result->newton_steps += steps;
+        if (!step_on(measured, target, steps, &place) || !measure(measured, target, target_error, &from, &place, &at_end, result)
+            || !(result->frobenius_ratio >= singular)
+            || !ball_holds(&place, at_end.beta + at_end.eta + at_end.slack, at_end.epsilon, &from)) {
+            return 0;
+        }
+        converged = at_end.eta <= R(2) * at_end.slack;
+        steps = 1;
+    }
+    pose_of(measured, &place, &result->pose);
+    return converged;
+}
+
+equipod_status equipod_track_mapped(const equipod_map *map, const equipod_legs *octahedral, const equipod_legs *measured, const real_t s[6],
+                                    const equipod_pose *start, real_t singular, unsigned segments, unsigned corrections,
+                                    equipod_result *result)
+{
+    const equipod_pose from = *start;
+    real_t squares[6], radius[6];
+    unsigned segments_before, steps_before;
+    /* squares that no pose has are below zero here: the tracker says how far it is possible to go */
+    (void)equipod_map_squares(map, s, squares, radius);
+    (void)equipod_track(octahedral, squares, radius, &from, singular, segments, result);
+    if (corrections == 0u
+        || (result->status == EQUIPOD_TRACKED && correct_on(measured, s, &from, singular, corrections, result))) {
         return result->status;
     }
-    measure(measured, target, target_error, &from, &place, result);
-    pose_of(measured, &place, &result->pose);
+    segments_before = result->segments;
+    steps_before = result->newton_steps;
+    (void)equipod_track(measured, s, 0, &from, singular, segments, result);
+    result->segments += segments_before;
+    result->newton_steps += steps_before;
+    if (result->status == EQUIPOD_TRACKED && !is_finite(result->position_error)) {
+        result->status = EQUIPOD_LOST;
+        result->reason = EQUIPOD_NO_CONVERGENCE;
+    }
     return result->status;
 }
 
@@ -885,7 +928,7 @@ equipod_status equipod_track_mapped(const equipod_map *map, const equipod_legs *
 int equipod_prepare(const real_t base[6][3], const real_t platform[6][3], equipod_legs *legs)
 {
     real_t sum = R(0), size = R(0);
-    int i, k;
+    int i, k, finite = 1;
     for (k = 0; k < 3; k++) {
         real_t a = R(0), b = R(0);
         for (i = 0; i < 6; i++) {
@@ -915,11 +958,12 @@ int equipod_prepare(const real_t base[6][3], const real_t platform[6][3], equipo
         for (k = 0; k < 3; k++) {
             legs->reduced_base[i][k] = (base[i][k] - legs->origin[k]) / legs->unit;
             legs->reduced_platform[i][k] = (platform[i][k] - legs->centre[k]) / legs->unit;
+            finite = finite && is_finite(legs->reduced_base[i][k]) && is_finite(legs->reduced_platform[i][k]);
         }
         legs->loose_base[i] = R(0);
         legs->loose_platform[i] = R(0);
     }
-    return 1;
+    return finite;
 }
 
 void equipod_pose_from_angles(const real_t position[3], const real_t roll_pitch_yaw[3], equipod_pose *pose)
@@ -1239,17 +1283,18 @@ static void name_binding(const equipod_legs *legs, const equipod_margins *margin
 int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
                      real_t most, unsigned poses, equipod_travel *travel)
 {
+    const equipod_pose from = *start;
     equipod_margins margins;
     equipod_pose pose;
     real_t fastest = R(0), shortest, longest, nudge, met = R(0), violated = R(0);
     int i, outside = 0;
     travel->amount = R(0);
-    travel->pose = *start;
+    travel->pose = from;
     travel->binds = 0;
     travel->limit = EQUIPOD_TOO_SHORT;
     travel->leg = -1;
     travel->poses = 1;
-    equipod_limit_margins(limits, legs, start, &margins);
+    equipod_limit_margins(limits, legs, &from, &margins);
     if (!margins.met) {
         travel->binds = 1;
         name_binding(legs, &margins, travel);
@@ -1257,7 +1302,7 @@ int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, con
     }
     for (i = 0; i < 6; i++) {
         real_t arm[3], line[3], turned[3];
-        leg_line(legs, start, i, arm, line);
+        leg_line(legs, &from, i, arm, line);
         cross(turn, arm, turned);
         fastest = larger(fastest, norm(velocity) + norm(turned));
     }
@@ -1274,7 +1319,7 @@ int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, con
         const real_t step = larger(smaller(safe, R(50) * longest), nudge);
         const real_t next = step < most - met ? met + step : most;
         nudge = safe < nudge ? smaller(R(2) * nudge, longest) : shortest;
-        pose_on_way(start, velocity, turn, next, &pose);
+        pose_on_way(&from, velocity, turn, next, &pose);
         equipod_limit_margins(limits, legs, &pose, &margins);
         travel->poses += 1;
         if (margins.met) {
@@ -1287,7 +1332,7 @@ int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, con
     }
     while (outside && travel->poses < poses && violated - met > R(8) * R(EPSILON) * (violated + shortest)) {
         const real_t middle = R(0.5) * (met + violated);
-        pose_on_way(start, velocity, turn, middle, &pose);
+        pose_on_way(&from, velocity, turn, middle, &pose);
         equipod_limit_margins(limits, legs, &pose, &margins);
         travel->poses += 1;
         if (margins.met) {
@@ -1298,7 +1343,7 @@ int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, con
         }
     }
     if (outside) {
-        pose_on_way(start, velocity, turn, violated, &pose);
+        pose_on_way(&from, velocity, turn, violated, &pose);
         equipod_limit_margins(limits, legs, &pose, &margins);
         travel->binds = 1;
         name_binding(legs, &margins, travel);

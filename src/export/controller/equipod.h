@@ -61,7 +61,7 @@ typedef struct {
     equipod_reason reason;
     equipod_pose pose;       /* the pose asked for when tracked, else the last one before the end of the way */
     real_t fraction;         /* how far on the straight line of squared lengths, from 0 to 1 */
-    unsigned segments;       /* segments of the way */
+    unsigned segments;       /* segments of the way; of both ways where equipod_track_mapped follows two */
     unsigned newton_steps;   /* Newton steps in all */
     real_t kantorovich;      /* largest Kantorovich number of the segments, below 1 */
     real_t frobenius_ratio;  /* 6 / (|J| |J^-1|) at the pose: 1 at best, 0 at a singularity */
@@ -115,7 +115,8 @@ typedef struct {
     unsigned poses;      /* poses looked at */
 } equipod_travel;
 
-/* Makes six base and six platform joints ready: those measured on the machine, for instance. 0 where they have no size or are not finite. */
+/* Makes six base and six platform joints ready: those measured on the machine, for instance. 0 where the joints have no size, or where a
+ * coordinate is not finite: `legs` is then not to be used. */
 int equipod_prepare(const real_t base[6][3], const real_t platform[6][3], equipod_legs *legs);
 
 /* The pose at (x, y, z) turned by R = Rz(yaw) Ry(pitch) Rx(roll). */
@@ -137,7 +138,7 @@ int equipod_jacobian(const equipod_legs *legs, const equipod_pose *pose, real_t 
  * not in it. 0 at a singular pose and where a leg has length zero. */
 int equipod_pose_covariance(const equipod_legs *legs, const equipod_pose *pose, const real_t joints[42][42], real_t covariance[6][6]);
 
-/* Continues the pose `start` to the squared lengths `s` in at most `segments` segments.
+/* Continues the pose `start`, which may be `&result->pose`, to the squared lengths `s` in at most `segments` segments.
  * `radius` says how far the squares may be off, leg by leg; a null pointer says that they are exact. */
 equipod_status equipod_track(const equipod_legs *legs, const real_t s[6], const real_t *radius, const equipod_pose *start,
                              real_t singular, unsigned segments, equipod_result *result);
@@ -149,9 +150,12 @@ int equipod_newton_steps(const equipod_legs *legs, const real_t s[6], const equi
 /* s_to and a bound of its rounding. 0, or the number from 1 of the first leg whose square is negative or not finite. */
 int equipod_map_squares(const equipod_map *map, const real_t s[6], real_t to[6], real_t radius[6]);
 
-/* The pose of a machine equivalent to an octahedral platform: the squares are mapped, the octahedral pose is tracked from `start`, and
- * `corrections` Newton steps on the joints of the machine as measured correct it (`measured` may be null where `corrections` is 0). With
- * corrections the residual, the condition and the errors are those of the measured joints. */
+/* The pose of a machine equivalent to an octahedral platform. The squares are mapped, the octahedral pose is tracked from `start`, and
+ * `corrections` Newton steps, or some more, on the joints of the machine as measured correct it. Without corrections `measured` may be
+ * null, and the result is that of the octahedral platform.
+ * A corrected pose is EQUIPOD_TRACKED where the measured joints prove it: the test of equipod_track holds at the pose, and a ball of
+ * regular poses about it holds `start`. Otherwise the pose is tracked from `start` on the measured joints, in at most `segments` segments
+ * more, and that outcome counts. `position_error` of a tracked pose is finite. */
 equipod_status equipod_track_mapped(const equipod_map *map, const equipod_legs *octahedral, const equipod_legs *measured, const real_t s[6],
                                     const equipod_pose *start, real_t singular, unsigned segments, unsigned corrections,
                                     equipod_result *result);

@@ -66,12 +66,17 @@ impl Writer for C {
     }
 }
 
-/// Kinematics for `LinuxCNC`, which take the other files in.
-fn kinematics_modules() -> [ExportedFile; 3] {
+/// Kinematics for `LinuxCNC`, which include the other files. They have a folder of their own, so that a C compiler takes all sources
+/// of the folder above as one program; the header there is for builds with that folder alone on their include path.
+fn kinematics_modules() -> [ExportedFile; 4] {
     [
-        ExportedFile::new("equipodkins.h", include_str!("equipodkins.h").to_string()),
-        ExportedFile::new("equipodkins.c", include_str!("equipodkins.c").to_string()),
-        ExportedFile::new("equipodkins_ops.c", include_str!("equipodkins_ops.c").to_string()),
+        ExportedFile::new("equipodkins.h", "#include \"linuxcnc/equipodkins.h\"\n".to_string()),
+        ExportedFile::new("linuxcnc/equipodkins.h", include_str!("linuxcnc/equipodkins.h").to_string()),
+        ExportedFile::new("linuxcnc/equipodkins.c", include_str!("linuxcnc/equipodkins.c").to_string()),
+        ExportedFile::new(
+            "linuxcnc/equipodkins_ops.c",
+            include_str!("linuxcnc/equipodkins_ops.c").to_string(),
+        ),
     ]
 }
 

@@ -196,7 +196,7 @@ fn told(outcome: &NearOutcome) -> (&'static str, &'static str, f64) {
         NearOutcome::Lost { reason, fraction, .. } => {
             let reason = match reason {
                 WhyLost::StartIsNoPose => "EQUIPOD_START_IS_NO_POSE",
-                WhyLost::SegmentsExhausted => "EQUIPOD_SEGMENTS_EXHAUSTED",
+                WhyLost::SegmentsExhausted | WhyLost::AnglesTooFar => "EQUIPOD_SEGMENTS_EXHAUSTED",
                 WhyLost::NoConvergence => "EQUIPOD_NO_CONVERGENCE",
             };
             ("EQUIPOD_LOST", reason, *fraction)

@@ -42,6 +42,9 @@ pub enum WhyLost {
     /// [`NearOptions::segments`](super::NearOptions::segments) were not enough.
     #[error("the lengths are too far from those of the start for the number of segments allowed")]
     SegmentsExhausted,
+    /// A crank would turn further than a step allows, which [`RotaryTracker`](crate::rotary::RotaryTracker) says.
+    #[error("the angles are too far from those of the start: a step turns a crank by at most 79 turns")]
+    AnglesTooFar,
     /// Newton's method did not end in the ball in which it must; rounding is the only cause known.
     #[error("Newton's method did not converge to the accuracy that the proof needs")]
     NoConvergence,

@@ -1651,6 +1651,10 @@ class FkAnswer(Record):
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
     #: cranks, as doubles, to the platform, and certificates hold for these tips.
     angles_deg: Union[tuple[float, ...], None]
+    #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
+    within_limits: Union[bool, None]
+    #: The legs whose cranks are beyond their limits at these angles, from 1.
+    outside: Union[tuple[int, ...], None]
     #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
     #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
     #: tips as doubles are so far out that their rounding decides whether there are any.
@@ -1712,6 +1716,10 @@ class FkOneAnswer(Record):
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
     #: cranks, as doubles, to the platform, and certificates hold for these tips.
     angles_deg: Union[tuple[float, ...], None]
+    #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
+    within_limits: Union[bool, None]
+    #: The legs whose cranks are beyond their limits at these angles, from 1.
+    outside: Union[tuple[int, ...], None]
     #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
     #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
     #: tips as doubles are so far out that their rounding decides whether there are any.
@@ -1778,6 +1786,10 @@ class FkRowRecord(Record):
     unproved: Union[tuple[SolutionRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
+    #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
+    within_limits: Union[bool, None]
+    #: The legs whose cranks are beyond their limits at these angles, from 1.
+    outside: Union[tuple[int, ...], None]
     #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
     #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
     #: tips as doubles are so far out that their rounding decides whether there are any.

@@ -213,6 +213,20 @@ int main(void)
             }
         }
     }
+    {
+        /* with `reset` home is continued, whatever pose is given and whatever the last one was */
+        EmcPose start = home;
+        memset(&s, 0, sizeof s);
+        check(module.ops[0]->inverse(&p, &s, &home, joints, 0, 0) == 0, "joint values of home");
+        p.geometry[place(&module, "reset")] = 1;
+        s.have_pose_seed = s.pose_seed_ok = 1;
+        s.pose_seed = home;
+        s.pose_seed.tran.z = start.tran.z = NAN;
+        check(module.ops[0]->forward(&p, &s, joints, &start, 0, 0) == 0 && off(&start, &home, size) < 1e-9, "home after a reset");
+        p.geometry[place(&module, "reset")] = 0;
+        s.pose_seed.tran.x = start.tran.y = NAN;
+        check(module.ops[0]->forward(&p, &s, joints, &start, 0, 0) == 0 && off(&start, &home, size) < 1e-9, "home where no start leads to a pose");
+    }
     check(length_errors == 0, "leg lengths by the definition");
     check(worst < 1e-9, "poses come back");
     lost = home;

@@ -193,3 +193,37 @@ fn the_symmetric_head_has_the_28_poses_of_the_theorem() {
     other[3] += 1e-6;
     assert_eq!(platform.symmetric_pose_count(&other), None);
 }
+
+#[test]
+fn angles_beyond_their_limits_are_named_and_a_million_turns_are_lost() {
+    let text = |list: [f64; 6]| list.map(|x| x.to_string()).join(",");
+    let home = numbers(&document(&equipod(&["ik", HEAD, "--pose", "home", "--json"]))["angles_deg"]);
+    let home: [f64; 6] = home.try_into().unwrap();
+    // cranks 1 and 4 have limits of -48 to 80 and of -80 to 48 degrees
+    let (mut beyond, mut turned) = (home, home);
+    (beyond[0], beyond[3]) = (80.5, -80.5);
+    turned[0] += 3.6e8;
+    for (angles, outside) in [(home, vec![]), (beyond, vec![1, 4])] {
+        let words = ["fk", HEAD, "--angles", &text(angles), "--near", "home"];
+        let (_, doc) = asked(&words);
+        assert_eq!(doc["within_limits"], outside.is_empty());
+        assert_eq!(doc["outside"].as_array().cloned().unwrap_or_default(), outside, "{doc}");
+        let said = String::from_utf8(equipod(&words).stdout).unwrap();
+        assert_eq!(
+            said.contains("the cranks of legs 1, 4 are beyond `angle_deg`"),
+            !outside.is_empty(),
+            "{said}"
+        );
+    }
+    let (_, all) = asked(&["fk", HEAD, "--angles", &text(beyond)]);
+    assert_eq!((&all["within_limits"], &all["outside"]), (&false.into(), &serde_json::json!([1, 4])));
+    let words = ["fk", HEAD, "--angles", &text(turned), "--near", "home"];
+    let (code, doc) = asked(&words);
+    assert_eq!(
+        (code, &doc["near"]["outcome"], &doc["outside"]),
+        (Some(3), &"lost".into(), &serde_json::json!([1]))
+    );
+    assert!(doc["near"]["reason"].as_str().unwrap().contains("turns"), "{}", doc["near"]);
+    let said = String::from_utf8(equipod(&words).stdout).unwrap();
+    assert!(said.contains("LOST") && said.contains("the crank of leg 1 is beyond `angle_deg`"), "{said}");
+}

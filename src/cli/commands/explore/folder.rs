@@ -122,9 +122,9 @@ impl Folder {
     /// Writes a file of the folder.
     ///
     /// # Errors
-    /// As [`files::write_text`].
+    /// As [`files::write_into`].
     pub(super) fn write(&mut self, name: &str, text: &str) -> Result<(), Failure> {
-        files::write_text(&self.path.join(name), text)?;
+        files::write_into(&self.path, name, text)?;
         self.written.push(name.to_owned());
         Ok(())
     }
@@ -142,9 +142,8 @@ impl Folder {
     /// Writes files for other programs into a folder of their own.
     ///
     /// # Errors
-    /// As [`files::write_text`].
+    /// As [`files::write_into`].
     pub(super) fn write_machine(&mut self, list: &[ExportedFile]) -> Result<(), Failure> {
-        files::make_folder(&self.path.join(MACHINE))?;
         list.iter().try_for_each(|file| self.write(&format!("{MACHINE}/{}", file.name), &file.text))
     }
 

@@ -97,16 +97,33 @@ pub(super) fn run(
         FkAnswer::One(answer) => {
             text.push_str(&render::text(&design.name, &answer.solved));
             text.push_str(&render::elbows(&answer.solved));
+            text.push_str(&beyond_limits(answer, ""));
             text.push_str(&symmetric(answer));
         }
-        FkAnswer::Rows(answer) if args.near.is_none() => {
-            text.push_str("line  method         finite  real  complete\n");
-            text.extend(answer.rows.iter().map(render::table_row));
+        FkAnswer::Rows(answer) => {
+            if args.near.is_none() {
+                text.push_str("line  method         finite  real  complete\n");
+                text.extend(answer.rows.iter().map(render::table_row));
+            }
+            for row in &answer.rows {
+                if let FkRowOutcome::Solved(answer) = &row.outcome {
+                    text.push_str(&beyond_limits(answer, &format!("line {}: ", row.line)));
+                }
+            }
         }
-        FkAnswer::Rows(_) => {}
     }
     let text = table.text(design, &answer).unwrap_or(text);
     Ok(Answer::new(exit, answer, text))
+}
+
+/// The cranks that are beyond their limits at the angles given, with words before them; nothing where there are none.
+fn beyond_limits(answer: &FkOneAnswer, before: &str) -> String {
+    let legs: Vec<String> = answer.outside.iter().map(ToString::to_string).collect();
+    if legs.is_empty() {
+        return String::new();
+    }
+    let (crank, is) = if legs.len() == 1 { ("crank of leg", "is") } else { ("cranks of legs", "are") };
+    format!("{before}the {crank} {} {is} beyond `angle_deg`\n", legs.join(", "))
 }
 
 /// What a theorem says of symmetric tips.
@@ -142,7 +159,8 @@ impl CrankMachine<'_> {
         let solved = SolvedRecord::from(&found).with_real_poses(&tips, &self.home);
         let solved = solved.with_elbows(self.platform, &angles);
         let symmetric_finite = self.platform.symmetric_pose_count(&angles);
-        Ok((exit_of(&found), FkOneAnswer { angles_deg: Some(*degrees), symmetric_finite, ..solved.into() }))
+        let answer = FkOneAnswer { symmetric_finite, ..solved.into() };
+        Ok((exit_of(&found), answer.with_angles(self.platform, &angles, *degrees)))
     }
 
     fn tips(&self, angles: &[f64; 6]) -> Result<Manipulator, Failure> {
@@ -178,8 +196,8 @@ impl CrankMachine<'_> {
                 characteristic_length: self.design.characteristic_length(),
             };
             let mut record = near::record(&machine, self.platform.rods(), &from, &outcome, self.seed);
-            record.angles_deg = Some(row.value);
             record.solved = record.solved.with_elbows(self.platform, &angles);
+            record = record.with_angles(self.platform, &angles, row.value);
             exits.push(near::exit_of(&outcome));
             if one {
                 text.push_str(&near::sentence(&machine, &outcome));

@@ -205,12 +205,8 @@ pub(super) fn record_with(
         seed,
     };
     FkOneAnswer {
-        symmetric_finite: None,
-        solved: SolvedRecord::from(&solutions).with_real_poses(m, &machine.home),
-        angles_deg: None,
         near: Some(NearRecord::new(start, outcome, conditioning(machine, outcome))),
-        drives: None,
-        closure: None,
+        ..SolvedRecord::from(&solutions).with_real_poses(m, &machine.home).into()
     }
 }
 

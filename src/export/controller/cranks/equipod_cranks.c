@@ -174,12 +174,15 @@ int equipod_crank_jacobian(const equipod_cranks *cranks, const equipod_pose *pos
 equipod_status equipod_track_cranks(const equipod_cranks *cranks, const real_t from[6], const real_t to[6], const equipod_pose *start, real_t singular,
                                     unsigned parts, unsigned segments, equipod_result *result)
 {
+    const equipod_pose began = *start; /* `start` may be the pose of the result */
     real_t largest = R(0), squares[6], steps;
     equipod_result part;
     unsigned k;
     int i;
     memset(result, 0, sizeof *result);
-    result->pose = *start;
+    result->pose = began;
+    result->position_error = R(INFINITY);
+    result->angle_error = R(INFINITY);
     for (i = 0; i < 6; i += 1) {
         const real_t far = FABS(to[i] - from[i]);
         largest = far > largest ? far : largest;

@@ -46,7 +46,7 @@ void equipod_crank_transmissions(const equipod_cranks *cranks, const equipod_pos
 /* Rows that take (dp/dt, omega), base frame, to the speeds of the cranks. 0 where a crank is singular or a rod has no length. */
 int equipod_crank_jacobian(const equipod_cranks *cranks, const equipod_pose *pose, const real_t angles[6], real_t j[6][6]);
 
-/* Continues the pose `start`, which the cranks hold at the angles `from`, to the angles `to`: in at most `parts` equal parts of at most EQUIPOD_CRANK_STEP,
+/* Continues the pose `start` (which may be `&result->pose`), which the cranks hold at the angles `from`, to the angles `to`: in at most `parts` equal parts of at most EQUIPOD_CRANK_STEP,
  * each followed by equipod_track on the new tips in at most `segments` segments. Angles further apart are EQUIPOD_LOST. The fraction counts from the
  * angles `from` on; segments and Newton steps are those of all parts, the Kantorovich number the greatest. */
 equipod_status equipod_track_cranks(const equipod_cranks *cranks, const real_t from[6], const real_t to[6], const equipod_pose *start, real_t singular,

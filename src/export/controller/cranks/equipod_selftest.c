@@ -9,6 +9,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #define R(x) ((real_t)(x))
 #ifdef EQUIPOD_FLOAT
@@ -136,7 +137,7 @@ int main(void)
     if (COUNT(step_vectors) > 0) {
         const equipod_pose start = pose_from(&step_vectors[0].start);
         real_t from[6], to[6];
-        equipod_result found;
+        equipod_result found, beside;
         int i;
         for (i = 0; i < 6; i += 1) {
             from[i] = R(step_vectors[0].from[i]);
@@ -146,6 +147,14 @@ int main(void)
         to[2] = R(NAN);
         check(equipod_track_cranks(&equipod_design_cranks, from, to, &start, R(EQUIPOD_SINGULAR), EQUIPOD_CRANK_PARTS, EQUIPOD_SEGMENTS, &found) == EQUIPOD_LOST,
               "angles that are no numbers", 0);
+        check(found.position_error > R(1e30), "the bound of no pose", 0);
+        for (i = 0; i < 6; i += 1) {
+            to[i] = from[i] + R(0.001) * (real_t)(i % 2);
+        }
+        (void)equipod_track_cranks(&equipod_design_cranks, from, to, &start, R(EQUIPOD_SINGULAR), EQUIPOD_CRANK_PARTS, EQUIPOD_SEGMENTS, &beside);
+        found.pose = start;
+        (void)equipod_track_cranks(&equipod_design_cranks, from, to, &found.pose, R(EQUIPOD_SINGULAR), EQUIPOD_CRANK_PARTS, EQUIPOD_SEGMENTS, &found);
+        check(found.status == beside.status && memcmp(&found.pose, &beside.pose, sizeof found.pose) == 0, "a start in the place of the result", 0);
     }
     printf("%u checks, %u failed\n", checks, failures);
     return failures != 0;

@@ -1,12 +1,13 @@
-/* LinuxCNC kinematics of the design in equipod_design.c, for the module interface with kins_ops (kins_module.h, kins_rt.h of LinuxCNC's development branch).
+/* LinuxCNC kinematics of the design in ../equipod_design.c, for the module interface with kins_ops (kins_module.h, kins_rt.h of LinuxCNC's development branch).
  *
- *     halcompile --install equipodkins_ops.c
+ *     cd linuxcnc && halcompile --install equipodkins_ops.c
  *     loadrt kins_single_core, then loadrt equipodkins_ops ([KINS] KINEMATICS = equipodkins_ops, JOINTS = 6; LINEAR_UNITS = mm, ANGULAR_UNITS = degree)
  *
  * Pins, poses and joint values are those of equipodkins.c, whose heading explains them; the prefix of the pins is equipodkins too. What differs: the functions
  * take the machine from the block of parameters and keep nothing of their own, so that programs outside of realtime evaluate the same kinematics.
  *
- * The forward kinematics continues the pose it is given, else the last pose of its caller's scratch block, else the home pose. The tool frame is the platform's:
+ * The forward kinematics continues the pose it is given, else the last pose of its caller's scratch block, else the home pose; with
+ * `reset` the home pose alone. The tool frame is the platform's:
  * tool-offset is the way from the tip to the joints along z. The Jacobian is left to LinuxCNC, which takes differences of the inverse kinematics. */
 #include <rtapi.h>
 #include <rtapi_app.h>
@@ -35,6 +36,7 @@ enum {
     STATUS,
     ITERATIONS,
     CONDITION,
+    RESET,
 #ifdef EQUIPOD_HAS_DRIVES
     BASE_JOINT_OFFSET,
     PLATFORM_JOINT_OFFSET,
@@ -63,6 +65,7 @@ static kins_param_desc table[] = {
     ENTRY("status", KINS_PARAM_U32, KINS_OUT),
     ENTRY("last-iterations", KINS_PARAM_U32, KINS_OUT),
     ENTRY("condition", KINS_PARAM_FLOAT, KINS_OUT),
+    ENTRY("reset", KINS_PARAM_BIT, KINS_IN),
 #ifdef EQUIPOD_HAS_DRIVES
     ENTRY("base-joint-offset", KINS_PARAM_FLOAT, KINS_IN),
     ENTRY("platform-joint-offset", KINS_PARAM_FLOAT, KINS_IN),
@@ -124,7 +127,7 @@ static int forward(const kins_params *p, kins_scratch *s, const double *joint, E
                    KINEMATICS_INVERSE_FLAGS *iflags)
 {
     machine_t machine;
-    equipod_pose start;
+    equipod_pose given, last;
     equipod_result result;
     equipod_status status;
     (void)fflags;
@@ -134,18 +137,9 @@ static int forward(const kins_params *p, kins_scratch *s, const double *joint, E
     if (!machine_of(p, &machine)) {
         return -1;
     }
-    result.newton_steps = 0;
-    result.frobenius_ratio = 0;
-    result.position_error = 0;
-    pose_of_world(pos, &start);
-    status = pose_from(&machine, joint, &start, &result);
-    if (status != EQUIPOD_TRACKED) {
-        start = equipod_home;
-        if (s->have_pose_seed && s->pose_seed_ok) {
-            pose_of_world(&s->pose_seed, &start);
-        }
-        status = pose_from(&machine, joint, &start, &result);
-    }
+    pose_of_world(pos, &given);
+    pose_of_world(&s->pose_seed, &last);
+    status = pose_of_joints(&machine, joint, &given, s->have_pose_seed && s->pose_seed_ok ? &last : 0, p->geometry[RESET] != 0, &result);
     s->iterations = (int)result.newton_steps;
     s->out[STATUS] = status;
     s->out[ITERATIONS] = result.newton_steps;
@@ -190,7 +184,6 @@ static int tool(const kins_params *p, const double *joint, PmRotationMatrix *rot
     machine_t machine;
     equipod_result result;
     (void)fflags;
-    result.newton_steps = 0;
     if (!machine_of(p, &machine) || pose_from(&machine, joint, &equipod_home, &result) != EQUIPOD_TRACKED) {
         return -1;
     }

@@ -1,6 +1,6 @@
-/* LinuxCNC kinematics of the design in equipod_design.c, for the module interface of LinuxCNC 2.9.
+/* LinuxCNC kinematics of the design in ../equipod_design.c, for the module interface of LinuxCNC 2.9.
  *
- *     halcompile --install equipodkins.c         (or --compile)
+ *     cd linuxcnc && halcompile --install equipodkins.c         (or --compile)
  *     [KINS] KINEMATICS = equipodkins, JOINTS = 6; LINEAR_UNITS = mm, ANGULAR_UNITS = degree
  *
  * The machine position X Y Z A B C is the pose: p = (X, Y, Z), R = Rz(C) Ry(B) Rx(A), degrees. Joint N is the length of leg N, from 0, in
@@ -11,6 +11,7 @@
  *     equipodkins.screw-lead                               travel of a turn of the screws, right-hand positive; 0: no correction
  *     equipodkins.spindle-offset, .tool-offset             added to z of all joints, as genhexkins has them
  *     equipodkins.octahedral                               1: poses by the octahedral platform, corrected on the joints above
+ *     equipodkins.reset                                    1: poses continue the home pose alone, and the last pose is forgotten
  * out:
  *     equipodkins.correction.N                             what the screws add to leg N at the last inverse kinematics
  *     equipodkins.fwd-kins-fail, .status, .last-iterations 1: no pose; 0 tracked, 1 near a singularity, 2 lost; Newton steps
@@ -27,8 +28,9 @@
  *
  * and last-iterations counts steps of the fixed point of the corrections.
  *
- * The forward kinematics continues the pose it is given. Where that is no start (LinuxCNC begins with all zeros) it continues the last pose it
- * found, or the home pose of the design. */
+ * The forward kinematics continues the pose it is given. Where this pose leads to no tracked pose (LinuxCNC begins with all zeros), it
+ * continues the last pose it found, and then the home pose of the design. Set `reset` while the machine is homed again: the machine may
+ * have been moved by hand. */
 #include <rtapi.h>
 #include <rtapi_app.h>
 #include <rtapi_math.h>
@@ -47,7 +49,7 @@ typedef struct {
     hal_float_t *base_axis[LEGS][3], *platform_axis[LEGS][3];
     hal_float_t *correction[LEGS];
     hal_float_t *screw_lead, *spindle_offset, *tool_offset;
-    hal_bit_t *failed;
+    hal_bit_t *failed, *reset;
     hal_u32_t *status, *iterations;
     hal_float_t *condition;
 #ifdef EQUIPOD_HAS_DRIVES
@@ -89,7 +91,7 @@ static int read_machine(void)
 
 int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags, KINEMATICS_INVERSE_FLAGS *iflags)
 {
-    equipod_pose start;
+    equipod_pose given;
     equipod_result result;
     equipod_status status;
     (void)fflags;
@@ -98,14 +100,11 @@ int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMAT
     if (!read_machine()) {
         return -1;
     }
-    result.newton_steps = 0;
-    result.frobenius_ratio = 0;
-    result.position_error = 0;
-    pose_of_world(world, &start);
-    status = pose_from(&machine, joints, &start, &result);
-    if (status != EQUIPOD_TRACKED) {
-        status = pose_from(&machine, joints, has_last ? &last : &equipod_home, &result);
+    if (*pins->reset) {
+        has_last = 0;
     }
+    pose_of_world(world, &given);
+    status = pose_of_joints(&machine, joints, &given, has_last ? &last : 0, *pins->reset, &result);
     *pins->status = (hal_u32_t)status;
     *pins->iterations = result.newton_steps;
     *pins->condition = result.frobenius_ratio;
@@ -185,6 +184,7 @@ static int make_pins(void)
     failed |= length_pin(&pins->screw_lead, "screw-lead", machine.screw_lead);
     failed |= length_pin(&pins->spindle_offset, "spindle-offset", 0);
     failed |= length_pin(&pins->tool_offset, "tool-offset", 0);
+    failed |= hal_pin_bit_newf(HAL_IN, &pins->reset, component, NAME ".reset");
     failed |= hal_pin_bit_newf(HAL_OUT, &pins->failed, component, NAME ".fwd-kins-fail");
     failed |= hal_pin_u32_newf(HAL_OUT, &pins->status, component, NAME ".status");
     failed |= hal_pin_u32_newf(HAL_OUT, &pins->iterations, component, NAME ".last-iterations");

@@ -1,17 +1,18 @@
-/* What both kinematics modules for LinuxCNC compute: equipodkins.c for 2.9 and equipodkins_ops.c for the interface with kins_ops. Each includes this file once,
- * after its headers; it keeps nothing between calls. */
+/* Computations of both kinematics modules for LinuxCNC: equipodkins.c for 2.9 and equipodkins_ops.c for the interface with kins_ops.
+ * Each module includes this file once, after its headers. This file keeps nothing between calls.
+ * The folder of this file stays in the folder of equipod.c, which it includes with the numbers of the design. */
 #ifndef EQUIPODKINS_H
 #define EQUIPODKINS_H
 
-#include "equipod.c"
-#include "equipod_design.c"
+#include "../equipod.c"
+#include "../equipod_design.c"
 #ifdef EQUIPOD_HAS_DRIVES
 /* both files are one here, and have helpers of the same names */
 #define dot dot_of_drives
 #define cross cross_of_drives
 #define is_finite is_finite_of_drives
 #define invert invert_of_drives
-#include "equipod_drives.c"
+#include "../equipod_drives.c"
 #undef dot
 #undef cross
 #undef is_finite
@@ -27,6 +28,8 @@
 #define SEGMENTS 200u
 #define DEGREE 0.017453292519943295
 #define TWO_PI 6.283185307179586
+/* Angles of a world are counted in the turn of the angles before, up to ten thousand turns. */
+#define FAR_TURNED 3.6e6
 
 /* A machine as it was measured, which is what the pins say: joints, the axes next to base and platform, lead, and what tool and spindle add to z of all
  * joints; millimetres. `ready` makes the rest of it. */
@@ -40,6 +43,9 @@ typedef struct {
     equipod_drives drives;
 #else
     int octahedral;
+#ifdef EQUIPOD_HAS_OCTAHEDRAL
+    equipod_legs bare; /* the legs without tool and spindle, where `octahedral` is set */
+#endif
 #endif
 } machine_t;
 
@@ -83,6 +89,29 @@ static int legs_with(const machine_t *machine, double tool, equipod_legs *legs)
         }
     }
     return equipod_prepare(base, platform, legs);
+}
+
+/* A result of which nothing is known yet. */
+static void no_result(const equipod_pose *start, equipod_result *result)
+{
+    result->status = EQUIPOD_LOST;
+    result->reason = EQUIPOD_NO_CONVERGENCE;
+    result->pose = *start;
+    result->fraction = 0;
+    result->segments = 0;
+    result->newton_steps = 0;
+    result->kantorovich = 0;
+    result->frobenius_ratio = 0;
+    result->residual = 0;
+    result->distance = 0;
+    result->position_error = INFINITY;
+    result->angle_error = INFINITY;
+}
+
+/* Whether a length or joint value is positive and finite. */
+static int is_length(double length)
+{
+    return length > 0 && is_finite(length);
 }
 
 #ifdef EQUIPOD_HAS_DRIVES
@@ -131,14 +160,15 @@ static equipod_status pose_from(const machine_t *machine, const double joints[LE
     }
     (void)equipod_track_drives(&machine->drives, &machine->legs, lengths, start, EQUIPOD_SINGULAR, SEGMENTS, &found);
     if (found.steps == 0) {
-        return EQUIPOD_LOST;
+        no_result(start, result);
+        return result->status;
     }
     *result = found.near;
     result->newton_steps = found.steps;
-    if (found.status == EQUIPOD_DRIVES_REACHED) {
-        return EQUIPOD_TRACKED;
+    if (found.status != EQUIPOD_DRIVES_REACHED && result->status != EQUIPOD_NEAR_SINGULAR) {
+        result->status = EQUIPOD_LOST;
     }
-    return found.near.status == EQUIPOD_NEAR_SINGULAR ? EQUIPOD_NEAR_SINGULAR : EQUIPOD_LOST;
+    return result->status;
 }
 
 /* Joint values at a pose, and what of them is not the distance of the joints, millimetres; 0 where a drive has no length. */
@@ -152,7 +182,7 @@ static int joints_at(const machine_t *machine, const equipod_pose *pose, double 
     for (i = 0; i < LEGS; i++) {
         add[i] = state.correction[i] * EQUIPOD_UNIT_MILLIMETRES;
         joints[i] = (state.distance[i] + state.correction[i]) * EQUIPOD_UNIT_MILLIMETRES;
-        if (!(joints[i] > 0)) {
+        if (!is_length(joints[i])) {
             return 0;
         }
     }
@@ -164,11 +194,16 @@ static int joints_at(const machine_t *machine, const equipod_pose *pose, double 
 
 static int ready(machine_t *machine)
 {
+#ifdef EQUIPOD_HAS_OCTAHEDRAL
+    if (machine->octahedral && !legs_with(machine, 0, &machine->bare)) {
+        return 0;
+    }
+#endif
     return legs_with(machine, machine->tool, &machine->legs);
 }
 
 /* What the screws add to each leg at a pose, in the unit of the design; 0 where an axis points along its leg. */
-static int corrections(const machine_t *machine, const equipod_pose *pose, double out[LEGS])
+static int corrections(const machine_t *machine, const equipod_legs *legs, const equipod_pose *pose, double out[LEGS])
 {
     const double lead = machine->screw_lead / EQUIPOD_UNIT_MILLIMETRES;
     int i, k;
@@ -178,7 +213,7 @@ static int corrections(const machine_t *machine, const equipod_pose *pose, doubl
         if (lead == 0) {
             continue;
         }
-        leg_line(&machine->legs, pose, i, arm, u);
+        leg_line(legs, pose, i, arm, u);
         length = norm(u);
         for (k = 0; k < 3; k++) {
             u[k] /= length;
@@ -204,58 +239,105 @@ static int corrections(const machine_t *machine, const equipod_pose *pose, doubl
     return 1;
 }
 
-/* The pose whose legs, with what the screws add, have the lengths of the joints: the corrections of a pose shorten the legs of the next. */
-static equipod_status pose_from(const machine_t *machine, const double joints[LEGS], const equipod_pose *start, equipod_result *result)
+/* One way to a pose of these legs. A tracked pose has a finite bound of its error. */
+static void track(const machine_t *machine, const equipod_legs *legs, const double s[LEGS], const equipod_pose *from, equipod_result *result)
+{
+#ifdef EQUIPOD_HAS_OCTAHEDRAL
+    if (machine->octahedral) {
+        (void)equipod_track_mapped(&equipod_to_octahedral, &equipod_octahedral, legs, s, from, EQUIPOD_SINGULAR, SEGMENTS, 3, result);
+        return;
+    }
+#endif
+    (void)machine;
+    (void)equipod_track(legs, s, 0, from, EQUIPOD_SINGULAR, SEGMENTS, result);
+    if (result->status == EQUIPOD_TRACKED && !is_finite(result->position_error)) {
+        result->status = EQUIPOD_LOST;
+        result->reason = EQUIPOD_NO_CONVERGENCE;
+    }
+}
+
+/* The pose whose legs, with the corrections of the screws, have the lengths of the joints. Each round subtracts the corrections at the
+ * last pose. */
+static void follow(const machine_t *machine, const equipod_legs *legs, const double joints[LEGS], const equipod_pose *start, equipod_result *result)
 {
     double add[LEGS], s[LEGS], change, before[LEGS];
     equipod_pose from = *start;
     unsigned steps = 0;
     int round, i;
-    if (!corrections(machine, start, add)) {
-        return EQUIPOD_LOST;
+    no_result(start, result);
+    if (!corrections(machine, legs, &from, add)) {
+        return;
     }
     for (round = 0; round < ROUNDS; round++) {
         for (i = 0; i < LEGS; i++) {
             const double length = joints[i] / EQUIPOD_UNIT_MILLIMETRES - add[i];
-            if (!(length > 0)) {
-                return EQUIPOD_LOST;
+            if (!is_length(length)) {
+                result->status = EQUIPOD_LOST;
+                return;
             }
             s[i] = length * length;
             before[i] = add[i];
         }
-#ifdef EQUIPOD_HAS_OCTAHEDRAL
-        if (machine->octahedral) {
-            equipod_track_mapped(&equipod_to_octahedral, &equipod_octahedral, &machine->legs, s, &from, EQUIPOD_SINGULAR, SEGMENTS, 3, result);
-        } else
-#endif
-        {
-            equipod_track(&machine->legs, s, 0, &from, EQUIPOD_SINGULAR, SEGMENTS, result);
-        }
+        track(machine, legs, s, &from, result);
         steps += result->newton_steps;
         result->newton_steps = steps;
         if (result->status != EQUIPOD_TRACKED) {
-            return result->status;
+            return;
         }
         from = result->pose;
-        if (!corrections(machine, &from, add)) {
-            return EQUIPOD_LOST;
+        if (!corrections(machine, legs, &from, add)) {
+            break;
         }
         change = 0;
         for (i = 0; i < LEGS; i++) {
             change = fmax(change, fabs(add[i] - before[i]));
         }
-        if (change <= 1e-13 * machine->legs.unit) {
-            return EQUIPOD_TRACKED;
+        if (change <= 1e-13 * legs->unit) {
+            return;
         }
     }
-    return EQUIPOD_LOST;
+    result->status = EQUIPOD_LOST;
+    result->reason = EQUIPOD_NO_CONVERGENCE;
+}
+
+#ifdef EQUIPOD_HAS_OCTAHEDRAL
+/* p + by (R e_z - e_z). With the way of the tool this is the pose of the platform without the tool, with its opposite the pose back. */
+static void move_origin(double by, const equipod_pose *pose, equipod_pose *moved)
+{
+    int k;
+    *moved = *pose;
+    for (k = 0; k < 3; k++) {
+        moved->position[k] += by * (pose->rotation[k][2] - (k == 2 ? 1 : 0));
+    }
+}
+#endif
+
+/* The pose for joint values that continues `start`. The map to the octahedral platform is one of the joints without a tool. */
+static equipod_status pose_from(const machine_t *machine, const double joints[LEGS], const equipod_pose *start, equipod_result *result)
+{
+#ifdef EQUIPOD_HAS_OCTAHEDRAL
+    if (machine->octahedral) {
+        const double tool = machine->tool / EQUIPOD_UNIT_MILLIMETRES;
+        equipod_pose bare;
+        move_origin(tool, start, &bare);
+        follow(machine, &machine->bare, joints, &bare, result);
+        move_origin(-tool, &result->pose, &result->pose);
+        if (result->status == EQUIPOD_TRACKED) {
+            result->position_error += fabs(tool) * result->angle_error * UP;
+            result->position_error += 12 * U * (2 * fabs(tool) + norm(result->pose.position));
+        }
+        return result->status;
+    }
+#endif
+    follow(machine, &machine->legs, joints, start, result);
+    return result->status;
 }
 
 /* Joint values at a pose, and what the screws add to them, millimetres; 0 where a leg has no length or an axis no direction. */
 static int joints_at(const machine_t *machine, const equipod_pose *pose, double joints[LEGS], double add[LEGS])
 {
     int i;
-    if (!corrections(machine, pose, add)) {
+    if (!corrections(machine, &machine->legs, pose, add)) {
         return 0;
     }
     equipod_lengths(&machine->legs, pose, joints);
@@ -265,10 +347,37 @@ static int joints_at(const machine_t *machine, const equipod_pose *pose, double 
         }
         joints[i] = (joints[i] + add[i]) * EQUIPOD_UNIT_MILLIMETRES;
         add[i] *= EQUIPOD_UNIT_MILLIMETRES;
+        if (!is_finite(joints[i])) {
+            return 0;
+        }
     }
     return 1;
 }
 #endif
+
+/* The pose for joint values: it continues the pose given, else the last pose found (null: none), else the home pose. With `reset` it
+ * continues the home pose alone. The result of no pose is that of the way from the last pose, or from home. */
+static equipod_status pose_of_joints(const machine_t *machine, const double joints[LEGS], const equipod_pose *given, const equipod_pose *last,
+                                     int reset, equipod_result *result)
+{
+    const equipod_pose *const starts[3] = {given, last, &equipod_home};
+    const int told = last && !reset ? 1 : 2;
+    int n;
+    for (n = reset ? 2 : 0; n < 3; n++) {
+        equipod_result found;
+        if (!starts[n]) {
+            continue;
+        }
+        (void)pose_from(machine, joints, starts[n], &found);
+        if (n == told || found.status == EQUIPOD_TRACKED) {
+            *result = found;
+        }
+        if (found.status == EQUIPOD_TRACKED) {
+            break;
+        }
+    }
+    return result->status;
+}
 
 static void pose_of_world(const EmcPose *world, equipod_pose *pose)
 {
@@ -282,10 +391,10 @@ static void pose_of_world(const EmcPose *world, equipod_pose *pose)
     equipod_pose_from_angles(position, angles, pose);
 }
 
-/* The angle of the same turn next to the one before. */
+/* The angle of the same turn next to the one before; the angle itself where that one is not finite or rounds away the turn. */
 static double next_to(double angle, double before)
 {
-    return angle + 360 * floor((before - angle) / 360 + 0.5);
+    return fabs(before) <= FAR_TURNED ? angle + 360 * floor((before - angle) / 360 + 0.5) : angle;
 }
 
 static void world_of_pose(const equipod_pose *pose, EmcPose *world)
