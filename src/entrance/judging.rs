@@ -1,6 +1,6 @@
 //! Is the design singular, and does it meet its requirements?
 
-use super::Error;
+use super::{Error, SingularHome};
 use crate::design::Design;
 use crate::equivalents::Equivalents;
 use crate::fk::{Theorem, pose_bound};
@@ -40,6 +40,8 @@ pub struct CheckReport {
     pub common_points: Option<CommonPoints>,
     /// The theorem with the smallest bound on the isolated finite poses, for all lengths.
     pub pose_bound: Theorem,
+    /// The home pose that the design states, where it is singular.
+    pub singular_home: Option<SingularHome>,
 }
 
 impl CheckReport {
@@ -65,7 +67,10 @@ impl std::fmt::Display for CheckReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let name = &self.design.name;
         match (self.is_singular(), self.reason()) {
-            (Some(false), _) => write!(f, "{name} is not architecturally singular: proved"),
+            (Some(false), _) => {
+                write!(f, "{name} is not architecturally singular: proved")?;
+                if self.singular_home.is_some() { write!(f, "; its home pose is singular") } else { Ok(()) }
+            }
             (Some(true), Some(reason)) => write!(f, "{name} is architecturally singular: proved ({reason})"),
             (Some(true), None) => write!(f, "{name} is architecturally singular: proved"),
             (None, _) => write!(f, "{name} is regular as written, and within rounding of a singular design"),
@@ -207,6 +212,7 @@ impl Design {
             pose_count,
             common_points,
             pose_bound,
+            singular_home: self.singular_home(),
         })
     }
 

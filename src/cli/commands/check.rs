@@ -25,8 +25,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let found = design.check_with(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
     let answer = CheckAnswer::from(&found);
     let exit = match answer.architecturally_singular {
-        Some(false) => Exit::Yes,
-        Some(true) => Exit::No,
+        Some(false) if answer.singular_home.is_none() => Exit::Yes,
+        Some(_) => Exit::No,
         None => Exit::Inconclusive,
     };
     let text = text(&answer, m.size(), &design.units);
@@ -46,6 +46,9 @@ fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
         None => "regular as written, singular within rounding",
     };
     let mut text = format!("{}: {verdict}\n{}\n", c.name, c.explanation);
+    if let Some(evidence) = c.singular_home.filter(|_| c.architecturally_singular != Some(true)) {
+        let _ = writeln!(text, "THE HOME POSE IS SINGULAR: {}", evidence.sentence());
+    }
     let _ = writeln!(text, "joints: {}", c.joints.explanation);
     let _ = writeln!(text, "\nrank of the leg vectors     {}", c.leg_rank);
     let _ = writeln!(text, "generic rank of the lines   {}", c.jacobian_rank);
