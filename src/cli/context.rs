@@ -115,6 +115,13 @@ impl Context {
         &self.warnings
     }
 
+    /// Tells people something on standard error, with `--quiet` too: it belongs to the answer.
+    pub(crate) fn note(&self, words: &str) {
+        if !self.json {
+            diagnostic::print_note(words);
+        }
+    }
+
     /// Tells people what was guessed about a table.
     pub(crate) fn note_guesses(&self, table: &str, guesses: &[String]) {
         for guess in guesses.iter().filter(|_| !self.quiet) {

@@ -1,34 +1,53 @@
-//! What stage a run is in, on standard error, when a person watches.
+//! What stage a run is in, on standard error.
 
 use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
-/// Writes nothing unless standard error is a terminal.
+/// On a terminal one line that changes; elsewhere a line every ten seconds, so that short runs write none.
 #[derive(Debug)]
 pub(crate) struct ProgressLine {
-    on: bool,
+    watcher: Watcher,
+    /// The number and the name of the stage.
+    stage: String,
     shown: Option<usize>,
+}
+
+#[derive(Debug)]
+enum Watcher {
+    Nobody,
+    Terminal,
+    Log(Ticker),
 }
 
 impl ProgressLine {
     pub(crate) fn new(quiet: bool) -> Self {
-        Self { on: !quiet && std::io::stderr().is_terminal(), shown: None }
+        let watcher = if quiet {
+            Watcher::Nobody
+        } else if std::io::stderr().is_terminal() {
+            Watcher::Terminal
+        } else {
+            Watcher::Log(Ticker::start())
+        };
+        Self { watcher, stage: String::new(), shown: None }
     }
 
-    fn put(&self, text: &str) {
-        if self.on {
-            // the terminal may be gone; the run goes on without a watcher
-            let _ = std::io::stderr().write_all(text.as_bytes());
+    /// Text of the terminal, and the words of the log.
+    fn put(&self, text: &str, words: &str) {
+        match &self.watcher {
+            Watcher::Nobody => {}
+            Watcher::Terminal => write(text),
+            Watcher::Log(ticker) => ticker.say(&format!("{}{words}", self.stage)),
         }
     }
 
     /// A stage begins.
     pub(crate) fn stage(&mut self, number: usize, what: &str) {
         self.shown = None;
-        self.put(&format!("[{number}/5] {what}\n"));
+        self.stage = format!("[{number}/5] {what} ");
+        self.put(&format!("[{number}/5] {what}\n"), "");
     }
 
     /// `done` of `total` within a stage, in whole percents.
@@ -39,18 +58,81 @@ impl ProgressLine {
         }
         self.shown = Some(percent);
         let end = if done >= total { "\n" } else { "" };
-        self.put(&format!("\r      {what}: {percent:>3} %{end}"));
+        self.put(&format!("\r      {what}: {percent:>3} %{end}"), &format!("{what}: {percent} %"));
     }
 
     /// Some words about an open-ended stage, in the place of the last ones.
     pub(crate) fn note(&mut self, words: &str) {
-        self.put(&format!("\r      {words}\x1b[K"));
+        self.put(&format!("\r      {words}\x1b[K"), words);
         self.shown = None;
     }
 
     /// Ends the line of [`ProgressLine::note`].
     pub(crate) fn end(&mut self) {
-        self.put("\n");
+        self.put("\n", "");
+    }
+}
+
+fn write(text: &str) {
+    // the reader may be gone; the run goes on without a watcher
+    let _ = std::io::stderr().write_all(text.as_bytes());
+}
+
+/// Time from one line of a log to the next.
+const TICK: Duration = Duration::from_secs(10);
+
+/// A thread that writes the last words every ten seconds.
+#[derive(Debug)]
+struct Ticker {
+    shared: Arc<(Mutex<Said>, Condvar)>,
+}
+
+/// The last words, and whether the run is over.
+#[derive(Debug, Default)]
+struct Said {
+    words: String,
+    over: bool,
+}
+
+impl Ticker {
+    fn start() -> Self {
+        let shared = Arc::new((Mutex::new(Said::default()), Condvar::new()));
+        let of_thread = Arc::clone(&shared);
+        // without a thread there is no log
+        let _ = std::thread::Builder::new().spawn(move || {
+            let (said, changed) = &*of_thread;
+            let begin = Instant::now();
+            let mut next = begin + TICK;
+            let Ok(mut now) = said.lock() else { return };
+            while !now.over {
+                let left = next.saturating_duration_since(Instant::now());
+                if left.is_zero() {
+                    write(&format!("{:>5} s  {}\n", begin.elapsed().as_secs(), now.words.trim_end()));
+                    next += TICK;
+                    continue;
+                }
+                match changed.wait_timeout(now, left) {
+                    Ok((guard, _)) => now = guard,
+                    Err(_) => return,
+                }
+            }
+        });
+        Self { shared }
+    }
+
+    fn say(&self, words: &str) {
+        if let Ok(mut said) = self.shared.0.lock() {
+            words.clone_into(&mut said.words);
+        }
+    }
+}
+
+impl Drop for Ticker {
+    fn drop(&mut self) {
+        if let Ok(mut said) = self.shared.0.lock() {
+            said.over = true;
+        }
+        self.shared.1.notify_all();
     }
 }
 

@@ -132,6 +132,21 @@ impl PosePath {
     }
 }
 
+impl PosePath {
+    /// The piece between two times that follow each other, by the control points of its Bezier curve: position, then quaternion of any norm.
+    ///
+    /// Pieces meet exactly; inside a piece the control points round the spline.
+    pub(crate) fn control_points(&self, piece: usize) -> [[f64; 7]; 4] {
+        let h = self.times[piece + 1] - self.times[piece];
+        let (y0, y1) = (self.rows[piece], self.rows[piece + 1]);
+        let (m0, m1) = (self.bends[piece] * (h * h), self.bends[piece + 1] * (h * h));
+        // slopes at both ends times the length of the piece, a third of each
+        let first = (y1 - y0 - (m0 * 2.0 + m1) / 6.0) / 3.0;
+        let last = (y1 - y0 + (m0 + m1 * 2.0) / 6.0) / 3.0;
+        [y0, y0 + first, y1 - last, y1].map(Into::into)
+    }
+}
+
 /// The state that a point of the curve and its derivatives stand for.
 fn state(value: &Row, first: &Row, second: &Row) -> MotionState {
     let position = |row: &Row| Vector3::new(row[0], row[1], row[2]);

@@ -114,8 +114,12 @@ impl MotionFigures {
         let legs = || reports.iter().flat_map(|r| &r.legs);
         let greatest = |values: Vec<f64>| values.into_iter().map(f64::abs).reduce(f64::max);
         let drives = || legs().map(|l| l.drive).collect::<Option<Vec<_>>>().unwrap_or_default();
+        // no force holds the platform at a singular pose
+        let singular =
+            (!drives().is_empty() && reports.iter().any(|r| r.singular.is_some())).then_some(f64::INFINITY);
         Self {
-            force: greatest(drives().iter().flat_map(|d| [d.push.value, d.pull.value]).collect()),
+            force: singular
+                .or(greatest(drives().iter().flat_map(|d| [d.push.value, d.pull.value]).collect())),
             speed: greatest(legs().map(|l| l.speed.value).collect()),
             power: greatest(drives().iter().map(|d| d.power.value).collect()),
         }

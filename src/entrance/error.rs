@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+#[cfg(all(feature = "files", feature = "optimize"))]
+use super::SingularHome;
 #[cfg(feature = "synthesis")]
 use crate::calibration::CalibrationError;
 #[cfg(feature = "files")]
@@ -90,6 +92,10 @@ pub enum Error {
     /// A method does not apply, or forward kinematics broke down.
     #[error(transparent)]
     Fk(#[from] FkError),
+    /// A search for equivalent platforms from a home pose that none of them holds.
+    #[cfg(all(feature = "files", feature = "optimize"))]
+    #[error("{0}, and no equivalent platform holds it")]
+    SingularHome(SingularHome),
     /// Two designs in different units.
     #[cfg(feature = "files")]
     #[error("{} is in {} and {} is in {}: write both in the same unit", .0[0].0, .0[0].1, .0[1].0, .0[1].1)]

@@ -1,6 +1,6 @@
 //! Is the design singular, and does it meet its requirements?
 
-use super::Error;
+use super::{Error, SingularHome};
 use crate::design::Design;
 use crate::equivalents::Equivalents;
 use crate::fk::{Theorem, pose_bound};
@@ -40,6 +40,8 @@ pub struct CheckReport {
     pub common_points: Option<CommonPoints>,
     /// The theorem with the smallest bound on the isolated finite poses, for all lengths.
     pub pose_bound: Theorem,
+    /// The home pose that the design states, where it is singular.
+    pub singular_home: Option<SingularHome>,
 }
 
 impl CheckReport {
@@ -88,7 +90,10 @@ impl std::fmt::Display for CheckReport {
         let about = self.architecture.level.map_or("", Level::words);
         match (self.is_singular(), self.reason()) {
             (None, _) => write!(f, "{name} is not decided: joints are known between bounds only"),
-            (Some(false), _) => write!(f, "{name} is not architecturally singular: proved {about}"),
+            (Some(false), _) => {
+                write!(f, "{name} is not architecturally singular: proved {about}")?;
+                if self.singular_home.is_some() { write!(f, "; its home pose is singular") } else { Ok(()) }
+            }
             (Some(true), Some(reason)) => {
                 write!(f, "{name} is architecturally singular: proved {about} ({reason})")
             }
@@ -238,6 +243,7 @@ impl Design {
             pose_count,
             common_points,
             pose_bound,
+            singular_home: self.singular_home(),
         })
     }
 

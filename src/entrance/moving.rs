@@ -10,8 +10,10 @@ use crate::dynamics::{
     Vibration, drive_forces, least_stiffness, leg_motions, mass_matrix, stiffness_matrix, vibration,
 };
 use crate::geom::Pose;
+use crate::manipulator::{Manipulator, leg_determinant};
 use crate::requirements::{ForceUnit, Load, Margin, MassUnit, Term, TermKind, Terms};
 use crate::rotary::{CrankMotion, RotaryPlatform};
+use crate::singularity::{SingularEvidence, hold_at, singular_along, straight};
 
 /// A motion of the platform.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +45,60 @@ impl PlatformMotion {
     }
 }
 
+/// Turns of a sine are followed in parts of at most this angle, radians.
+const TURN: f64 = std::f64::consts::FRAC_PI_2;
+
+impl PlatformMotion {
+    /// The first pose of the whole motion at which the legs do not hold the platform; `None` where all are proved to be regular.
+    fn singular(&self, m: &Manipulator) -> Option<SingularInstant> {
+        match self {
+            Self::Path(path, _) => {
+                let times = path.times();
+                let curves: Vec<_> = (0..times.len() - 1).map(|k| path.control_points(k)).collect();
+                let found = singular_along(m, curves.iter().map(|c| &c[..]))?;
+                let (from, to) = (times[found.curve], times[found.curve + 1]);
+                let time = from + (to - from) * found.at;
+                Some(SingularInstant { time, pose: found.pose, evidence: found.evidence })
+            }
+            Self::Manoeuvre(manoeuvre, about, _) => match manoeuvre {
+                Manoeuvre::Acceleration { .. } => {
+                    let evidence = hold_at(m, about).singular()?;
+                    Some(SingularInstant { time: 0.0, pose: *about, evidence })
+                }
+                Manoeuvre::Sine { .. } => {
+                    // the way to one end and the way to the other hold all poses
+                    let period = manoeuvre.duration();
+                    [0.0, 0.5 * period]
+                        .into_iter()
+                        .find_map(|start| quarter_of_sine(m, manoeuvre, about, start))
+                }
+            },
+        }
+    }
+}
+
+/// The first singular pose of the quarter of a sine that leaves the middle at a time.
+fn quarter_of_sine(m: &Manipulator, sine: &Manoeuvre, about: &Pose, start: f64) -> Option<SingularInstant> {
+    let Manoeuvre::Sine { freedom, amplitude, frequency } = *sine else { return None };
+    let rate = std::f64::consts::TAU * frequency;
+    let turn = if freedom.is_turn() { amplitude.to_radians() } else { 0.0 };
+    let parts = (turn.abs() / TURN).ceil().max(1.0);
+    let time = |share: f64| start + share.clamp(0.0, 1.0).asin() / rate;
+    let poses: Vec<Pose> =
+        (0..=parts as usize).map(|k| sine.at(about, time(k as f64 / parts)).pose).collect();
+    let curves: Vec<_> = poses.windows(2).map(|w| straight(&w[0], &w[1])).collect();
+    let found = singular_along(m, curves.iter().map(|c| &c[..]))?;
+    // the quaternion is linear in the parameter, and its angle half of the turn
+    let half = 0.5 * turn / parts;
+    let within = if half > 0.0 {
+        (found.at * half.sin()).atan2(1.0 - found.at + found.at * half.cos()) / half
+    } else {
+        found.at
+    };
+    let share = (found.curve as f64 + within) / parts;
+    Some(SingularInstant { time: time(share), pose: found.pose, evidence: found.evidence })
+}
+
 /// An instant of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MotionInstant {
@@ -63,6 +119,15 @@ pub(crate) struct TimedMargin {
     pub(crate) time: f64,
 }
 
+/// A singular pose of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SingularInstant {
+    /// Seconds.
+    pub(crate) time: f64,
+    pub(crate) pose: Pose,
+    pub(crate) evidence: SingularEvidence,
+}
+
 /// What was found along a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MotionReport {
@@ -74,8 +139,8 @@ pub(crate) struct MotionReport {
     pub(crate) legs: Vec<LegExtremes>,
     /// The least margin of each kind of requirement over the instants.
     pub(crate) margins: Vec<TimedMargin>,
-    /// When forces are not determined, for masses that are known, or a crank is singular.
-    pub(crate) singular: Option<f64>,
+    /// The first pose at which the legs or rods do not hold the platform, or a crank is singular; of legs on the whole path, between the instants too.
+    pub(crate) singular: Option<SingularInstant>,
     /// When a rod first does not reach.
     pub(crate) unreached: Option<f64>,
 }
@@ -149,11 +214,20 @@ impl Design {
         let legs = if unreached.is_some() { Vec::new() } else { (0..6).map_while(of_leg).collect() };
         let unheld = |at: &&MotionInstant| masses.is_some() && at.drives.is_none();
         let stuck = |at: &&MotionInstant| !at.legs.iter().all(|leg| leg.acceleration.is_finite());
-        let singular = match &cranks {
-            None => instants.iter().find(unheld),
-            Some(_) => instants.iter().filter(reached).find(|at| unheld(at) || stuck(at)),
+        let at_instant = |at: &MotionInstant| SingularInstant {
+            time: at.time,
+            pose: at.state.pose,
+            evidence: SingularEvidence::Rounding,
         };
-        let singular = singular.map(|at| at.time);
+        let singular = match &cranks {
+            None => motion.singular(m).or_else(|| instants.iter().find(unheld).map(at_instant)),
+            Some(platform) => {
+                let found =
+                    instants.iter().filter(reached).find(|at| unheld(at) || stuck(at)).map(at_instant);
+                let all = [found, rods_that_change_side(platform, &instants)];
+                all.into_iter().flatten().min_by(|x, y| x.time.total_cmp(&y.time))
+            }
+        };
         let margins = self.margins_along(&instants);
         MotionReport { instants, cranks: cranks.is_some(), legs, margins, singular, unreached }
     }
@@ -202,6 +276,20 @@ impl Design {
         }
         out
     }
+}
+
+/// The first instant at which `det J` of the rods has another sign than at the instant before.
+fn rods_that_change_side(platform: &RotaryPlatform, instants: &[MotionInstant]) -> Option<SingularInstant> {
+    let side = |at: &MotionInstant| -> Option<bool> {
+        let angles = platform.ik(&at.state.pose).ok()?;
+        let det = leg_determinant(&platform.at(&angles).ok()?, &at.state.pose);
+        det.is_finite().then_some(det > 0.0)
+    };
+    let sides: Vec<Option<bool>> = instants.iter().map(side).collect();
+    let changed =
+        (1..sides.len()).find(|k| matches!((sides[k - 1], sides[*k]), (Some(x), Some(y)) if x != y))?;
+    let at = &instants[changed];
+    Some(SingularInstant { time: at.time, pose: at.state.pose, evidence: SingularEvidence::SignChange })
 }
 
 /// What is judged by the motion, and not by a greatest speed or a load in every direction.

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::equivalence::sample_plan;
 use super::platform_search::find_platform;
-use super::{AssessReport, Error};
+use super::{AssessReport, Error, SingularHome};
 use crate::design::{Combination, Design, Origin};
 use crate::dimensional::{
     self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode,
@@ -279,6 +279,9 @@ impl Design {
         if let Some(file) = &self.drive_table {
             return Err(Error::DriveTable(file.clone()));
         }
+        if let Some(home) = hopeless_home(self, options.extension) {
+            return Err(Error::SingularHome(home));
+        }
         if asks_for_more(self) {
             if let Some(Combination::Pareto { .. }) = self.search.mode {
                 return Err(Error::ParetoFront);
@@ -325,6 +328,14 @@ impl Design {
             evidence: OptimizeEvidence::Offsets(Box::new(report)),
         })
     }
+}
+
+/// A singular home pose that the search cannot leave: neither the triangles nor the height of home are chosen, and `det J` of an equivalent platform is that of the
+/// design times a constant.
+pub(crate) fn hopeless_home(design: &Design, extension: f64) -> Option<SingularHome> {
+    let variables = dimensional_problem(design, extension).variables;
+    let stays = variables.triangles == Triangles::Fixed && !variables.home_height;
+    design.home_that_no_equivalent_holds().filter(|_| stays)
 }
 
 /// What became of a search for offsets, with the check that does not use its code.

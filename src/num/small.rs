@@ -164,6 +164,8 @@ fn sweep<T: ComplexField<RealField = f64> + Copy>(
         for q in p + 1..columns {
             let (a, b) = pair(w, rows, p, q);
             if squares[p] < squares[q] {
+                // columns that change places miss pairs of this round
+                settled = false;
                 squares.swap(p, q);
                 a.swap_with_slice(b);
                 if !v.is_empty() {
@@ -306,6 +308,58 @@ mod tests {
             assert!((d[0] / scale - 2.0f64.sqrt()).abs() < 1e-15 && d[1] <= 1e-16 * d[0]);
         }
         assert!(singular_values(&DMatrix::from_element(2, 1, 5e-324)).unwrap()[0] > 0.0);
+    }
+
+    /// All pairs compared in the first round are orthogonal, but for two that an exchange of columns keeps apart.
+    #[test]
+    fn an_exchange_of_columns_hides_no_pair() {
+        let rows = [[1.0, 0.0, 3.0, 0.0], [0.0, 2.0, 0.0, 5.0], [1.0, 0.0, 3.5, 0.0], [0.0, 2.0, 0.0, 4.5]];
+        for columns in [[0, 1, 2, 3], [1, 0, 2, 3], [0, 1, 3, 2], [2, 0, 1, 3], [0, 2, 1, 3], [1, 2, 0, 3]] {
+            let m = DMatrix::from_fn(4, 4, |i, j| rows[i][columns[j]]);
+            is_right(&m, 4);
+        }
+        // the leg lines of an octahedral platform with equal triangles at its middle pose
+        let (h, q) = (0.75_f64.sqrt(), 0.1875_f64.sqrt());
+        let lines = Matrix6::from_row_slice(&[
+            q,
+            0.75,
+            5.0 * q,
+            -5.0 * q,
+            3.75,
+            -h,
+            -q,
+            -0.75,
+            5.0 * q,
+            10.0 * q,
+            0.0,
+            h,
+            q,
+            -0.75,
+            5.0 * q,
+            10.0 * q,
+            0.0,
+            -h,
+            -q,
+            0.75,
+            5.0 * q,
+            -5.0 * q,
+            -3.75,
+            h,
+            -h,
+            0.0,
+            5.0 * q,
+            -5.0 * q,
+            -3.75,
+            -h,
+            h,
+            0.0,
+            5.0 * q,
+            -5.0 * q,
+            3.75,
+            h,
+        ]);
+        let expected = lines.singular_values();
+        assert!((singular_values(&lines).unwrap() - expected).amax() < 1e-14 * expected[0]);
     }
 
     #[test]

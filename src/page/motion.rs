@@ -16,7 +16,8 @@ const OPTIONS: MotionOptions = MotionOptions { turn: 0.05, points: 3000, seed: 1
 /// A self-motion.
 #[derive(Debug, Serialize)]
 pub(super) struct SelfMotionRecord {
-    dimension: usize,
+    /// Null where it is undecided.
+    dimension: Option<usize>,
     curves: usize,
     closed: bool,
     end: Option<&'static str>,
@@ -32,7 +33,7 @@ pub(super) fn record(m: &Manipulator, at: &Pose) -> Result<SelfMotionRecord, Ref
     let longest = found.curves.iter().max_by(|x, y| length(x).total_cmp(&length(y)));
     let poses = longest.map(frames).unwrap_or_default();
     Ok(SelfMotionRecord {
-        dimension: found.dimension,
+        dimension: found.dimension(),
         curves: found.curves.len(),
         closed: longest.is_some_and(|c| c.end == CurveEnd::Closed),
         end: longest.map(|c| c.end.name()),

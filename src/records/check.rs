@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fk::PoseCountRecord;
 use super::pose::leg_numbers;
-use super::{NamedPoints, Number, PoseRecord};
+use super::{NamedPoints, Number, PoseRecord, SingularEvidenceWord};
 use crate::design::{Design, DesignExactness, Exactness};
 use crate::entrance::CheckReport;
 use crate::fk::Theorem;
@@ -29,6 +29,8 @@ pub struct CheckAnswer {
     pub level: Option<Level>,
     /// Decided exactly, for the joints as the numbers they are; null where they are known between bounds only.
     pub singular_as_written: Option<bool>,
+    /// What shows that the home pose of the design is singular; null: it is regular, or the design states none.
+    pub singular_home: Option<SingularEvidenceWord>,
     /// A short code of the reason; null: regular.
     pub reason: Option<String>,
     /// One sentence.
@@ -78,6 +80,7 @@ impl From<&CheckReport> for CheckAnswer {
             architecturally_singular: c.is_singular(),
             level: c.level(),
             singular_as_written: a.is_singular(),
+            singular_home: c.singular_home.map(|home| home.evidence.into()),
             reason: c.reason().map(str::to_owned),
             explanation: explanation(c),
             proof: proof(a),

@@ -7,13 +7,14 @@ use super::{MarginRecord, Number, PoseQuaternionRecord};
 use crate::design::Design;
 use crate::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vibration};
 use crate::entrance::{MotionReport, StiffnessReport, TimedMargin};
+use crate::singularity::SingularEvidence;
 
 /// The answer of `motion`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionAnswer {
     /// The name of the design.
     pub name: String,
-    /// No requirement is violated and no force is undetermined at the instants looked at.
+    /// No requirement is violated at the instants looked at, and no pose of the motions is singular.
     pub met: bool,
     /// Of lengths; speeds are in it per second, accelerations per second squared.
     pub length_unit: String,
@@ -94,11 +95,64 @@ pub struct MotionRunRecord {
     pub cranks: Option<Vec<CrankMotionRecord>>,
     /// The least margin of each kind of requirement, force and speed by this motion.
     pub requirements: Vec<TimedMarginRecord>,
-    /// When forces are not determined, since the pose is singular; null: at no instant.
+    /// Whether every pose of the motion is regular.
+    pub regularity: MotionRegularity,
+    /// When the first singular pose is passed; null: none was found.
     pub singular_at_s: Option<f64>,
+    /// That pose.
+    pub singular_pose: Option<PoseQuaternionRecord>,
+    /// What shows that it is singular.
+    pub singular_evidence: Option<SingularEvidenceWord>,
     /// When a rod first does not reach from its crank to the platform, where one does not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unreached_at_s: Option<f64>,
+}
+
+/// Whether every pose of a motion is regular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionRegularity {
+    /// det J is proved to keep its sign on the whole motion, between the instants too.
+    Proved,
+    /// No instant is singular, and det J of the rods has one sign at all instants.
+    Sampled,
+    /// The motion passes a singular pose.
+    Singular,
+}
+
+/// What shows that a pose is singular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SingularEvidenceWord {
+    /// Proved: det J is zero in exact arithmetic on the joints and the rotation as written.
+    Zero,
+    /// det J has opposite signs before and after: proved for legs, by instants for rods on cranks.
+    SignChange,
+    /// det J is not above its rounding errors.
+    Rounding,
+}
+
+impl SingularEvidenceWord {
+    /// The words for a person.
+    #[must_use]
+    pub fn sentence(self) -> String {
+        match self {
+            Self::Zero => SingularEvidence::Zero,
+            Self::SignChange => SingularEvidence::SignChange,
+            Self::Rounding => SingularEvidence::Rounding,
+        }
+        .to_string()
+    }
+}
+
+impl From<SingularEvidence> for SingularEvidenceWord {
+    fn from(evidence: SingularEvidence) -> Self {
+        match evidence {
+            SingularEvidence::Zero => Self::Zero,
+            SingularEvidence::SignChange => Self::SignChange,
+            SingularEvidence::Rounding => Self::Rounding,
+        }
+    }
 }
 
 impl MotionRunRecord {
@@ -118,7 +172,14 @@ impl MotionRunRecord {
             legs: if found.cranks { Vec::new() } else { each(found, LegMotionRecord::new) },
             cranks: found.cranks.then(|| each(found, CrankMotionRecord::new)),
             requirements,
-            singular_at_s: found.singular,
+            regularity: match (&found.singular, found.cranks) {
+                (Some(_), _) => MotionRegularity::Singular,
+                (None, true) => MotionRegularity::Sampled,
+                (None, false) => MotionRegularity::Proved,
+            },
+            singular_at_s: found.singular.map(|at| at.time),
+            singular_pose: found.singular.map(|at| PoseQuaternionRecord::from(&at.pose)),
+            singular_evidence: found.singular.map(|at| at.evidence.into()),
             unreached_at_s: found.unreached,
         }
     }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{PoseRecord, PresetFile};
+use super::{PoseRecord, PresetFile, SingularEvidenceWord};
 
 /// The answer of `new`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -21,6 +21,8 @@ pub struct NewAnswer {
     pub lengths: [f64; 6],
     /// Whether the leg lines are dependent at every pose, decided exactly for the joints as they are written.
     pub architecturally_singular: bool,
+    /// What shows that the home pose is singular; null: it is regular.
+    pub singular_home: Option<SingularEvidenceWord>,
     /// What was guessed about the table, a sentence each.
     pub guesses: Vec<String>,
 }

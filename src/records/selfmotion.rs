@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CompletenessWord, Number, PoseQuaternionRecord};
-use crate::singularity::{CriticalPoses, CurveDegree, MotionCurve};
+use crate::singularity::{CriticalPoses, CurveDegree, MotionCurve, MotionEvidence, PoseVerdict};
 
 /// The answer of `singular motion`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -13,8 +13,14 @@ pub struct SelfmotionAnswer {
     pub name: String,
     /// The unit of its lengths.
     pub units: String,
-    /// Dimension of the set of poses.
-    pub dimension: usize,
+    /// Dimension of the set of poses with these lengths, at the pose where one is given; null where it is undecided.
+    pub dimension: Option<usize>,
+    /// What shows the dimension.
+    pub evidence: MotionEvidenceWord,
+    /// Freedoms of first order at the pose: six less the rank of the leg lines; null with `--lengths`.
+    pub tangent_dimension: Option<usize>,
+    /// The ball around an isolated pose without any other pose of these lengths; null elsewhere.
+    pub isolated: Option<IsolatedRecord>,
     /// The pose it begins at; null with `--lengths`.
     pub start: Option<PoseQuaternionRecord>,
     /// The leg lengths, design units.
@@ -27,7 +33,7 @@ pub struct SelfmotionAnswer {
     pub real_poses: Vec<PoseQuaternionRecord>,
     /// Curves are followed numerically: nothing proves that they are all.
     pub completeness: CompletenessWord,
-    /// Every real component is accounted for, numerically; null: only the pose was followed.
+    /// Every real component is accounted for, numerically; null: no search for other components was made.
     pub components_accounted: Option<bool>,
     /// Irreducible components over the complex numbers.
     pub complex_components: Option<Vec<CurveDegreeRecord>>,
@@ -39,6 +45,58 @@ pub struct SelfmotionAnswer {
     pub crossings: Vec<PoseQuaternionRecord>,
     /// The curves.
     pub curves: Vec<MotionCurveRecord>,
+}
+
+/// What shows the dimension of a self-motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionEvidenceWord {
+    /// Proved: the leg lines are independent at the pose.
+    FirstOrder,
+    /// Proved: no freedom of first order satisfies the equations of second order.
+    SecondOrder,
+    /// Proved: the rank of the leg lines is constant around the pose.
+    ConstantRank,
+    /// Poses were found along a stretch by tracing, and the dimension is sampled: no proof.
+    Traced,
+    /// The poses with the lengths were cut by random sections: no proof.
+    Sections,
+    /// Nothing: the question is undecided.
+    Undecided,
+}
+
+impl From<PoseVerdict> for MotionEvidenceWord {
+    fn from(verdict: PoseVerdict) -> Self {
+        match verdict {
+            PoseVerdict::Isolated { order: 1, .. } => Self::FirstOrder,
+            PoseVerdict::Isolated { .. } => Self::SecondOrder,
+            PoseVerdict::Moves { evidence: MotionEvidence::ConstantRank, .. } => Self::ConstantRank,
+            PoseVerdict::Moves { evidence: MotionEvidence::Traced, .. } => Self::Traced,
+            PoseVerdict::Undecided => Self::Undecided,
+        }
+    }
+}
+
+/// The surroundings of an isolated pose, in displacements `(t / size, c)`: translation over the size, axis times tangent of half the angle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct IsolatedRecord {
+    /// Every pose with these lengths within this distance lies within `within`.
+    pub radius: Number,
+    /// Distance left by rounding; 0 for a proof of first order.
+    pub within: Number,
+}
+
+impl IsolatedRecord {
+    /// The record of an isolated pose.
+    #[must_use]
+    pub fn of(verdict: PoseVerdict) -> Option<Self> {
+        match verdict {
+            PoseVerdict::Isolated { radius, within, .. } => {
+                Some(Self { radius: Number(radius), within: Number(within) })
+            }
+            PoseVerdict::Moves { .. } | PoseVerdict::Undecided => None,
+        }
+    }
 }
 
 /// The degree of a curve of poses.

@@ -11,6 +11,7 @@ mod conditioning;
 mod dependency;
 mod four_planes;
 mod griffis_duffy;
+mod hold;
 mod lattice;
 mod lower_bound;
 mod nearest;
@@ -25,14 +26,18 @@ pub use conditioning::{Conditioning, conditioning};
 pub use dependency::Dependency;
 pub use four_planes::four_planes;
 pub use griffis_duffy::GriffisDuffy;
+pub use hold::{PoseHold, SingularEvidence, SingularOnPath, hold_at, singular_along};
 pub use lattice::{GenericRank, RankBound, RationalPose};
 pub use lower_bound::singular_distance_at_least;
 pub use nearest::{NearestSingular, nearest_singular, rounded_singular};
-pub use path::{JoinOptions, Joined, PathPiece, Sign, SignsAlong, Way, between, join, signs_along};
+pub use path::{
+    ControlPoint, JoinOptions, Joined, PathPiece, Sign, SignsAlong, Way, between, join, signs_along,
+    signs_on_curve, straight,
+};
 pub use regular_box::{BoxOptions, RegularBox, Regularity, SingularSegment, regular_box, regular_workspace};
 pub use self_motion::{
-    CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionOptions, MotionPoint, SelfMotion,
-    critical_poses, curve_degree, self_motion,
+    AtPose, CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionEvidence, MotionOptions, MotionPoint,
+    PoseVerdict, SelfMotion, critical_poses, curve_degree, motion_at, self_motion,
 };
 
 use self::dependency::subsets_by_size;

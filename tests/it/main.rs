@@ -71,6 +71,7 @@ mod presets;
 mod public_api;
 mod rearrangements;
 mod reference;
+mod singular_poses;
 mod singularity;
 mod tasks;
 mod theorems;

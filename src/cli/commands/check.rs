@@ -26,8 +26,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let found = design.check_with(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
     let answer = CheckAnswer::from(&found);
     let exit = match answer.architecturally_singular {
-        Some(false) => Exit::Yes,
-        Some(true) => Exit::No,
+        Some(false) if answer.singular_home.is_none() => Exit::Yes,
+        Some(_) => Exit::No,
         None => Exit::Inconclusive,
     };
     let text = format!("{}\n{}", headline(&found), text(&answer, m.size(), &design.units));
@@ -56,6 +56,9 @@ fn list(legs: &[usize]) -> String {
 /// The answer in words; `size` and `units` are those of the design.
 fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
     let mut text = format!("{}\n", c.explanation);
+    if let Some(evidence) = c.singular_home.filter(|_| c.architecturally_singular != Some(true)) {
+        let _ = writeln!(text, "THE HOME POSE IS SINGULAR: {}", evidence.sentence());
+    }
     let _ = writeln!(text, "joints: {}", c.joints.explanation);
     let _ = writeln!(text, "\nrank of the leg vectors     {}", c.leg_rank);
     let _ = writeln!(text, "generic rank of the lines   {}", c.jacobian_rank);

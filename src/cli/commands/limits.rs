@@ -48,6 +48,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     if !args.workspace {
         context.no_effect("rays", "the size of the workspace is not asked for (--workspace)")?;
     }
+    // every pose has to have the sign of det J at home
+    if let Some(home) = design.singular_at(&poses::home(&design)) {
+        let help =
+            "state a regular pose in [home]; `equipod singular poses` shows where the sign of det J changes";
+        return Err(Failure::new(Exit::No, "limits::singular_home", home.to_string()).with_help(help));
+    }
     let required = design.requirements();
     let reach = design.reach(&required);
     let violated = reach.violated(&at);

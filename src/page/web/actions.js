@@ -97,7 +97,9 @@ Object.assign(App.prototype, {
     if (found.error || !found.poses.length) {
       const why = found.error ? found.error.message
         : found.dimension > 1 ? `it moves with ${found.dimension} freedoms here` : `the legs of ${whose} hold it at this pose; choose offsets with det A = 0`;
-      $("motion-words").textContent = `No self-motion: ${why}.`;
+      $("motion-words").textContent = found.dimension === null
+        ? "Undecided: tracing found no self-motion, and no argument of second order excludes one."
+        : `No self-motion: ${why}.`;
       this.path = "workspace";
       $("path").value = "workspace";
       return;

@@ -9,6 +9,9 @@
 //! coefficients `c_k` of `(1 - u)^{18 - k} u^k`, which multiply like those of ordinary polynomials; `c_k` over the binomial coefficient is
 //! the Bernstein coefficient: when all have one sign the form has it on `[0, 1]`.
 //!
+//! A *curved path* is given by the control points of a Bezier curve of positions and quaternions; of degree `n` it has a form of degree `18 n`
+//! ([`signs_on_curve`]).
+//!
 //! [`join()`] looks for a chain of straight paths on a random roadmap, whose edges are proved.
 
 #[cfg(test)]
@@ -93,8 +96,32 @@ pub fn between(from: &Pose, to: &Pose, u: f64) -> Pose {
 /// Rotations are those of the rounded quaternions of the poses, exactly; the poses of the path are exact functions of these and of the positions.
 #[must_use]
 pub fn signs_along(m: &Manipulator, from: &Pose, to: &Pose) -> SignsAlong {
+    signs(determinant(m, &Curve::straight(from, to)))
+}
+
+/// Position, then quaternion with the scalar part first, of any norm above zero.
+pub type ControlPoint = [f64; 7];
+
+/// The control points of the straight path.
+#[must_use]
+pub fn straight(from: &Pose, to: &Pose) -> [ControlPoint; 2] {
+    let (e0, e1) = quaternions(from, to);
+    let point = |pose: &Pose, e: [f64; 4]| {
+        let p = pose.position;
+        [p.x, p.y, p.z, e[0], e[1], e[2], e[3]]
+    };
+    [point(from, e0), point(to, e1)]
+}
+
+/// The same on the Bezier curve of positions and quaternions that has these control points, one or more.
+#[must_use]
+pub fn signs_on_curve(m: &Manipulator, control: &[ControlPoint]) -> SignsAlong {
+    signs(determinant(m, &Curve::of(control)))
+}
+
+fn signs(coefficients: Vec<Interval>) -> SignsAlong {
     let mut pieces: Vec<PathPiece> = Vec::new();
-    let mut open: Vec<(f64, f64, Vec<Interval>, u32)> = vec![(0.0, 1.0, determinant(m, from, to), 0)];
+    let mut open: Vec<(f64, f64, Vec<Interval>, u32)> = vec![(0.0, 1.0, coefficients, 0)];
     while let Some((from, to, c, depth)) = open.pop() {
         let sign = common_sign(&c);
         if sign.is_none() && depth < DEPTH && !hopeless(&c) {
@@ -117,8 +144,41 @@ fn hopeless(c: &[Interval]) -> bool {
     c.iter().all(|x| x.lo() <= 0.0 && x.hi() >= 0.0)
 }
 
-/// Degree of `N^6 det J`.
+/// Degree of `N^6 det J` on a straight path.
 const DEGREE: usize = 18;
+
+/// Positions and quaternions of a path, forms of one degree.
+struct Curve {
+    degree: usize,
+    position: [Form; 3],
+    quaternion: [Form; 4],
+}
+
+impl Curve {
+    fn straight(from: &Pose, to: &Pose) -> Self {
+        Self::of(&straight(from, to))
+    }
+
+    fn of(control: &[ControlPoint]) -> Self {
+        let degree = control.len().saturating_sub(1);
+        let weights = ones(degree);
+        let form = |k: usize| -> Form {
+            control.iter().zip(&weights).map(|(point, w)| Interval::from(point[k]) * *w).collect()
+        };
+        Self { degree, position: std::array::from_fn(form), quaternion: std::array::from_fn(|k| form(k + 3)) }
+    }
+}
+
+/// The constant 1 as a form: the binomial coefficients, which are exact.
+fn ones(degree: usize) -> Form {
+    let mut binomial = 1.0;
+    let coefficient = |k: usize| {
+        let here = Interval::from(binomial);
+        binomial = binomial * (degree - k) as f64 / (k + 1) as f64;
+        here
+    };
+    (0..=degree).map(coefficient).collect()
+}
 
 /// A form in `(1 - u, u)` by its coefficients.
 type Form = Vec<Interval>;
@@ -145,9 +205,9 @@ fn scaled(x: &Form, factor: Interval) -> Form {
     x.iter().map(|a| *a * factor).collect()
 }
 
-/// Bernstein coefficients of `N^6 det J` on the path from `from` to `to`, up to the power of the size.
-fn determinant(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<Interval> {
-    let rows = rows(m, from, to);
+/// Bernstein coefficients of `N^6 det J` on a path, up to the power of the size.
+fn determinant(m: &Manipulator, curve: &Curve) -> Vec<Interval> {
+    let rows = rows(m, curve);
     let minor = |r: usize, c: [usize; 3]| {
         let part = |i: usize, j: usize, k: usize| {
             let two =
@@ -156,7 +216,8 @@ fn determinant(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<Interval> {
         };
         plus(&minus(&part(c[0], c[1], c[2]), &part(c[1], c[0], c[2])), &part(c[2], c[0], c[1]))
     };
-    let mut sum = vec![Interval::ZERO; DEGREE + 1];
+    let degree = DEGREE * curve.degree;
+    let mut sum = vec![Interval::ZERO; degree + 1];
     // Laplace expansion by complementary minors of the first three rows
     for i in 0..6 {
         for j in i + 1..6 {
@@ -168,22 +229,20 @@ fn determinant(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<Interval> {
             }
         }
     }
-    let mut binomial = 1.0;
-    for (k, c) in sum.iter_mut().enumerate() {
-        *c = c.checked_div(Interval::from(binomial)).unwrap_or(Interval::WHOLE);
-        binomial = binomial * (DEGREE - k) as f64 / (k + 1) as f64;
+    for (c, binomial) in sum.iter_mut().zip(ones(degree)) {
+        *c = c.checked_div(binomial).unwrap_or(Interval::WHOLE);
     }
     sum
 }
 
 /// Rows `N [n_i, a_i x n_i]`, about the mean base joint in units of the size.
-fn rows(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<[Form; 6]> {
+fn rows(m: &Manipulator, curve: &Curve) -> Vec<[Form; 6]> {
     let [mean, _] = m.mean_leg_ends();
     let unit = Interval::from(m.size());
     let place =
         |x: Interval, origin: f64| (x - Interval::from(origin)).checked_div(unit).unwrap_or(Interval::WHOLE);
-    let (e0, e1) = quaternions(from, to);
-    let e: [Form; 4] = std::array::from_fn(|k| vec![Interval::from(e0[k]), Interval::from(e1[k])]);
+    let e = &curve.quaternion;
+    let one = ones(curve.degree);
     let squares = e.each_ref().map(|x| times(x, x));
     let vector = plus(&plus(&squares[1], &squares[2]), &squares[3]);
     let norm = plus(&squares[0], &vector);
@@ -191,12 +250,14 @@ fn rows(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<[Form; 6]> {
         let [a, b] = m.enclosed_ends(leg);
         let base: [Interval; 3] = std::array::from_fn(|k| place(a[k], mean[k]));
         let arm: [Interval; 3] = b.map(|x| place(x, 0.0));
-        let turned = turned(&e, &minus(&squares[0], &vector), &arm);
+        let turned = turned(e, &minus(&squares[0], &vector), &arm);
         let direction: [Form; 3] = std::array::from_fn(|k| {
-            let line =
-                [from, to].map(|pose| place(Interval::from(pose.position[k]), mean[k]) - base[k]).to_vec();
-            // the quadratic form of the rotation times (1 - u) + u, which is one
-            plus(&times(&turned[k], &vec![Interval::from(1.0); 2]), &times(&norm, &line))
+            let offset = Interval::from(mean[k]) + base[k] * unit;
+            let from_joint = minus(&curve.position[k], &scaled(&one, offset));
+            let line: Form =
+                from_joint.iter().map(|x| x.checked_div(unit).unwrap_or(Interval::WHOLE)).collect();
+            // the form of the rotation times the constant 1 of the degree of the path
+            plus(&times(&turned[k], &one), &times(&norm, &line))
         });
         let moment =
             |i: usize, j: usize| minus(&scaled(&direction[j], base[i]), &scaled(&direction[i], base[j]));

@@ -23,7 +23,7 @@ fn the_form_of_degree_18_is_the_determinant_times_the_sixth_power_of_the_norm() 
     let mut rng = Rng::new(1);
     for _ in 0..5 {
         let (m, x, y) = (design(&mut rng), pose(&mut rng), pose(&mut rng));
-        let c = determinant(&m, &x, &y);
+        let c = determinant(&m, &Curve::straight(&x, &y));
         assert_eq!(c.len(), 19);
         let (e0, e1) = quaternions(&x, &y);
         for u in [0.0, 0.3, 0.77, 0.99_f64] {
@@ -115,4 +115,36 @@ fn a_singular_pose_has_no_proved_sign_and_stands_alone() {
     let flat = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 3.0) };
     let joined = join(&m, &[flat], &JoinOptions { samples: 10, seed: 1 });
     assert_eq!((joined.signs, joined.groups), (vec![None], vec![vec![0]]));
+}
+
+/// A straight path as a curve of degree three has the signs of the straight path, and a cubic curve those at its poses.
+#[test]
+fn signs_on_curves_are_those_at_their_poses() {
+    let mut rng = Rng::new(9);
+    let mut changed = 0;
+    for _ in 0..12 {
+        let (m, x, y) = (design(&mut rng), pose(&mut rng), pose(&mut rng));
+        let [a, b] = straight(&x, &y);
+        let mix = |u: f64| -> ControlPoint { std::array::from_fn(|k| a[k] * (1.0 - u) + b[k] * u) };
+        let cubic = signs_on_curve(&m, &[a, mix(1.0 / 3.0), mix(2.0 / 3.0), b]);
+        let line = signs_along(&m, &x, &y);
+        assert_eq!(cubic.ends(), line.ends());
+        let places = |s: &SignsAlong| s.changes().map(|c| (1e6 * c.from).round()).collect::<Vec<_>>();
+        assert_eq!(places(&cubic), places(&line));
+        let other = straight(&pose(&mut rng), &pose(&mut rng));
+        let control = [a, other[0], other[1], b];
+        let found = signs_on_curve(&m, &control);
+        changed += found.changes().count();
+        for piece in found.pieces.iter().filter(|p| p.to - p.from > 1e-6) {
+            let u = 0.5 * (piece.from + piece.to);
+            let weights =
+                [(1.0 - u).powi(3), 3.0 * u * (1.0 - u).powi(2), 3.0 * u * u * (1.0 - u), u.powi(3)];
+            let at: [f64; 7] = std::array::from_fn(|k| (0..4).map(|i| weights[i] * control[i][k]).sum());
+            let turn = UnitQuaternion::from_quaternion(Quaternion::new(at[3], at[4], at[5], at[6]));
+            let there =
+                Pose { rotation: turn.to_rotation_matrix(), position: Vector3::new(at[0], at[1], at[2]) };
+            assert_eq!(piece.sign.map(|s| s == Sign::Positive), Some(is_positive(&m, &there)));
+        }
+    }
+    assert!(changed > 3);
 }

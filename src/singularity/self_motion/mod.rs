@@ -5,9 +5,12 @@
 //! Where it crosses itself or another curve the rank is 6 and the tangents are the real zeros of a quadratic form; every branch is
 //! followed. Leg lengths bound the position, so that every real curve is a closed loop.
 //!
+//! Whether the platform moves at a pose at all is decided before anything is followed ([`motion_at`]).
+//!
 //! Real components that meet none of the curves from the poses given are not found from them: [`critical_poses`] gives poses on all real components of the complex
 //! curves through given poses, real or complex.
 
+mod at_pose;
 mod critical;
 mod slices;
 mod trace;
@@ -20,6 +23,7 @@ use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use trace::Tracer;
 
+pub use self::at_pose::{AtPose, MotionEvidence, PoseVerdict, motion_at};
 pub use self::slices::{CurveDegree, curve_degree};
 pub use critical::{CriticalPoses, critical_poses};
 
@@ -95,10 +99,9 @@ pub struct MotionCurve {
 /// All that was reached from the poses given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SelfMotion {
-    /// Dimension of the tangent space of the set of poses near the first pose given (the least of several points): 0 no motion. That of the
-    /// set itself unless every point of it is singular.
-    pub dimension: usize,
-    /// Singular values of the equations at the first pose, largest first; the last `dimension` are zero.
+    /// What was decided at the first pose; `None` without a pose.
+    pub at_pose: Option<AtPose>,
+    /// Singular values of the equations at the first pose, largest first.
     pub singular_values: [f64; 8],
     /// The curves, none when the dimension is not 1.
     pub curves: Vec<MotionCurve>,
@@ -108,10 +111,18 @@ pub struct SelfMotion {
     pub worst_length_error: f64,
 }
 
+impl SelfMotion {
+    /// Dimension of the self-motion through the first pose; `None` where it is undecided, or where there is no pose.
+    #[must_use]
+    pub fn dimension(&self) -> Option<usize> {
+        self.at_pose.as_ref().and_then(|at| at.verdict.dimension())
+    }
+}
+
 /// Follows the curves of poses with squared lengths `s` from the poses given.
 ///
-/// A pose that is on no curve (dimension 0 there) is left out; one that is on a curve followed already adds nothing. Poses are improved to rounding
-/// first. When the first pose moves with two or more freedoms no curve is traced and the dimension says so.
+/// Curves are followed where the first pose is on one. A pose that is on a curve followed already adds nothing. Poses are improved to rounding first.
+/// Where the curve through the first pose consists of zeros of higher multiplicity, no other pose is followed.
 #[must_use]
 pub fn self_motion(
     m: &Manipulator,
@@ -120,13 +131,29 @@ pub fn self_motion(
     options: &MotionOptions,
 ) -> SelfMotion {
     let equations = LegEquations::new(m, s);
-    let tracer = Tracer::new(&equations, options, &mut Rng::new(options.seed));
+    let tracer = || Tracer::new(&equations, options, &mut Rng::new(options.seed));
+    let regular = tracer();
     let starts: Vec<Point<f64>> = poses.iter().map(|p| point(p, m.size())).collect();
-    let (dimension, singular_values) = starts.first().map_or((0, [0.0; 8]), |y| tracer.dimension(y));
+    let (at_pose, branches) = poses.first().map(|p| at_pose::leaving(m, p, options.seed)).unzip();
+    let ways: Vec<[Point<f64>; 2]> = branches.unwrap_or_default().iter().map(|b| way(b, m.size())).collect();
+    let moves = at_pose.as_ref().is_some_and(|at| at.verdict.dimension() == Some(1));
+    // beside a crossing a simple curve has one null vector
+    let multiple = moves && ways.iter().any(|w| regular.corank(&w[0]) > 1);
+    let tracer = if multiple { tracer().of_multiple_curve() } else { regular };
     let mut state = trace::Web::new(&tracer, options.points);
     let mut origins = Vec::new();
-    if dimension == 1 {
-        for (k, start) in starts.iter().enumerate() {
+    let meeting = starts.first().filter(|y| tracer.corank(y) > 1);
+    if moves && let Some(pose) = meeting {
+        if ways.len() > 2 {
+            state.note_crossing(*pose);
+        }
+        for [at, direction] in &ways {
+            state.follow_towards(at, direction);
+        }
+        origins.resize(state.count(), 0);
+    }
+    if moves && !multiple {
+        for (k, start) in starts.iter().enumerate().skip(usize::from(meeting.is_some())) {
             state.follow(start);
             origins.resize(state.count(), k);
         }
@@ -135,12 +162,19 @@ pub fn self_motion(
     let curves: Vec<MotionCurve> = paths.iter().zip(origins).map(|(path, k)| curve(path, k, m, s)).collect();
     let errors = curves.iter().flat_map(|c| c.points.iter().map(|p| p.length_error));
     SelfMotion {
-        dimension,
-        singular_values,
+        at_pose,
+        singular_values: starts.first().map_or([0.0; 8], |y| tracer.singular_values(y)),
         worst_length_error: errors.fold(0.0, f64::max),
         curves,
         crossings: crossings.iter().map(|y| pose(y, m.size())).collect(),
     }
+}
+
+/// A point of a branch, and the direction in which it leaves the pose.
+fn way(branch: &at_pose::Branch, size: f64) -> [Point<f64>; 2] {
+    let [from, to] = [branch.from, branch.to].map(|p| point(&p, size));
+    let to = if from.dot(&to) < 0.0 { -to } else { to };
+    [from, (to - from).normalize()]
 }
 
 /// A point with `|e| = 1`.

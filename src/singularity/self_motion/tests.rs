@@ -29,7 +29,7 @@ fn a_griffis_duffy_platform_moves_on_closed_curves_with_constant_lengths() {
     let pose = some_pose();
     let s = pose.squared_lengths(&m).unwrap();
     let found = self_motion(&m, &s, &[pose], &MotionOptions::default());
-    assert_eq!(found.dimension, 1, "{:?}", found.singular_values);
+    assert_eq!(found.dimension(), Some(1), "{:?}", found.at_pose);
     assert!(!found.curves.is_empty() && found.worst_length_error < 1e-13, "{:?}", found.worst_length_error);
     for c in &found.curves {
         assert!(matches!(c.end, CurveEnd::Closed | CurveEnd::Joined), "{:?}", c.end);
@@ -56,7 +56,8 @@ fn a_regular_platform_does_not_move() {
     let pose = some_pose();
     let s = pose.squared_lengths(&m).unwrap();
     let found = self_motion(&m, &s, &[pose], &MotionOptions::default());
-    assert!(found.dimension == 0 && found.curves.is_empty());
+    assert!(found.dimension() == Some(0) && found.curves.is_empty());
+    assert!(matches!(found.at_pose.unwrap().verdict, PoseVerdict::Isolated { order: 1, .. }));
     assert_eq!(curve_degree(&m, &s, &pose, 1), None);
 }
 
@@ -70,7 +71,7 @@ fn five_legs_at_one_joint_leave_two_freedoms() {
     let m = Manipulator::from_legs(std::array::from_fn(|i| Leg { base: base(i), platform: tip(i) })).unwrap();
     let s = some_pose().squared_lengths(&m).unwrap();
     let found = self_motion(&m, &s, &[some_pose()], &MotionOptions::default());
-    assert!(found.dimension == 2 && found.curves.is_empty(), "{:?}", found.singular_values);
+    assert!(found.dimension() == Some(2) && found.curves.is_empty(), "{:?}", found.at_pose);
 }
 
 #[test]
@@ -80,10 +81,58 @@ fn crossing_curves_are_all_followed() {
     let home = default_home(&m);
     let s = home.squared_lengths(&m).unwrap();
     let found = self_motion(&m, &s, &[home], &MotionOptions::default());
-    assert!(found.dimension >= 1);
+    assert!(found.dimension() >= Some(1), "{:?}", found.at_pose);
     for c in &found.curves {
         assert!(c.end != CurveEnd::Unfinished);
     }
+}
+
+/// Singular poses between poses of opposite sign have one freedom of first order, which the legs stop; none of them is called moving.
+#[test]
+fn singular_poses_of_random_designs_are_proved_to_be_isolated() {
+    let mut rng = Rng::new(11);
+    let (mut proved, mut all) = (0, 0);
+    while all < 12 {
+        let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal());
+        let m = Manipulator::from_legs(std::array::from_fn(|_| Leg { base: point(), platform: point() }))
+            .unwrap();
+        let mut pose = || Pose {
+            rotation: crate::geom::random_rotation(&mut rng),
+            position: Vector3::from_fn(|_, _| rng.normal()),
+        };
+        let (from, to) = (pose(), pose());
+        let signs = crate::singularity::signs_along(&m, &from, &to);
+        let Some(change) = signs.changes().next() else { continue };
+        let at = crate::singularity::between(&from, &to, 0.5 * (change.from + change.to));
+        let found = motion_at(&m, &at, 1);
+        all += 1;
+        assert_eq!(found.tangent_dimension, 1, "{found:?}");
+        proved += usize::from(matches!(found.verdict, PoseVerdict::Isolated { order: 2, .. }));
+        assert!(!matches!(found.verdict, PoseVerdict::Moves { .. }), "{found:?}");
+        // the random pose itself is held to first order
+        assert!(matches!(motion_at(&m, &from, 1).verdict, PoseVerdict::Isolated { order: 1, .. }));
+    }
+    assert!(proved >= 11, "{proved} of {all}");
+}
+
+/// Six equal parallel legs: translations on a sphere, and at every one of its poses a freedom of first order more.
+#[test]
+fn the_freedoms_of_first_order_are_not_taken_for_the_motion() {
+    let ends = [[0., 0., 0.], [1., 3., 0.], [2., -1., 1.], [3., 1., 2.], [5., 2., -1.], [-2., 4., 3.]];
+    let m =
+        Manipulator::from_legs(ends.map(|[x, y, z]| Leg { base: p(x, y, z), platform: p(x, y, z) })).unwrap();
+    for position in [[0.0, 0.0, 2.0], [1.0, 1.0, 1.0]] {
+        let pose = Pose { rotation: Rotation3::identity(), position: position.into() };
+        let found = motion_at(&m, &pose, 1);
+        let moves = PoseVerdict::Moves { dimension: 2, reach: 0.0, evidence: MotionEvidence::Traced };
+        assert!(found.tangent_dimension == 3 && found.verdict.dimension() == moves.dimension(), "{found:?}");
+    }
+    // turned by a half turn the same legs hold it to second order
+    let pose = Pose {
+        rotation: Rotation3::from_euler_angles(0.0, 0.0, std::f64::consts::PI),
+        position: Vector3::z() * 2.0,
+    };
+    assert_eq!(motion_at(&m, &pose, 1).verdict.dimension(), Some(0));
 }
 
 #[test]

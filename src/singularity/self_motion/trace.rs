@@ -15,6 +15,13 @@ const ZERO: f64 = 1e-9;
 /// Largest residual of a point on a curve, numbers of order one.
 const RESIDUAL: f64 = 4e-15;
 
+/// The same on a curve of zeros of higher multiplicity.
+const MULTIPLE_RESIDUAL: f64 = 4e-14;
+/// Half the distance of the two points whose difference is the tangent of such a curve.
+const ASIDE: f64 = 1e-3;
+/// A singular value below this times the largest is zero at a zero of higher multiplicity, which is known to half the digits.
+const DROPPED: f64 = 1e-6;
+
 /// Smallest step before a curve counts as stuck.
 const SMALLEST: f64 = 1e-7;
 
@@ -58,11 +65,30 @@ pub(super) struct Tracer<'a> {
     /// Seven random combinations of the eight equations.
     mix: SMatrix<f64, 7, 8>,
     turn: f64,
+    /// The curve consists of zeros of higher multiplicity, whose tangent is no null vector: it is followed by its points.
+    multiple: bool,
 }
 
 impl<'a> Tracer<'a> {
     pub(super) fn new(equations: &'a LegEquations, options: &MotionOptions, rng: &mut Rng) -> Self {
-        Self { equations, mix: SMatrix::from_fn(|_, _| rng.normal()), turn: options.turn }
+        let mix = SMatrix::from_fn(|_, _| rng.normal());
+        Self { equations, mix, turn: options.turn, multiple: false }
+    }
+
+    /// For curves of zeros of higher multiplicity.
+    pub(super) fn of_multiple_curve(self) -> Self {
+        Self { multiple: true, ..self }
+    }
+
+    /// Number of zero singular values at a point.
+    pub(super) fn corank(&self, y: &Point<f64>) -> usize {
+        let s = decomposed(&self.jacobian(y)).s;
+        s.iter().filter(|x| **x <= DROPPED * s[0]).count()
+    }
+
+    /// Singular values of the equations at a point, largest first.
+    pub(super) fn singular_values(&self, y: &Point<f64>) -> [f64; 8] {
+        decomposed(&self.jacobian(y)).s
     }
 
     /// Legs, `e.g`, `(e.e - 1) / 2`.
@@ -94,23 +120,6 @@ impl<'a> Tracer<'a> {
         ([d.right(6), d.right(7)], [d.left(6), d.left(7)])
     }
 
-    /// Dimension of the solutions near `y`, and the singular values at `y`.
-    ///
-    /// The number of zero singular values at a point of the curve a small step away: at a crossing there are more than the dimension.
-    pub(super) fn dimension(&self, start: &Point<f64>) -> (usize, [f64; 8]) {
-        let y = self.improved(start, 6).unwrap_or(*start);
-        let here = decomposed(&self.jacobian(&y));
-        let zeros = |d: &Decomposed| d.s.iter().filter(|s| **s <= ZERO * d.s[0]).count();
-        let values = here.s;
-        let mut least = zeros(&here);
-        for k in 8 - least..8 {
-            let next = y + here.right(k) * 1e-2;
-            let moved = self.improved(&next, 8 - least.max(1));
-            least = least.min(moved.map_or(0, |z| zeros(&decomposed(&self.jacobian(&z)))));
-        }
-        (least, values)
-    }
-
     /// Gauss-Newton corrections by the first `rank` singular values; `None` when they do not settle.
     fn improved(&self, start: &Point<f64>, rank: usize) -> Option<Point<f64>> {
         let mut y = *start;
@@ -132,7 +141,10 @@ impl<'a> Tracer<'a> {
     }
 
     /// The point of the curve near `start`, its tangent along `direction`.
-    fn settle(&self, start: &Point<f64>, direction: &Point<f64>) -> Option<OnCurve> {
+    pub(super) fn settle(&self, start: &Point<f64>, direction: &Point<f64>) -> Option<OnCurve> {
+        if self.multiple {
+            return self.settle_multiple(start, direction);
+        }
         let y = self.improved(start, 7)?;
         let d = decomposed(&self.jacobian(&y));
         let mut tangent = d.right(7);
@@ -143,6 +155,50 @@ impl<'a> Tracer<'a> {
         square.fixed_view_mut::<7, 8>(0, 0).copy_from(&(self.mix * self.jacobian(&y)));
         square.set_row(7, &tangent.transpose());
         Some(OnCurve { y, tangent, gap: d.s[6] / d.s[0], orientation: square.determinant() })
+    }
+
+    /// The same on a curve of zeros of higher multiplicity: the tangent is the difference of two points of the curve.
+    fn settle_multiple(&self, start: &Point<f64>, direction: &Point<f64>) -> Option<OnCurve> {
+        let y = self.in_plane(start, direction)?;
+        let ahead = self.in_plane(&(y + direction * ASIDE), direction)?;
+        let behind = self.in_plane(&(y - direction * ASIDE), direction)?;
+        let tangent = (ahead - behind).normalize();
+        let s = self.singular_values(&y);
+        let gap = s.iter().rev().find(|x| **x > DROPPED * s[0]).map_or(0.0, |x| x / s[0]);
+        Some(OnCurve { y, tangent, gap, orientation: 1.0 })
+    }
+
+    /// The zero of the equations near `start` in the plane through it orthogonal to `normal`. Every step halves the error at multiple zeros.
+    fn in_plane(&self, start: &Point<f64>, normal: &Point<f64>) -> Option<Point<f64>> {
+        let mut y = *start;
+        let mut best = (f64::INFINITY, y);
+        let mut waited = 0;
+        for _ in 0..60 {
+            let mut rows = SMatrix::<f64, 9, 8>::zeros();
+            let mut values = SVector::<f64, 9>::zeros();
+            rows.fixed_view_mut::<8, 8>(0, 0).copy_from(&self.jacobian(&y));
+            rows.set_row(8, &normal.transpose());
+            values.fixed_rows_mut::<8>(0).copy_from(&self.values(&y));
+            values[8] = normal.dot(&(y - start));
+            let residual = values.norm();
+            if residual < 0.7 * best.0 {
+                (best, waited) = ((residual, y), 0);
+            } else {
+                waited += 1;
+            }
+            if residual <= 0.1 * RESIDUAL || waited > 3 {
+                break;
+            }
+            let d = bounded_svd(&rows)?;
+            let (u, v_t) = (d.u?, d.v_t?);
+            for k in 0..8 {
+                let s = d.singular_values[k];
+                if s > ZERO * d.singular_values[0] {
+                    y -= v_t.row(k).transpose() * (u.column(k).dot(&values) / s);
+                }
+            }
+        }
+        (best.0 <= MULTIPLE_RESIDUAL).then_some(best.1)
     }
 
     /// Follows the curve until `stop` says how it ends, or it is closed, stuck, or `most` points long.
@@ -294,6 +350,19 @@ impl<'a> Web<'a> {
         if !self.is_known(&here) {
             self.trace(here);
         }
+    }
+
+    /// Follows the curve through a pose in a direction, unless it is known.
+    pub(super) fn follow_towards(&mut self, start: &Point<f64>, direction: &Point<f64>) {
+        let here = self.tracer.settle(start, &direction.normalize());
+        if let Some(here) = here.filter(|here| !self.is_known(here)) {
+            self.trace(here);
+        }
+    }
+
+    /// Notes a pose at which curves meet.
+    pub(super) fn note_crossing(&mut self, y: Point<f64>) {
+        self.crossing_at(y);
     }
 
     /// Follows one curve and then those that cross it.

@@ -23,7 +23,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::{Answer, document};
 use crate::cli::poses;
-use crate::cli::progress::{Interrupt, ProgressLine};
+use crate::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::cli::requirements;
 use crate::design::{Design, DriveTable};
 use crate::entrance::exporting::octahedral_of_controllers;
@@ -62,6 +62,9 @@ pub(crate) struct Args {
     /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could win, as `optimize --drives` does, in place of that of the design (`drives` in `[hardware]`). Of octahedral designs
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
+    /// End the search after so many seconds, as Ctrl-C does: the folder has the best platform until then. Of octahedral designs
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
+    time_limit: Option<TimeLimit>,
 }
 
 /// The verification with its plan.
@@ -278,6 +281,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
         let why = "no platform is searched under the requirements of a design that is not octahedral";
         context.no_effect("drives", why)?;
+        context.no_effect("time_limit", why)?;
         optimize::refuse_drives(&design, why)?;
         if design.holes.is_some() {
             let message =
@@ -293,6 +297,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         )?;
         return general::run(args, &design, context);
     };
+    optimize::refuse_singular_home(&design, args.extension, "explore::singular_home")?;
     search::refuse_front(&design)?;
     search::refuse_options(&design, args.drives.is_some(), context)?;
     if design.holes.is_some() {
@@ -325,7 +330,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     )?;
 
     progress.stage(2, "the best platform");
-    let interrupt = Interrupt::watch();
+    let interrupt = Interrupt::watch_for(args.time_limit);
     let asked = Asked {
         design: &design,
         octahedral: &octahedral,

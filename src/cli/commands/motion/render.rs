@@ -8,7 +8,8 @@ use crate::cli::table::{column_unit, csv_line, number};
 use crate::design::Design;
 use crate::entrance::MotionReport;
 use crate::records::{
-    CrankMotionRecord, ExtremeRecord, MotionAnswer, MotionRunRecord, StiffnessRecord, TimedMarginRecord,
+    CrankMotionRecord, ExtremeRecord, MotionAnswer, MotionRegularity, MotionRunRecord, StiffnessRecord,
+    TimedMarginRecord,
 };
 
 /// The sentence, and for each motion a table of legs and one of requirements.
@@ -51,6 +52,9 @@ fn sentence(answer: &MotionAnswer) -> String {
     let mut all: Vec<&str> = answer.motions.iter().flat_map(missed).collect();
     all.sort_unstable();
     all.dedup();
+    if all == ["singularity"] {
+        return "passes a singular pose".into();
+    }
     if !all.is_empty() {
         return format!("exceeds its limits: {}", all.join(", "));
     }
@@ -92,12 +96,23 @@ fn legs(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord) {
         (leg.leg, cells)
     });
     table(out, "leg", &titles, rows);
-    if let Some(time) = motion.singular_at_s {
+    singular(out, motion);
+}
+
+/// The singular pose of a motion, or what is known of its absence.
+fn singular(out: &mut String, motion: &MotionRunRecord) {
+    let parts = (motion.singular_at_s, &motion.singular_pose, motion.singular_evidence);
+    if let (Some(time), Some(pose), Some(evidence)) = parts {
+        let what = if motion.cranks.is_some() { "pose or a crank" } else { "pose" };
         let _ = writeln!(
             out,
-            "At {} s the pose is singular: no forces of the legs give this motion.",
-            short(time)
+            "At {} s the {what} is singular: {}. The drives cannot hold the platform at {}.",
+            short(time),
+            evidence.sentence(),
+            pose.short()
         );
+    } else if motion.regularity == MotionRegularity::Proved {
+        out.push_str("No pose of the motion is singular: proved, between the instants too.\n");
     }
 }
 
@@ -156,13 +171,7 @@ fn cranks(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord, lis
     if let Some(time) = motion.unreached_at_s {
         let _ = writeln!(out, "At {} s a rod does not reach from its crank to the platform.", short(time));
     }
-    if let Some(time) = motion.singular_at_s {
-        let _ = writeln!(
-            out,
-            "At {} s the pose or a crank is singular: no torques of the cranks give this motion.",
-            short(time)
-        );
-    }
+    singular(out, motion);
 }
 
 fn stiffness(out: &mut String, answer: &MotionAnswer, found: &StiffnessRecord) {

@@ -99,7 +99,7 @@ pub(crate) fn run(args: &Args, context: &Context) -> Result<Answer, Failure> {
         (None, None) => (from_sizes(&sizes(args)?, &args.name, units.unwrap_or(UNIT))?, None),
     };
     let output = args.output.clone().or(asked_output);
-    finish(made, output.as_ref())
+    finish(made, output.as_ref(), context)
 }
 
 fn nothing_given(args: &Args) -> bool {
@@ -245,7 +245,7 @@ fn from_table(args: &Args, path: &std::path::Path, context: &Context) -> Result<
 }
 
 /// Adds the lengths at home, and writes the file.
-fn finish(made: Made, output: Option<&OutputPath>) -> Result<Answer, Failure> {
+fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<Answer, Failure> {
     let Made { mut design, toml, guesses } = made;
     let home = design.home_or_default();
     let mut lengths =
@@ -259,6 +259,10 @@ fn finish(made: Made, output: Option<&OutputPath>) -> Result<Answer, Failure> {
         design.lengths = home.lengths(design.manipulator());
         toml = with_lengths(&toml, lengths);
         singular = Architecture::of(design.manipulator()).is_singular() == Some(true);
+    }
+    let singular_home = design.singular_at(&home);
+    if let Some(found) = &singular_home {
+        context.note(&format!("{found}. Choose another height, turn or size."));
     }
     let (file, text) = match output {
         None => (PresetFile::Given { text: toml.clone() }, toml),
@@ -279,9 +283,11 @@ fn finish(made: Made, output: Option<&OutputPath>) -> Result<Answer, Failure> {
         home: (&home).into(),
         lengths,
         architecturally_singular: singular,
+        singular_home: singular_home.map(|home| home.evidence.into()),
         guesses,
     };
-    Ok(Answer::new(Exit::Yes, answer, text))
+    let exit = if singular_home.is_none() { Exit::Yes } else { Exit::No };
+    Ok(Answer::new(exit, answer, text))
 }
 
 fn summary(path: &str, design: &Design, home: &Pose, lengths: [f64; 6], singular: bool) -> String {

@@ -20,7 +20,8 @@ use crate::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::design::{Combination, Design};
 use crate::dimensional::InvalidProblem;
 use crate::entrance::optimizing::{
-    Checked, EXTENSION, asks_for_more, checked_offsets, dimensional_problem, offset_problem, offset_status,
+    Checked, EXTENSION, asks_for_more, checked_offsets, dimensional_problem, hopeless_home, offset_problem,
+    offset_status,
 };
 use crate::manipulator::Octahedral;
 use crate::offsets::{self, OffsetProblem, OffsetReport, OffsetSearchOptions, OffsetSolution, optimize};
@@ -86,6 +87,7 @@ pub(super) fn workers(asked: Option<u16>) -> usize {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
+    refuse_singular_home(&design, args.extension, "optimize::singular_home")?;
     // lengths of drives are requirements
     if asks_for_more(&design) || args.drives.is_some() || design.drive_table.is_some() {
         let why = "no bound over all offsets is proved for a design that asks for more than the best offsets";
@@ -153,6 +155,15 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 fn answered(design: &Design, record: OptimizeAnswer, context: &Context) -> Answer {
     let text = if context.json() { String::new() } else { render::text(&design.name, &record) };
     Answer::new(exit_of(record.status), record, text)
+}
+
+/// Ends a search at once whose home pose is singular for every platform that it could find: exit 1.
+pub(super) fn refuse_singular_home(design: &Design, extension: f64, code: &str) -> Result<(), Failure> {
+    let Some(home) = hopeless_home(design, extension) else { return Ok(()) };
+    let message = format!("{home}, and no equivalent platform holds it");
+    Err(Failure::new(Exit::No, code, message).with_help(
+        "state another pose in [home], for example a turn about the vertical axis, or let the search choose the triangles or the height of home",
+    ))
 }
 
 /// Refuses `--extension` in a search under requirements that does not ask it.

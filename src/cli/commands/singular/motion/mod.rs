@@ -64,8 +64,8 @@ struct Found {
     /// The pose given.
     start: Option<Pose>,
     squares: SquaredLegLengths,
-    /// Of the curves; also where no real pose is on them.
-    dimension: usize,
+    /// Of the motion through the pose, or of the poses with the lengths, also where no real pose is on them; `None` undecided.
+    dimension: Option<usize>,
     motion: SelfMotion,
     /// Of each curve.
     degrees: Vec<Option<CurveDegree>>,
@@ -115,7 +115,7 @@ fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, Found),
     let given: Vec<Pose> = start.into_iter().collect();
     let mut motion = self_motion(m, &squares, &given, &options);
     let mut starts: Vec<(Pose, OriginWord)> = given.iter().map(|p| (*p, OriginWord::Pose)).collect();
-    let mut dimension = motion.dimension;
+    let mut dimension = motion.dimension();
     let (mut critical, mut accounted) = (None, None);
     if start.is_none() && args.sections == 0 {
         let message =
@@ -125,9 +125,9 @@ fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, Found),
         );
     }
     let searches = args.sections;
-    if searches > 0 && (start.is_none() || dimension == 1) {
+    if searches > 0 && (start.is_none() || dimension == Some(1)) {
         let sections = sections(m, &squares, searches, context.seed())?;
-        dimension = if start.is_none() { sections.dimension } else { dimension };
+        dimension = if start.is_none() { Some(sections.dimension) } else { dimension };
         if sections.dimension == 1 {
             let real = sections.points.iter().filter(|r| r.reality == Reality::Real);
             starts.extend(real.map(|r| (r.pose.real_part(), OriginWord::Section)));
@@ -141,7 +141,9 @@ fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, Found),
             // surfaces are not followed: a real pose on each real component that was met has to do
             let real = sections.points.iter().filter(|r| r.reality == Reality::Real);
             starts.extend(real.map(|r| (r.pose.real_part(), OriginWord::Search)));
-            accounted = Some(start.is_none() && sections.dimension == 0 && sections.established);
+            // no search counts the components of a surface
+            let counted = sections.dimension == 0 || start.is_some();
+            accounted = counted.then_some(start.is_none() && sections.established);
         }
         let all: Vec<Pose> = starts.iter().map(|s| s.0).collect();
         motion = self_motion(m, &squares, &all, &options);
@@ -152,13 +154,14 @@ fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, Found),
     });
     let degrees = degrees.collect();
     let whole = motion.curves.iter().all(|c| matches!(c.end, CurveEnd::Closed | CurveEnd::Joined));
-    accounted = accounted.map(|a| a && whole);
+    let followed = dimension != Some(1) || starts.is_empty() || motion.dimension() == Some(1);
+    accounted = accounted.map(|a| a && whole && followed);
     let exit = match dimension {
-        0 if start.is_some() || accounted == Some(true) => Exit::No,
-        1 if whole && !motion.curves.is_empty() => Exit::Yes,
-        1 if accounted == Some(true) => Exit::No,
+        Some(0) if start.is_some() || accounted == Some(true) => Exit::No,
+        Some(1) if whole && !motion.curves.is_empty() && accounted != Some(false) => Exit::Yes,
+        Some(1) if start.is_none() && accounted == Some(true) => Exit::No,
         // it moves, over a surface or more
-        d if d > 1 && start.is_none() && !starts.is_empty() => Exit::Yes,
+        Some(d) if d > 1 && !starts.is_empty() => Exit::Yes,
         _ => Exit::Inconclusive,
     };
     let origins = starts.iter().map(|s| s.1).collect();

@@ -8,8 +8,8 @@ use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::records::{
-    CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, MotionCurveRecord, Number, OriginWord,
-    PoseQuaternionRecord, SelfmotionAnswer,
+    CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, IsolatedRecord, MotionCurveRecord,
+    MotionEvidenceWord, Number, OriginWord, PoseQuaternionRecord, SelfmotionAnswer,
 };
 
 /// The answer.
@@ -17,10 +17,15 @@ pub(super) fn answer(design: &Design, found: &Found) -> Answer {
     let motion = &found.motion;
     let critical = found.critical.as_ref();
     let curves = motion.curves.iter().zip(&found.degrees);
+    // with lengths alone the first pose is one of several found
+    let at = motion.at_pose.as_ref().filter(|_| found.start.is_some());
     let record = SelfmotionAnswer {
         name: design.name.clone(),
         units: design.units.clone(),
         dimension: found.dimension,
+        evidence: at.map_or(MotionEvidenceWord::Sections, |at| at.verdict.into()),
+        tangent_dimension: at.map(|at| at.tangent_dimension),
+        isolated: at.and_then(|at| IsolatedRecord::of(at.verdict)),
         start: found.start.as_ref().map(PoseQuaternionRecord::from),
         lengths: found.squares.lengths().get().map(Number),
         singular_values: motion.singular_values.map(Number),
@@ -42,35 +47,10 @@ pub(super) fn answer(design: &Design, found: &Found) -> Answer {
 
 fn text(r: &SelfmotionAnswer) -> String {
     let mut out = format!("{}\n", r.name);
-    match r.dimension {
-        0 if r.start.is_none() => {
-            let _ = writeln!(out, "no curve of poses with these lengths was found");
-        }
-        0 => {
-            let _ = writeln!(
-                out,
-                "no self-motion at this pose: the smallest singular value of the leg equations is {:.1e} of the largest",
-                r.singular_values[7].0 / r.singular_values[0].0
-            );
-        }
-        1 if r.curves.is_empty() => {
-            let _ = writeln!(
-                out,
-                "the complex poses with these lengths form curves; no real pose on them was found"
-            );
-        }
-        1 => {}
-        d => {
-            let _ = writeln!(out, "the platform has {d} freedoms: no curve was followed");
-        }
-    }
-    if r.dimension > 1 && r.start.is_none() {
+    let _ = writeln!(out, "{}", verdict(r));
+    if let (Some(d), None) = (r.dimension.filter(|d| *d > 1), &r.start) {
         let count = r.real_poses.len();
-        let _ = writeln!(
-            out,
-            "real poses found on the set of dimension {}: {count}; it was not followed",
-            r.dimension
-        );
+        let _ = writeln!(out, "real poses found on the set of dimension {d}: {count}; it was not followed");
         for pose in &r.real_poses {
             let (p, q) = (pose.position.map(|x| x.0), pose.quaternion.map(|x| x.0));
             let _ = writeln!(out, "  p = {}  q = {}", listed(p, 6), listed(q, 6));
@@ -118,9 +98,54 @@ fn text(r: &SelfmotionAnswer) -> String {
     match r.components_accounted {
         Some(true) => out.push_str("every real component is accounted for (numerically, no proof)\n"),
         Some(false) => out.push_str("real components may be missing\n"),
+        None if r.dimension.is_some_and(|d| d > 1) => {
+            out.push_str("no curve was followed: the poses form a surface or more\n");
+        }
         None => {}
     }
     out
+}
+
+/// Whether the platform moves, and what shows it.
+fn verdict(r: &SelfmotionAnswer) -> String {
+    let freedoms = |d: usize| if d == 1 { "1 freedom".to_string() } else { format!("{d} freedoms") };
+    let first = r.tangent_dimension.unwrap_or(0);
+    match (r.dimension, r.evidence) {
+        (Some(0), MotionEvidenceWord::FirstOrder) => format!(
+            "no self-motion at this pose: proved, the six leg lines are independent (singular values {:.1e} to 1)",
+            r.singular_values[7].0 / r.singular_values[0].0
+        ),
+        (Some(0), MotionEvidenceWord::SecondOrder) => {
+            let [radius, within] = r.isolated.map_or([0.0; 2], |i| [i.radius.0, i.within.0]);
+            format!(
+                "no self-motion at this pose: proved to second order. The leg lines leave {}, and the legs stop it.\n\
+                 every pose with these lengths within {radius:.1e} of the pose lies within {within:.1e} of it (sizes and radians)",
+                freedoms(first)
+            )
+        }
+        (Some(0), _) => "no curve of poses with these lengths was found".to_string(),
+        (Some(d), MotionEvidenceWord::ConstantRank) => format!(
+            "the platform moves at this pose with {}: proved, the leg lines have rank {} at all poses around it",
+            freedoms(d),
+            6 - d
+        ),
+        (Some(d), MotionEvidenceWord::Traced) => {
+            let stretch = "found by tracing, no proof";
+            format!(
+                "the platform moves at this pose with {}: {stretch}; the leg lines leave {first}",
+                freedoms(d)
+            )
+        }
+        (Some(1), _) if r.curves.is_empty() => {
+            "the complex poses with these lengths form curves; no real pose on them was found".to_string()
+        }
+        (Some(1), _) => "poses with these lengths form curves".to_string(),
+        (Some(d), _) => format!("poses with these lengths form a set of dimension {d}"),
+        (None, _) => format!(
+            "undecided: the leg lines leave {} at this pose. Tracing found no motion, and no argument of second order excludes one",
+            freedoms(first)
+        ),
+    }
 }
 
 /// Starting poses beside the one given.
