@@ -105,7 +105,8 @@ fn a_design_that_requires_nothing_is_told_so() {
 #[test]
 fn a_worst_pose_that_searches_miss_is_found_by_cells() {
     let path = "tests/fixtures/adversarial/REP_assess.toml";
-    let out = equipod(&["assess", path, "--points", "0", "--searches", "0", "--cells", "1500", "--json"]);
+    let cells = size("700", "1500");
+    let out = equipod(&["assess", path, "--points", "0", "--searches", "0", "--cells", cells, "--json"]);
     let doc = document(&out);
     assert_eq!((out.status.code(), doc["met"].as_bool()), (Some(1), Some(false)), "{doc}");
     let margins = doc["requirements"].as_array().unwrap();

@@ -11,8 +11,6 @@ use nalgebra::{Point3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::cli_frame::{document, equipod};
 
-use super::evidence::size;
-
 type Joints = [Point3<f64>; 6];
 
 /// Multiples of 1/64: halves, sums and squares are exact.
@@ -96,8 +94,9 @@ fn special_platforms_of_exact_joints_are_complete_modulo_primes() {
 
 /// The same with joints rounded after a turn: a general platform as written, with 24 more poses far out. Whatever is found of them, the answer says what is missing.
 #[test]
+#[ignore = "evidence"]
 fn rounded_special_platforms_are_not_called_complete_with_the_poses_of_the_exact_ones() {
-    for seed in 0..size(1, 4) {
+    for seed in 0..4 {
         let rng = &mut Rng::stream(0x52, seed);
         let (base, turn) = (joints(rng, true), random_rotation(rng));
         let m = platform(base, base.map(|p| turn * (p * 2.0)));
