@@ -116,7 +116,7 @@ fn a_rounding_that_meets_no_requirement_is_a_no() {
     let folder = tempfile::tempdir().unwrap();
     let path = crowded(folder.path());
     let out = folder.path().join("rounded.toml");
-    let (code, doc) = round(&[&path, "--grid", "0.25", "--trials", "10", "-o", out.to_str().unwrap()]);
+    let (code, doc) = round(&[&path, "--grid", "0.25", "-o", out.to_str().unwrap()]);
     assert_eq!((code, &doc["chosen"]), (Some(1), &Value::Null));
     // the one that misses the least is written all the same, and its violations stand first
     let way = doc["least_missed"].as_str().unwrap();
