@@ -173,7 +173,7 @@ mod tests {
     use super::*;
 
     #[test]
-    #[ignore = "slow evidence"]
+    #[ignore = "evidence"]
     fn names_read_back_and_streams_differ() {
         for (i, c) in Class::ALL.into_iter().enumerate() {
             assert_eq!(Class::from_name(&c.name()), Some(c));

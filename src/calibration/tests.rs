@@ -86,7 +86,7 @@ fn a_start_without_the_design_needs_no_design() {
 
 /// Over many seeds, errors are as large as the covariance says, and residuals as the noise says.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn errors_agree_with_the_covariance() {
     let seeds = 40;
     for (noise, given) in [(LASER, true), (ENCODERS, true), (ENCODERS, false)] {
@@ -118,7 +118,7 @@ fn errors_agree_with_the_covariance() {
 
 /// Poses computed with calibrated machines from exact lengths are as far from the truth as the covariance says, correlations included.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn computed_poses_are_as_uncertain_as_they_are_said_to_be() {
     let seeds = 60;
     let (mut found_squares, mut said, mut independent) = ([0.0; 2], [0.0; 2], 0.0);
@@ -216,7 +216,7 @@ fn too_few_measurements_are_an_outcome() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn gross_errors_are_found_and_hardly_matter() {
     let mut rng = Rng::new(21);
     let truth = built(&nominal(), 1.0, 2.0, &mut rng);

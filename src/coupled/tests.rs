@@ -145,7 +145,7 @@ impl Built {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn drives_are_as_long_as_those_of_simulated_chains() {
     let mut rng = Rng::new(71);
     for offsets in [[0.0, 0.0], [0.4, 0.0], [0.0, 0.3], [0.5, 0.35]] {

@@ -142,7 +142,7 @@ fn plates() -> Plates {
 
 /// The least item of each kind of plates is the margin that `assess` has, and below zero where that is; its gradient is that of differences for legs beside and inside plates.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn holes_and_plates_are_those_of_the_margins() {
     let mut p = crowded(&[VariableKind::Offsets, VariableKind::Triangles], JointAxes::Home);
     p.requirements.plates = plates();
@@ -323,7 +323,7 @@ fn stiffness_and_frequency_are_those_of_the_margins() {
 
 /// The widest joints vibrate more slowly than they need to: a frequency between that and the highest one is met at the price of room, and more than the highest one is in conflict.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_least_frequency_is_obeyed_and_the_greatest_one_is_sought() {
     let mut p = crowded(&[VariableKind::SymmetricOffsets, VariableKind::HomeHeight], JointAxes::Home);
     let own = p.requirements.clone();
@@ -458,7 +458,7 @@ fn height_of_least_stroke_is_the_one_on_paper() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
     let mut p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
     p.requirements.hardware.leg_body = Some(LegBody { diameter: 20.0, rod: None });
@@ -496,7 +496,7 @@ fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_body_with_a_fixed_joint_keeps_its_triangle() {
     let kinds = [VariableKind::SymmetricOffsets, VariableKind::TriangleSizes];
     let ends = |p: &DimensionalProblem| {
@@ -519,7 +519,7 @@ fn a_body_with_a_fixed_joint_keeps_its_triangle() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn units_and_frames_do_not_change_the_answer() {
     let p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
     let value = |p: &DimensionalProblem| {

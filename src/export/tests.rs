@@ -574,7 +574,7 @@ fn names_cannot_break_out_of_a_file() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_same_design_gives_the_same_bytes_and_every_file_says_its_unit() {
     for format in ExportFormat::ALL.map(ExportFormat::writer) {
         let (one, two) = (export(OCTAHEDRAL), export(OCTAHEDRAL));

@@ -92,7 +92,7 @@ mod tests {
 
     /// The number of real poses by the polynomial is that of the certificates, which know nothing of each other.
     #[test]
-    #[ignore = "slow evidence"]
+    #[ignore = "evidence"]
     fn real_poses_of_all_thirty_topologies_are_those_the_certificates_found() {
         let mut rng = Rng::new(11);
         for n in catalogue() {

@@ -74,7 +74,7 @@ mod tests {
     use nalgebra::{Point3, Vector3};
 
     #[test]
-    #[ignore = "slow evidence"]
+    #[ignore = "evidence"]
     fn a_corrupted_entry_gives_no_complete_set_and_no_false_root() {
         let mut rng = Rng::new(5);
         let legs = std::array::from_fn(|_| {

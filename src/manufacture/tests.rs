@@ -86,7 +86,7 @@ fn the_first_order_is_the_derivative_of_what_is_solved_and_the_rest_is_quadratic
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_shared_joint_is_one_joint_with_one_error() {
     let m = octahedral();
     let (legs, pose) = (m.legs(), home());
@@ -114,7 +114,7 @@ fn a_shared_joint_is_one_joint_with_one_error() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn errors_in_the_budget_keep_the_bound_and_half_as_much_again_in_the_worst_way_breaks_it() {
     for m in [octahedral(), free()] {
         let b = found(&m);
@@ -252,7 +252,7 @@ fn a_workspace_with_singular_poses_has_no_budget() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn same_input_same_budget() {
     assert_eq!(found(&free()), found(&free()));
 }

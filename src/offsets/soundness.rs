@@ -134,7 +134,7 @@ fn around(t: &[f64; 6], rng: &mut Rng) -> OffsetRanges {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn offsets_that_meet_the_limits_exactly_are_in_a_box_and_in_no_excluded_one() {
     let mut rng = Rng::new(41);
     for n in 0..60 {

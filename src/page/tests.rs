@@ -305,7 +305,7 @@ fn the_nearest_mode_of_given_lengths_is_the_pose_they_come_from() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn requirements_over_the_workspace_are_those_of_assess() {
     for text in [OCTAHEDRAL, PRESETS[0].text, GENERAL] {
         let session = session(text);

@@ -118,7 +118,7 @@ fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose, ways: usi
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_free_part_of_a_way_is_that_of_a_fine_search() {
     let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
@@ -217,7 +217,7 @@ fn is_locally_nearest(reach: &Reach<'_>, asked: &Pose, found: &Pose, rng: &mut R
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_nearest_pose_meets_the_limits_and_nothing_allowed_beside_it_is_nearer() {
     let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);

@@ -130,7 +130,7 @@ fn speeds_are_derivatives_and_torques_do_the_work_of_the_load() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn reachy_mini_has_sixteen_real_poses_at_home_and_the_nearest_wrong_one_is_turned_by_a_hundred_degrees() {
     let m = reachy_mini();
     let angles = m.ik(&home()).unwrap();

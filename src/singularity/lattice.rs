@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "slow evidence"]
+    #[ignore = "evidence"]
     fn the_determinants_of_all_planar_designs_span_55_dimensions() {
         assert_eq!(dimension_of_the_determinants::<80>(true), 55);
     }

@@ -570,7 +570,7 @@ mod tests {
 
     /// Dietmaier's result from a platform drawn at random: all 40 poses are real.
     #[test]
-    #[ignore = "slow evidence"]
+    #[ignore = "evidence"]
     fn a_general_platform_is_led_to_forty_real_poses() {
         let reached = (0..12).any(|k| {
             let mut rng = Rng::stream(40, k);

@@ -61,7 +61,7 @@ fn figures_are_those_of_the_design_that_the_candidate_is() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_candidate_with_a_drive_is_judged_by_its_limits() {
     let table = b"name,stroke,dead_length,force,price_EUR\nshort,1,12,1e6,50\nlong,30,1,1e6,90\n";
     let base = BasePlan::new(PlanText { text: OCTAHEDRAL, format: Format::Toml }).unwrap();
@@ -223,7 +223,7 @@ fn margins_have_a_column_for_each_kind_of_requirement() {
 
 /// det J of an equivalent platform is that of the original times det A: the same poses are singular, and the two bounds hold one number for all candidates.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn equivalent_platforms_have_one_region_without_singular_poses_and_tolerances_of_their_own() {
     let sweep = sweep_of(
         OCTAHEDRAL,

@@ -1,10 +1,18 @@
-"""`equipod design schema`: shipped designs against their schema, and all schemas against that of JSON Schema, by a validator that is not ours."""
+"""`equipod design schema`: shipped designs and answers of all commands against their schemas, by a validator that is not ours.
+
+    python tests/exports/schemas.py PROGRAM
+"""
 
 import json
+import pathlib
+import re
 import subprocess
+import sys
+import tempfile
 import tomllib
 
-from common import module, report, run
+from answers import answers
+from common import failed, missing, module, passed, report, run
 
 
 def complaints(validator, document):
@@ -75,6 +83,28 @@ def check_designs(program, folder, root, validator):
         report(f"schema of designs: {'.'.join(map(str, path))} = {value} is refused by schema and program", bool(complaints(validator, bad)) and ours == 2)
 
 
+def closed(schema):
+    """The schema with a fault for every key that it does not name."""
+    if isinstance(schema, list):
+        return [closed(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    out = {key: closed(part) for key, part in schema.items()}
+
+    def shut(part):
+        return {**part, "unevaluatedProperties": False} if isinstance(part, dict) else part
+
+    for key in ("properties", "patternProperties"):
+        if isinstance(out.get(key), dict):
+            out[key] = {name: shut(part) for name, part in out[key].items()}
+    if "prefixItems" in out:
+        out["prefixItems"] = [shut(part) for part in out["prefixItems"]]
+    for key in ("items", "additionalProperties"):
+        if key in out:
+            out[key] = shut(out[key])
+    return out
+
+
 def check_schemas(program, folder, root):
     if module("jsonschema") is None:
         return
@@ -83,18 +113,32 @@ def check_schemas(program, folder, root):
         schema = json.loads(run(program, "design", "schema", name))
         Draft202012Validator.check_schema(schema)
         return Draft202012Validator(schema)
+    def answer_of(name):
+        schema = closed(schema_of(name).schema)
+        return Draft202012Validator({**schema, "unevaluatedProperties": False})
     folder.mkdir(exist_ok=True)
     check_designs(program, folder, root, schema_of("design"))
-    check_answers(program, root, schema_of)
+    check_answers(program, folder, root, answer_of)
 
 
-def check_answers(program, root, schema_of):
-    """One answer each of some commands: tests/it/answers has all of them, with a validator of its own that this one is compared with."""
-    octahedral = root / "designs/rbt-octahedral.toml"
-    for name, *args in (("fk", octahedral), ("check", octahedral), ("optimize", octahedral), ("design-presets",)):
-        answer = json.loads(run(program, *name.split("-"), *args, "--json"))
-        validator = schema_of(name)
-        why = complaints(validator, answer)
-        report(f"schema of answers: {name}", not why, "; ".join(why[:2]))
-        lacking = without(answer, ["provenance", "version"])
-        report(f"schema of answers: {name} without the version is refused", bool(complaints(validator, lacking)))
+def check_answers(program, folder, root, schema_of):
+    refusal = subprocess.run([program, "design", "schema", "nothing"], capture_output=True, text=True).stderr
+    known = set(re.search(r"\[possible values: (.*?)\]", refusal, re.S)[1].replace(",", " ").split()) - {"design"}
+    validators = {name: schema_of(name) for name in known}
+    asked = set()
+    for call, code, found, name, text in answers(program, root, folder):
+        answer = json.loads(text)
+        why = complaints(validators[name], answer)
+        report(f"answer of {call}", not why and found == code, f"exit {found}, not {code} " * (found != code) + "; ".join(why[:2]))
+        if name not in asked:
+            asked.add(name)
+            faults = [without(answer, ["provenance", "version"]), changed(answer, ["no such key"], 1), changed(answer, ["warnings"], True)]
+            report(f"schema of {name}: planted faults are found", all(complaints(validators[name], fault) for fault in faults))
+    report("every schema of an answer has a call", asked == known, " ".join(sorted(asked ^ known)))
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as scratch:
+        check_schemas(str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(scratch), pathlib.Path(__file__).resolve().parents[2])
+    print(f"{len(passed)} checks passed, {len(failed)} failed")
+    sys.exit(bool(failed or missing))

@@ -7,6 +7,8 @@ use equipod::methods::fk::{
 use equipod::methods::manipulator::{Manipulator, SquaredLegLengths};
 use equipod::methods::topology::catalogue;
 
+use super::evidence::size;
+
 fn plan(class: Class, count: u64) -> Plan {
     let lengths = if class.allows_uniform_lengths() { LengthsFrom::Uniform } else { LengthsFrom::Pose };
     Plan { class, lengths, count, first: 0, seed: 1, threads: 2, count_poses: false, recheck_every: 10 }
@@ -45,16 +47,17 @@ fn the_classes_of_martyushev_are_complete() {
         (Class::PlanarBase, 40),
         (Class::BothPlanar, 40),
     ] {
-        let report = short(class, 100);
+        let count = size(30, 100);
+        let report = short(class, count);
         assert_eq!(report.expected, poses, "{class}");
         assert!(report.passed(), "{class}: {:?}", report.failures);
-        assert_eq!((report.complete, report.rechecked), (100, 10), "{class}");
+        assert_eq!((report.complete, report.rechecked), (count, count / 10), "{class}");
         assert!(report.worst_residual < 1e-12 && report.epsilon.max < -9.0, "{class}");
     }
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn special_classes_are_complete() {
     for (class, poses) in [
         (Class::TiltedPlanes, 40),
@@ -78,7 +81,7 @@ fn special_classes_are_complete() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn topologies_are_complete() {
     for named in catalogue() {
         let report = short(Class::Topology { topology: named, planar: Planar::Neither }, 10);

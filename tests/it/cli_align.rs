@@ -118,7 +118,7 @@ fn a_member_of_the_octahedral_class_in_other_frames_is_verified() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_joint_off_by_a_millionth_has_no_motion_and_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("b.json");
@@ -141,7 +141,7 @@ fn a_joint_off_by_a_millionth_has_no_motion_and_says_why() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn upside_down_is_found_with_exchange_and_mentioned_without() {
     let folder = tempfile::tempdir().unwrap();
     let (path, turned) = (folder.path().join("b.json"), folder.path().join("turned.json"));

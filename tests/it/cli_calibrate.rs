@@ -249,7 +249,7 @@ fn the_noise_is_estimated_and_frames_are_carried() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn what_cannot_be_said_is_an_outcome_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let rows = table();

@@ -82,7 +82,7 @@ fn the_cheapest_drive_that_fits_comes_first_and_its_design_is_accepted_by_assess
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_motion_asks_more_of_the_drives_than_the_workspace() {
     let folder = tempfile::tempdir().unwrap();
     let bench = &bench(folder.path());

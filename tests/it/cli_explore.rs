@@ -63,7 +63,7 @@ fn assert_well_formed(xml: &str) {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_folder_has_the_same_bytes_again_and_its_paths_are_printed() {
     let temp = tempfile::tempdir().unwrap();
     let (first, second) = (temp.path().join("a/b"), temp.path().join("c"));
@@ -84,6 +84,10 @@ fn the_folder_has_the_same_bytes_again_and_its_paths_are_printed() {
 fn the_folder_holds_designs_records_pictures_and_report() {
     let temp = tempfile::tempdir().unwrap();
     let first = temp.path().join("a/b");
+    // files of others, which the report of the run is not about
+    std::fs::create_dir_all(&first).unwrap();
+    std::fs::copy(shipped("dietmaier"), first.join("foreign.toml")).unwrap();
+    std::fs::File::create(first.join("huge.json")).unwrap().set_len(1 << 30).unwrap();
     let out = explore(&shipped("rbt-octahedral"), &first, &["--json"]);
     assert!(out.stderr.is_empty(), "no progress when nobody watches");
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
@@ -122,6 +126,8 @@ fn the_folder_holds_designs_records_pictures_and_report() {
     for needle in ["12-6: equivalent", "Leg map s'", "det A", "728 patterns", "16 finite poses, 12 real"] {
         assert!(report.contains(needle), "{needle}");
     }
+    let page = read(&first, "report.html");
+    assert!(!page.contains("foreign.toml") && !page.contains("huge.json") && page.contains("fk.json"));
     optimised_design_has_the_lengths_of_the_same_poses(&first);
 }
 
@@ -236,7 +242,7 @@ fn the_design_is_not_overwritten() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn an_interrupted_run_leaves_finished_files_only_and_does_not_disturb_the_next() {
     let temp = tempfile::tempdir().unwrap();
     let folder = temp.path();
@@ -266,7 +272,7 @@ fn an_interrupted_run_leaves_finished_files_only_and_does_not_disturb_the_next()
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_page_of_a_run_is_that_of_the_command_report() {
     let temp = tempfile::tempdir().unwrap();
     let out = temp.path().join("out");
@@ -298,21 +304,7 @@ fn the_page_of_a_run_is_that_of_the_command_report() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
-fn the_report_of_a_run_is_about_what_the_run_wrote() {
-    let temp = tempfile::tempdir().unwrap();
-    let out = temp.path().join("out");
-    std::fs::create_dir(&out).unwrap();
-    std::fs::copy(shipped("dietmaier"), out.join("foreign.toml")).unwrap();
-    std::fs::File::create(out.join("huge.json")).unwrap().set_len(1 << 30).unwrap();
-    let run = explore(&shipped("rbt-octahedral"), &out, &[]);
-    assert_eq!(run.status.code(), Some(0), "{run:?}");
-    let page = read(&out, "report.html");
-    assert!(!page.contains("foreign.toml") && !page.contains("huge.json") && page.contains("fk.json"));
-}
-
-#[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
     let temp = tempfile::tempdir().unwrap();
     let design = temp.path().join("limited.toml");
@@ -363,7 +355,7 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_platform_is_searched_with_the_drives_of_a_table() {
     let temp = tempfile::tempdir().unwrap();
     let (design, table) = (temp.path().join("limited.toml"), temp.path().join("struts.csv"));
@@ -393,7 +385,7 @@ fn with_tables(folder: &Path, design: &str, tables: &str) -> String {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_design_with_holes_becomes_a_machine_whose_joints_are_on_them() {
     let temp = tempfile::tempdir().unwrap();
     let holes = "[holes]\nbase = { pitch = 0.25 }\nplatform = { pitch = 0.5, origin = [0.125, 0] }\n";
@@ -425,7 +417,7 @@ fn a_design_with_holes_becomes_a_machine_whose_joints_are_on_them() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn holes_that_no_platform_fits_are_answered_with_no_and_why() {
     let temp = tempfile::tempdir().unwrap();
     let holes = "[holes]\nbase = { pitch = 30 }\nplatform = { pitch = 30 }\n";
@@ -441,7 +433,7 @@ fn holes_that_no_platform_fits_are_answered_with_no_and_why() {
 
 /// From requirements to a machine: what docs/worked-designs.md promises of the command.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_simulator_for_300_kg_comes_out_of_one_command() {
     let temp = tempfile::tempdir().unwrap();
     let out = Command::new(env!("CARGO_BIN_EXE_equipod"))

@@ -21,7 +21,7 @@ fn read(folder: &Path, name: &str) -> String {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn all_formats_of_shared_joints_and_of_a_joint_free_design() {
     let folder = tempfile::tempdir().unwrap();
     let free = folder.path().join("free.toml");

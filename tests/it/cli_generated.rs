@@ -2,7 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
 
@@ -91,61 +91,6 @@ fn schemas_are_json_and_every_answer_has_one() {
         assert!(schema["$defs"][command].is_object(), "{command} lacks its answer in src/records/schema.rs");
     }
     assert_eq!(equipod(&["design", "schema", "nothing"]).status.code(), Some(2));
-}
-
-/// Places of a schema that say `object`, `array` or nothing at all, but not of what.
-fn shallow(schema: &Value, place: &str) -> Vec<String> {
-    let has = |keys: &[&str]| keys.iter().any(|k| schema.get(k).is_some());
-    let is = |kind: &str| {
-        schema["type"] == kind || schema["type"].as_array().is_some_and(|t| t.contains(&kind.into()))
-    };
-    let parts = ["$ref", "allOf", "anyOf", "oneOf"];
-    let bare = !has(&parts) && !has(&["type", "enum", "const", "required"])
-        || is("object") && !has(&parts) && !has(&["properties", "additionalProperties"])
-        || is("array") && !has(&["items", "prefixItems"]);
-    let mut out = if bare { vec![place.to_string()] } else { Vec::new() };
-    for key in ["properties", "$defs"] {
-        for (name, part) in schema[key].as_object().into_iter().flatten() {
-            out.extend(shallow(part, &format!("{place}/{name}")));
-        }
-    }
-    for key in ["allOf", "anyOf", "oneOf", "prefixItems"] {
-        for part in schema[key].as_array().into_iter().flatten() {
-            out.extend(shallow(part, place));
-        }
-    }
-    for key in ["items", "additionalProperties"] {
-        out.extend(
-            schema
-                .get(key)
-                .filter(|part| !part.is_boolean())
-                .iter()
-                .flat_map(|part| shallow(part, &format!("{place}/*"))),
-        );
-    }
-    out
-}
-
-#[test]
-fn schemas_go_down_to_the_last_number() {
-    let all = commands();
-    for of in
-        all.iter().map(|c| in_one_word(c)).chain(["plot-locus", "design", "error", "help"].map(String::from))
-    {
-        assert_eq!(shallow(&schema(&of), &of), [""; 0], "{of}");
-    }
-    // it finds what is left open
-    for bare in [
-        json!({}),
-        json!({"type": "object"}),
-        json!({"type": ["array", "null"]}),
-        json!({"type": "array", "items": {}}),
-        json!({"properties": {"x": {"type": "object"}}, "type": "object"}),
-        json!({"$ref": "#", "$defs": {"x": {"anyOf": [{"type": "array"}, {"type": "null"}]}}}),
-        json!({"type": "object", "additionalProperties": {"description": "what"}}),
-    ] {
-        assert!(!shallow(&bare, "").is_empty(), "{bare}");
-    }
 }
 
 #[test]

@@ -1,10 +1,10 @@
-//! The help by jobs as a process: every example of it runs, every command of the table of files has its place, and a wrong word is told what was meant.
+//! The help by jobs as a process: every example of it runs, and a wrong word is told what was meant.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::{Command, Output};
 
 use super::cli_frame::{document, equipod};
+use super::tasks::copy_folder;
 
 fn text(args: &[&str]) -> String {
     String::from_utf8(equipod(args).stdout).unwrap()
@@ -29,19 +29,6 @@ fn examples(help: &str) -> Vec<String> {
     below.lines().filter_map(|l| l.trim().strip_prefix("equipod ")).map(str::to_string).collect()
 }
 
-fn copy(from: &Path, to: &Path) {
-    std::fs::create_dir_all(to).unwrap();
-    for entry in std::fs::read_dir(from).unwrap() {
-        let path = entry.unwrap().path();
-        let target = to.join(path.file_name().unwrap());
-        if path.is_dir() {
-            copy(&path, &target);
-        } else {
-            std::fs::copy(&path, &target).unwrap();
-        }
-    }
-}
-
 /// A front as `optimize` writes it: finding one takes minutes.
 const FRONT: &str = r#"{"front":[{"objectives":[{"name":"worst_conditioning","value":0.2,"unit":""},{"name":"stroke","value":30,"unit":"mm"}],"design":{"name":"D"}},
     {"objectives":[{"name":"worst_conditioning","value":0.3,"unit":""},{"name":"stroke","value":50,"unit":"mm"}],"design":{"name":"D"}}],"seed":7}"#;
@@ -49,12 +36,12 @@ const FRONT: &str = r#"{"front":[{"objectives":[{"name":"worst_conditioning","va
 const LONG: [&str; 2] = ["explore", "optimize"];
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn every_example_of_the_help_runs() {
     let folder = tempfile::tempdir().unwrap();
-    copy(Path::new("designs"), &folder.path().join("designs"));
+    copy_folder(Path::new("designs"), &folder.path().join("designs"));
     std::fs::write(folder.path().join("front.json"), FRONT).unwrap();
-    copy(Path::new("designs/worked"), &folder.path().join("out"));
+    copy_folder(Path::new("designs/worked"), &folder.path().join("out"));
     let run = |line: &str| -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
         command.current_dir(folder.path()).args(line.split(' ')).output().unwrap()
@@ -75,32 +62,6 @@ fn every_example_of_the_help_runs() {
             }
         }
     }
-}
-
-#[test]
-fn the_table_of_places_names_every_command_and_files_that_exist() {
-    let page = std::fs::read_to_string("docs/architecture.md").unwrap();
-    let table = page.split("## Where a command lives").nth(1).unwrap().split("## ").next().unwrap();
-    let rows: Vec<Vec<String>> = table
-        .lines()
-        .filter(|l| l.starts_with("| `"))
-        .map(|l| l.trim_matches('|').split('|').map(|c| c.trim().to_string()).collect())
-        .collect();
-    let paths = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_string).collect::<Vec<_>>();
-    let mut named = BTreeSet::new();
-    for row in &rows {
-        named.extend(paths(&row[0]));
-        let below =
-            |folder: &str, cell: &str| paths(cell).iter().map(|p| format!("{folder}{p}")).collect::<Vec<_>>();
-        let all = [below("", &row[1]), below("src/records/", &row[2]), below("src/cli/commands/", &row[3])]
-            .concat();
-        for path in all {
-            assert!(Path::new(&path).exists(), "{path} of {}", row[0]);
-        }
-    }
-    let mut known: BTreeSet<String> = commands().into_iter().filter(|c| !c.starts_with("plot ")).collect();
-    known.insert("plot".into());
-    assert_eq!(named, known);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
+use super::evidence::size;
 
 const DESIGN: &str = "designs/symmetric-hexapod.toml";
 
@@ -29,7 +30,7 @@ fn universal(keys: &str) -> String {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn assess_proves_both_angles_of_universal_joints() {
     let folder = tempfile::tempdir().unwrap();
     for (limits, exit) in [("[60, 60]", 0), ("[60, 12]", 1)] {
@@ -100,16 +101,7 @@ fn joints_per_leg_have_housings_of_their_own() {
 /// Each leg has the limits of its own joint: the least margin of a row is at a leg that has such a joint, and a limit of other legs changes nothing.
 #[test]
 fn joints_per_leg_are_judged_leg_by_leg() {
-    judged_leg_by_leg(&["--points", "200"]);
-}
-
-#[test]
-#[ignore = "slow evidence"]
-fn joints_per_leg_are_judged_leg_by_leg_at_all_poses() {
-    judged_leg_by_leg(&[]);
-}
-
-fn judged_leg_by_leg(poses: &[&str]) {
+    let poses = size(&["--points", "200"][..], &[]);
     let folder = tempfile::tempdir().unwrap();
     let row = |name: &str, lines: &str| {
         let path = with(&folder, "mixed.toml", lines);
@@ -211,7 +203,7 @@ fn commands_take_joints_per_leg_or_refuse_them() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn assess_judges_drives_whose_joints_are_not_ideal() {
     let folder = tempfile::tempdir().unwrap();
     let hexapod = std::fs::read_to_string(DESIGN).unwrap();

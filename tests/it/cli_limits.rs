@@ -94,7 +94,7 @@ fn the_straight_way_to_another_pose_ends_where_something_binds() {
 
 /// A desk hexapod: every size is one that `assess` meets with the region asked for, and misses with a larger one.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_workspace_has_its_sizes() {
     // with lengths and swing alone, which few cells decide
     let folder = tempfile::tempdir().unwrap();

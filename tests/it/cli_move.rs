@@ -166,7 +166,7 @@ fn the_search_finds_proves_and_leaves_open() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_search_for_more_room_than_there_is_is_left_open() {
     let doc = of("rbt-octahedral", &["--search", "--spacing", "1000"], 3);
     assert_eq!(

@@ -1,6 +1,7 @@
 //! `equipod plot`: every figure is drawn, says what it shows, and follows the design.
 
 use super::cli_frame::{document, equipod};
+use super::evidence::size;
 
 const OCTAHEDRAL: &str = "designs/rbt-octahedral.toml";
 
@@ -60,16 +61,7 @@ fn a_workspace_ends_at_the_limits_of_the_design() {
 
 #[test]
 fn the_other_figures_are_those_of_their_commands() {
-    figures_of_their_commands("2");
-}
-
-#[test]
-#[ignore = "slow evidence"]
-fn the_other_figures_are_those_of_their_commands_with_more_steps() {
-    figures_of_their_commands("5");
-}
-
-fn figures_of_their_commands(steps: &str) {
+    let steps = size("2", "5");
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("by-command.svg");
     let path = file.to_str().unwrap();

@@ -126,7 +126,7 @@ fn a_rounding_that_meets_no_requirement_is_a_no() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_rounding_that_misses_least_is_said_in_the_text_and_another_can_be_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let path = crowded(folder.path());

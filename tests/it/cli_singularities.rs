@@ -1,9 +1,10 @@
 //! The processes `equipod singular motion` and `equipod singular poses`.
 
 use super::cli_frame::{document, equipod};
+use super::evidence::size;
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_midline_platform_moves_on_two_closed_curves() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
@@ -29,7 +30,7 @@ fn the_midline_platform_moves_on_two_closed_curves() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn lengths_alone_give_the_curves_that_the_pose_gives() {
     let start = equipod(&["singular", "motion", "designs/rbt-midline.toml", "--sections", "0", "--json"]);
     let start = document(&start);
@@ -82,16 +83,7 @@ fn a_regular_platform_has_no_self_motion() {
 
 #[test]
 fn equivalent_platforms_have_the_same_regular_box() {
-    same_regular_box("1000");
-}
-
-#[test]
-#[ignore = "slow evidence"]
-fn equivalent_platforms_have_the_same_regular_box_of_more_cells() {
-    same_regular_box("4000");
-}
-
-fn same_regular_box(cells: &str) {
+    let cells = size("1000", "4000");
     let folder = tempfile::tempdir().unwrap();
     let svg = folder.path().join("s.svg");
     let run = |design: &str| {
@@ -124,7 +116,7 @@ fn same_regular_box(cells: &str) {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn assembly_modes_of_one_sign_are_joined_and_equivalent_platforms_agree() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();

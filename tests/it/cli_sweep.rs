@@ -120,7 +120,7 @@ fn killed(plan: &str, folder: &str, after: usize) {
 #[test]
 fn a_sweep_that_is_killed_twice_is_resumed_and_verified() {
     let place = Place::new();
-    let plan = place.plan("plan.toml", &OFFSETS.replace("count = 300", "count = 6000"));
+    let plan = place.plan("plan.toml", &OFFSETS.replace("count = 300", "count = 2000"));
     let (folder, whole) = (place.path("killed"), place.path("whole"));
     killed(&plan, &folder, 3);
     let (code, first) = asked(&["status", &folder]);
@@ -344,7 +344,7 @@ fn what_is_refused_says_why() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_best_candidates_are_designs_side_by_side() {
     let place = Place::new();
     let (plan, folder, best) = (place.plan("plan.toml", OFFSETS), place.path("sweep"), place.path("best"));

@@ -68,7 +68,7 @@ fn bad_bounds_and_singular_workspaces_are_refused_with_a_reason() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_map_of_errors_has_every_cause_at_every_pose() {
     let design = "designs/rbt-octahedral.toml";
     let folder = tempfile::tempdir().unwrap();

@@ -71,7 +71,7 @@ fn generic_members_of_every_class_have_their_number_of_poses_certified() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_semi_regular_hexapod_has_28_poses_at_home_and_near_it() {
     for seed in 0..4 {
         let rng = &mut Rng::stream(0x0028, seed);

@@ -151,7 +151,7 @@ fn conversion_keeps_what_a_design_says() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_optimised_platform_has_its_joints_on_the_edges() {
     let folder = folder();
     let (code, answer) = run(folder.path(), &["optimize", "octahedral.toml", "-o", "best.toml"]);
@@ -214,7 +214,7 @@ fn poses_of_exact_designs_are_certified_and_counted_and_rounded_joints_are_anoth
 
 /// A corner at an angle whose cosine is no sum of square roots: joints on its sides are known between bounds, poses are certified for all of them, and none are counted.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn joints_known_between_bounds_are_certified_and_not_complete_by_counting() {
     let folder = folder();
     let args = ["equivalents", "family", "octahedral.toml", "--pattern", "S123456"];
@@ -347,7 +347,7 @@ fn the_symmetric_hexapod_is_symmetric() {
 
 /// Corners that an optimiser does not choose are those of the design, constructions and all.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_platform_optimised_under_requirements_keeps_the_triangles_of_its_design() {
     let folder = folder();
     let asks = "[optimize]\nvariables = [\"offsets\", \"home_height\"]\nobjective = \"worst_conditioning\"\n\n[workspace]\ngrid = 1";
@@ -363,7 +363,7 @@ fn a_platform_optimised_under_requirements_keeps_the_triangles_of_its_design() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn holes_of_a_grid_are_decimals() {
     let folder = folder();
     let free = format!("{DESIGNS}/worked/bench-joint-free.toml");

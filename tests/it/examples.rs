@@ -30,20 +30,3 @@ fn quoted(source: &str) -> String {
     let lines: Vec<&str> = block.map(|l| l.strip_prefix(' ').unwrap_or(l)).collect();
     lines.join("\n") + "\n"
 }
-
-#[test]
-fn examples_are_short() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-    let mut count = 0;
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        // those in Python are run by tests/python/run
-        if path.is_dir() {
-            continue;
-        }
-        let text = std::fs::read_to_string(path).unwrap();
-        assert!(text.lines().count() <= 60, "{text}");
-        count += 1;
-    }
-    assert_eq!(count, 6);
-}

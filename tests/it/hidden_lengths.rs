@@ -54,7 +54,7 @@ fn designs_with_fewer_poses_are_not_called_complete_without_proof() {
 
 /// Dietmaier's platform: forty real poses, by distances alone.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn all_forty_poses_of_dietmaiers_platform_are_real() {
     let doc = document(&equipod(&["fk", "designs/dietmaier.toml", "--method", "trilateration", "--json"]));
     assert_eq!(doc["completeness"], "proved", "{}", doc["completeness_reason"]);

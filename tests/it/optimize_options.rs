@@ -75,7 +75,7 @@ const OPTIMIZE: [Row; 11] = [
 ];
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn every_option_of_optimize_changes_the_answer_or_is_refused() {
     let named: BTreeSet<String> = OPTIMIZE.iter().map(|row| row.0.to_owned()).collect();
     assert_eq!(options("optimize"), named, "an option without a row, or a row without an option");
@@ -117,7 +117,7 @@ fn every_option_of_optimize_changes_the_answer_or_is_refused() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn every_option_of_explore_changes_the_answer_or_is_refused() {
     let named: BTreeSet<String> =
         ["output", "samples", "extension", "drives", "seed"].map(str::to_owned).into();

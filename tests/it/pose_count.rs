@@ -94,7 +94,7 @@ fn special_platforms_of_exact_joints_are_complete_modulo_primes() {
 
 /// The same with joints rounded after a turn: a general platform as written, with 24 more poses far out. Whatever is found of them, the answer says what is missing.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn rounded_special_platforms_are_not_called_complete_with_the_poses_of_the_exact_ones() {
     for seed in 0..4 {
         let rng = &mut Rng::stream(0x52, seed);
@@ -111,7 +111,7 @@ fn rounded_special_platforms_are_not_called_complete_with_the_poses_of_the_exact
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn congruent_bodies_with_equal_lengths_have_a_real_sphere() {
     for seed in 0..8 {
         let rng = &mut Rng::stream(0x53, seed);
@@ -166,9 +166,8 @@ fn bodies_that_turn_freely_are_seen_and_a_real_pose_is_given() {
     }
 }
 
-/// Designs on which 0.1.0 answered wrongly, as their authors give them.
+/// Designs on which 0.1.0 answered wrongly, as their authors give them: a sphere of poses and a line of poses. `nearly_special` has those with 40 poses.
 #[test]
-#[ignore = "slow evidence"]
 fn designs_that_were_answered_wrongly() {
     let run = |name: &str, command: &[&str]| {
         let file = format!("tests/fixtures/adversarial/REP_{name}.toml");
@@ -188,12 +187,4 @@ fn designs_that_were_answered_wrongly() {
         (code, &lines["solution_set"], &lines["dimension"]),
         (Some(3), &"positive_dimensional".into(), &1.into())
     );
-    for name in ["lostreal", "phantom", "far"] {
-        let (code, doc) = run(name, &["fk"]);
-        let certified =
-            doc["solutions"].as_array().unwrap().iter().filter(|s| s["certified"] == true).count();
-        let complete = doc["completeness"] != "unproved";
-        assert_eq!((certified == 40, code), (complete, Some(if complete { 0 } else { 3 })), "{name}");
-        assert_eq!(doc["pose_count"]["finite"], 40, "{name}");
-    }
 }

@@ -12,6 +12,7 @@ use equipod::methods::requirements::Objective;
 use equipod::methods::requirements::{AssessOptions, Margin, TermKind, assess};
 
 use super::cli_frame::{document, equipod};
+use super::evidence::size;
 
 const FOLDER: &str = "designs/worked";
 
@@ -81,16 +82,7 @@ fn every_file_of_the_folder_is_one_of_a_pair_and_reads_back() {
 
 #[test]
 fn results_meet_all_requirements_and_share_no_joint() {
-    results_meet_all_requirements(100);
-}
-
-#[test]
-#[ignore = "slow evidence"]
-fn results_meet_all_requirements_at_more_poses() {
-    results_meet_all_requirements(400);
-}
-
-fn results_meet_all_requirements(points: usize) {
+    let points = size(100, 400);
     for (start, result, _, start_meets) in PAIRS {
         let design = worked(result);
         assert!(margins(&design, points).iter().all(|m| m.value >= 0.0), "{result}");
@@ -184,7 +176,7 @@ fn the_griffis_duffy_hexapod_has_the_kinematics_of_the_machine_it_replaces() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_chair_is_hung_again_without_missing_a_worst_pose() {
     // strut 5 is too long at a pose of its own, while struts 3 and 4 are at the limit elsewhere
     let out = equipod(&["optimize", "designs/worked/chair.toml", "--json"]);
@@ -249,7 +241,7 @@ fn objective(start: &Design, design: &Design, objective: Objective) -> f64 {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_page_quotes_the_margins_and_objectives_of_the_program() {
     let quoted = quoted();
     assert_eq!(quoted.len(), 7, "{:?}", quoted.keys());

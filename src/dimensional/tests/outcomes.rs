@@ -46,7 +46,7 @@ fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
     let mut p = problem(&[VariableKind::Offsets], Objective::WorstConditioning);
     p.requirements.hardware.leg_length = None;
@@ -71,7 +71,7 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn no_member_of_a_front_is_better_in_every_objective() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;
@@ -89,7 +89,7 @@ fn no_member_of_a_front_is_better_in_every_objective() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn an_interrupted_front_says_so_and_has_what_was_found() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;
@@ -114,7 +114,7 @@ fn an_interrupted_front_says_so_and_has_what_was_found() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn later_levels_keep_the_earlier_ones() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;
@@ -172,7 +172,7 @@ fn long_struts(limits: LengthLimits) -> DimensionalProblem {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn what_other_starts_can_meet_is_no_conflict() {
     let p = long_struts(LengthLimits::Range(24.0, 33.0));
     // the compromise of both has joints in the middle of sides, where the least length has a saddle and climbs do not leave

@@ -63,7 +63,7 @@ fn innocenti() -> Manipulator {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn every_virtual_leg_of_the_coupled_example_tells_eight_real_poses() {
     let m = innocenti();
     let s = SquaredLegLengths::try_new([33.0, 11.0, 21.0, 29.0, 22.0, 21.0]).unwrap();

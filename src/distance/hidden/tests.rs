@@ -61,7 +61,7 @@ fn every_way_finds_all_poses() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_6_6_follows_from_forty_poses_of_a_simpler_platform() {
     let (m, s) = problem(GENERAL, &mut Rng::new(10));
     let hidden = HiddenLengths::of(&m).unwrap();

@@ -73,7 +73,7 @@ fn a_joint_off_the_plane_by_a_millionth_takes_forty_paths() {
 /// With the platform in the plane of the base a pose is its own mirror image, and the leg equations are even in
 /// the three directions out of that plane. All numbers are dyadic, so that the root is exactly eightfold.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_flat_pose_is_named_as_eightfold_and_not_listed() {
     let mut rng = Rng::new(79);
     for _ in 0..3 {
@@ -198,7 +198,7 @@ fn a_start_that_is_not_known_to_be_whole_is_none() {
 
 /// Where paths in the lengths lead to coinciding or missing poses the answer is that of an unprepared solve.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn special_lengths_get_the_general_treatment() {
     let mut rng = Rng::new(83);
     let m = planar(&mut rng, false);
@@ -257,7 +257,7 @@ fn simple_poses_and_a_proved_double_one_are_a_complete_answer() {
 /// Platforms with a mirror plane at poses with it, in whole numbers: an odd twist changes no length to first order, so that the equations along it have an odd function of its
 /// parameter, and the pose counts three times.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn exact_triple_roots_are_proved_and_counted_three_times() {
     let mut rng = Rng::new(0x3001);
     let mut proved = 0;

@@ -87,7 +87,7 @@ fn a_box_that_holds_something_better_is_never_excluded_and_small_ones_below_the_
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn no_random_offsets_exceed_the_bound_and_the_solution_is_near_it() {
     let p = problem();
     let o = OffsetSearchOptions { threads: 2, boxes: 8000, ..OffsetSearchOptions::default() };

@@ -107,7 +107,7 @@ fn wilkinson_and_its_perturbation() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn close_roots_are_told_apart_and_equal_ones_are_not() {
     let p = mignotte(31, 1_000_000_007);
     assert_eq!(isolates(&p), 3);

@@ -123,7 +123,7 @@ fn all_of(hardware: Hardware) -> Requirements {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn no_sampled_pose_is_below_a_margin_proved_for_joints_with_offsets() {
     let mut rng = Rng::new(82);
     let (mut close, mut all) = (0, 0);
@@ -157,7 +157,7 @@ fn no_sampled_pose_is_below_a_margin_proved_for_joints_with_offsets() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
     let mut rng = Rng::new(83);
     for sort in [SORTS[2], SORTS[3]] {

@@ -130,7 +130,7 @@ pub(super) fn sampled(terms: &Terms<'_>, poses: &[Pose]) -> BTreeMap<TermKind, f
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn no_sampled_pose_is_below_a_proved_margin_and_bounds_come_close() {
     let mut rng = Rng::new(31);
     let (mut close, mut all) = (0, 0);
@@ -163,7 +163,7 @@ fn no_sampled_pose_is_below_a_proved_margin_and_bounds_come_close() {
 /// Limits a little short of the worst value are found to be violated without a look at any pose but those of cells, or at least never called met; limits a little beyond it are
 /// never called violated, and lengths are proved to be met by these few cells: in boxes and ellipsoids.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn limits_to_either_side_of_the_worst_value_are_decided() {
     let mut rng = Rng::new(32);
     let (mut proved, mut planted, mut found) = (0, 0, 0);
@@ -504,7 +504,7 @@ fn stiffness_is_bounded_where_it_varies_little() {
 /// Over regions of several sizes: the values found and the bounds are on their sides of those at many poses, a limit a little lower than the least value is met, proved, and one a little
 /// higher is violated.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn stiffness_and_frequency_are_bounded_and_decided() {
     let mut rng = Rng::new(41);
     let limits =
@@ -562,7 +562,7 @@ fn angles_of(m: &Manipulator, space: &PoseSpace, hardware: Hardware, cells: usiz
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn angles_of_upright_legs_in_universal_joints_are_those_by_hand() {
     let ring = || -> Vec<Point3<f64>> {
         let at = |i: usize| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();

@@ -350,7 +350,7 @@ fn legs_that_lean_come_near_their_own_plates_by_what_trigonometry_says_and_it_is
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn no_sampled_pose_is_below_a_proved_clearance() {
     let mut rng = Rng::new(12);
     let (m, home) = crooked();

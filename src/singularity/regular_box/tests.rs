@@ -62,7 +62,7 @@ fn no_pose_of_the_proved_box_has_the_other_sign_and_the_segment_has_both() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn scale_of_the_design_and_moves_of_the_base_change_nothing() {
     let m = symmetric_hexapod(200.0, 120.0);
     let one = regular_box(&m, &home(&m), &OPTIONS);
@@ -94,7 +94,7 @@ fn a_singular_home_proves_nothing() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_determinant_changes_by_det_a_and_the_box_not_at_all() {
     // one end of a leg moved along the line of two legs with a common joint: det A = 1 - t
     let p = |x: f64, y: f64, z: f64| Point3::new(x, y, z);
@@ -135,7 +135,7 @@ fn random_platform(rng: &mut Rng, octahedral: bool) -> Manipulator {
 
 /// Workspaces of wide rotations, where a component of the rotation vector is far from the tangent of a half angle: version 0.1.0 proved a set in the wrong coordinates.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn wide_rotations_never_contradict_the_proved_set() {
     let mut rng = Rng::new(77);
     let (mut proved, mut reached) = (0, 0);
@@ -169,7 +169,7 @@ fn wide_rotations_never_contradict_the_proved_set() {
 
 /// The set of scale 1 of `regular_box` and the region of a workspace are one: the two agree at scales to either side of the singular surface.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_workspace_is_judged_as_its_scale_is() {
     let mut rng = Rng::new(5);
     let (mut regular, mut singular) = (0, 0);
@@ -217,7 +217,7 @@ fn singular_poses_between_the_poses_of_a_trajectory_are_found() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn joints_known_between_bounds_leave_less_that_is_proved() {
     let m = symmetric_hexapod(200.0, 120.0);
     let home = home(&m);

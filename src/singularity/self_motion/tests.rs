@@ -136,7 +136,7 @@ fn the_freedoms_of_first_order_are_not_taken_for_the_motion() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn degree_of_the_motion_of_a_griffis_duffy_platform() {
     let m = midline();
     let pose = some_pose();
@@ -148,7 +148,7 @@ fn degree_of_the_motion_of_a_griffis_duffy_platform() {
 
 /// A real loop that the given pose does not hang together with is found from its critical points.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn every_real_component_is_found_from_one_complex_curve() {
     let m = midline();
     let pose = some_pose();

@@ -222,7 +222,7 @@ fn slips_are_named_with_their_line_and_what_was_meant() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn mutated_plans_are_read_or_refused_and_nothing_else() {
     let good = format!(
         "{HEAD}keep = ['conditioning >= 0.1']\nposes = {{ region = 10 }}\nassess = {{ points = 5 }}\n[[vary]]\nby = 'sobol'\ncount = 8\n[vary.values]\noffsets = {{ from = 0.1, to = 0.9 }}\n[[vary]]\nby = 'grid'\nvalues = {{ 'home.position.3' = {{ from = 1, to = 2, count = 3, scale = 'log' }} }}\n"

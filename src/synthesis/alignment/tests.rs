@@ -53,7 +53,7 @@ fn difference(a: &Manipulator, b: &Manipulator) -> Difference {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_moved_design_in_another_leg_order_is_found_whatever_its_flats() {
     for seed in 0..5 {
         let mut rng = Rng::new(seed);
@@ -71,7 +71,7 @@ fn a_moved_design_in_another_leg_order_is_found_whatever_its_flats() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn scale_and_a_small_platform_do_not_matter() {
     let mut rng = Rng::new(3);
     for (base, platform) in [(1e-6, 1e-6), (1e6, 1e6), (1e3, 1.0)] {
@@ -83,7 +83,7 @@ fn scale_and_a_small_platform_do_not_matter() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn lines_and_affinely_related_bodies_leave_families_of_motions() {
     for seed in 0..4 {
         let mut rng = Rng::new(seed);
@@ -119,7 +119,7 @@ fn hexagon(base: [Point3<f64>; 3], platform: [Point3<f64>; 3], t: [f64; 6]) -> M
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn members_of_the_octahedral_class_are_matched_by_their_triangles() {
     let mut rng = Rng::new(5);
     let mut scalene = || [point(&mut rng), point(&mut rng), point(&mut rng)];
@@ -155,7 +155,7 @@ fn legs_from_the_cubics_of_two_planes_are_an_equivalent_platform() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_joint_off_by_a_millionth_a_mirror_image_and_other_dimensions_are_told_apart() {
     for seed in 0..3 {
         let mut rng = Rng::new(seed);
@@ -190,7 +190,7 @@ fn a_joint_off_by_a_millionth_a_mirror_image_and_other_dimensions_are_told_apart
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_platform_upside_down_is_found_after_exchange_only() {
     let mut rng = Rng::new(9);
     let a = general(&mut rng);
@@ -201,7 +201,7 @@ fn a_platform_upside_down_is_found_after_exchange_only() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn symmetric_hexapods_have_as_many_motions_as_symmetries() {
     let mut rng = Rng::new(4);
     let joint = |radius: f64, angle: f64| Point3::new(radius * angle.cos(), radius * angle.sin(), 0.0);
@@ -243,7 +243,7 @@ fn symmetric_hexapods_have_as_many_motions_as_symmetries() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn nearly_degenerate_designs_are_never_told_apart_from_themselves() {
     let mut found = 0;
     for seed in 0..3 {

@@ -28,7 +28,7 @@ const CURVES: [(&str, &[Kind]); 11] = [
 ];
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_general_search_for_families_finds_the_same() {
     let mut curves = Vec::new();
     for r in rearrangements().unwrap() {

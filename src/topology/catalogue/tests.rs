@@ -94,7 +94,7 @@ fn the_classes_of_porta_and_thomas_are_mergers_of_their_representatives() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn designs_are_recognised_whatever_the_order_of_legs_and_bodies() {
     let rng = &mut Rng::new(5);
     let mut points =

@@ -48,7 +48,7 @@ fn shallow(rng: &mut Rng) -> Option<(Manipulator, LegLengths)> {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn rounding_of_squares_does_not_decide_reality() {
     let mut rng = Rng::new(15);
     let (mut decided, mut otherwise, mut members) = (0, 0, 0);

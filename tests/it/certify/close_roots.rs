@@ -166,7 +166,6 @@ fn refinement_satisfies_integer_leg_equations_to_27_digits() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
 fn far_poses_with_equal_leading_digits_are_told_apart_by_their_study_coordinates() {
     // |R| about 8e12: entries of R and p agree to eleven digits, g differs in the first
     let text = include_str!("../../../designs/worked/isolator-1.toml");

@@ -140,7 +140,7 @@ fn nothing_takes_cranks_for_legs_that_change_their_lengths() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn cranks_and_legs_stand_side_by_side() {
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("c.html");

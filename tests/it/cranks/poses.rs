@@ -68,7 +68,7 @@ fn angles_of_a_pose_and_poses_of_angles_belong_together() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_reported_flip_of_the_head_is_seen_among_all_poses_and_avoided_by_following() {
     let home = document(&equipod(&["ik", HEAD, "--json"]));
     let angles = numbers(&home["angles_deg"]).iter().map(f64::to_string).collect::<Vec<_>>().join(",");
@@ -150,7 +150,7 @@ fn a_rod_that_does_not_reach_is_an_answer_and_not_a_length() {
 
 /// All poses of the symmetric head by the quadratics of the theorem, against those that forward kinematics finds.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_symmetric_head_has_the_28_poses_of_the_theorem() {
     let (design, _) = parse_with_cranks(&std::fs::read_to_string(HEAD).unwrap(), Format::Toml).unwrap();
     let platform = design.rotary().unwrap().unwrap();

@@ -248,7 +248,7 @@ fn apart(f: &[ExactComplex; N]) -> [ExactComplex; N] {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn differences_of_the_equations_stay_within_their_bounds() {
     let mut rng = Rng::new(84);
     let value = |d: DoubleDouble| exact(d.hi()) + exact(d.lo());
