@@ -447,12 +447,6 @@ impl Design {
         DesignExactness::of(constructed, Body::BOTH.map(known))
     }
 
-    /// Whether a joint is given by other than three numbers.
-    #[cfg(feature = "synthesis")]
-    pub(crate) fn is_constructed(&self) -> bool {
-        !self.constructions.is_empty()
-    }
-
     /// The numbers behind [`Self::exact_joints`].
     pub(crate) fn exact_points(&self, body: Body) -> Vec<RealPoint> {
         let m = &self.manipulator;

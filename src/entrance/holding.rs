@@ -53,6 +53,6 @@ impl Design {
     #[cfg(feature = "optimize")]
     pub(crate) fn home_that_no_equivalent_holds(&self) -> Option<SingularHome> {
         let home = self.singular_at(&self.home_or_default())?;
-        (!Architecture::of(self.manipulator()).is_singular()).then_some(home)
+        (Architecture::of(self.manipulator()).is_singular() == Some(false)).then_some(home)
     }
 }

@@ -158,7 +158,9 @@ impl Manipulator {
 
     /// The same doubles, taken as the joints.
     pub(crate) fn without_values(&self) -> Self {
-        Self { values: None, constructed: false, ..self.clone() }
+        let mut doubles = self.clone();
+        (doubles.values, doubles.constructed) = (None, false);
+        doubles
     }
 
     /// The same legs with ends that are at one place at one joint: by their doubles where these are the joints, by their exact coordinates where these are known, and

@@ -18,6 +18,7 @@ pub(crate) fn all_fields() -> impl Iterator<Item = Field> {
 }
 
 /// The `count` first of [`all_fields`].
+#[cfg(test)]
 pub(crate) fn fields(count: usize) -> Vec<Field> {
     all_fields().take(count).collect()
 }

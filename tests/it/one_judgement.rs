@@ -2,7 +2,6 @@
 
 use equipod::methods::manipulator::Level;
 use equipod::methods::num::Rng;
-use equipod::methods::synthesis::{Family, Pattern, Relation};
 use equipod::prelude::*;
 use serde_json::Value;
 
@@ -144,11 +143,7 @@ fn platforms_that_are_equivalent_within_rounding_are_not_called_equivalent() {
     let design = Design::load("designs/rbt-octahedral.toml").unwrap();
     let (free, _) = design.equivalents().unwrap().joint_free([0.15, 0.35, 0.2, 0.45, 0.3, 0.6]).unwrap();
     let legs = free.manipulator().legs();
-    let rounded = Design::new(
-        "rounded",
-        &design.units,
-        equipod::methods::manipulator::Manipulator::from_legs(legs).unwrap(),
-    );
+    let rounded = Design::new("rounded", &design.units, Manipulator::from_legs(legs).unwrap());
     let path = folder.path().join("rounded.toml");
     std::fs::write(&path, rounded.to_toml()).unwrap();
     let rounded = path.to_str().unwrap();
@@ -190,9 +185,9 @@ P1 = { radius = 10, angle_deg = 0 }
 P2 = { radius = 10, angle_deg = 120 }
 P3 = { radius = 10, angle_deg = 240 }
 [platform]
-P4 = { radius = 6, angle_deg = 45 }
-P5 = { radius = 6, angle_deg = 165 }
-P6 = { radius = "4*sqrt(2)", angle_deg = 300 }
+P4 = { radius = 6, angle_deg = 30 }
+P5 = { radius = 6, angle_deg = 150 }
+P6 = { radius = "4*sqrt(2)", angle_deg = 270 }
 "#,
 ];
 
