@@ -36,7 +36,7 @@ pub(crate) mod rounding;
 mod solving;
 
 #[cfg(all(feature = "files", feature = "synthesis"))]
-pub(crate) use comparing::{DesignFigures, FigureOptions};
+pub(crate) use comparing::{DesignFigures, FigureOptions, Separation};
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use equivalence::{SAMPLES, decided_exactly, sample_plan, verified_exactly};
 #[cfg(all(feature = "files", feature = "synthesis"))]
@@ -45,7 +45,7 @@ pub use error::Error;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use judging::BOX_CELLS;
 #[cfg(all(feature = "files", feature = "synthesis"))]
-pub use judging::{AssessReport, CheckReport};
+pub use judging::{AssessReport, CheckReport, JudgedPoses};
 #[cfg(feature = "files")]
 pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]

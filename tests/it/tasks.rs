@@ -132,7 +132,7 @@ fn designs(folder: &Path) -> BTreeMap<String, String> {
 }
 
 /// Words that call a design good.
-const GOOD: [&str; 10] = [
+const GOOD: [&str; 11] = [
     "meets all its requirements",
     "meets its requirements",
     "meet the requirements",
@@ -142,6 +142,7 @@ const GOOD: [&str; 10] = [
     "every wish fulfilled",
     "fulfil every wish",
     "optimal",
+    "best found",
     "optimum",
 ];
 
