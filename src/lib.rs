@@ -203,7 +203,7 @@ pub mod prelude {
     #[cfg(all(feature = "files", feature = "synthesis"))]
     #[doc(inline)]
     pub use crate::entrance::{
-        AssessReport, CheckReport, SingularHome, VerifyOptions, leg_map, verify, verify_with,
+        AssessReport, CheckReport, JudgedPoses, SingularHome, VerifyOptions, leg_map, verify, verify_with,
     };
     #[cfg(all(feature = "files", feature = "synthesis"))]
     #[doc(inline)]

@@ -28,29 +28,7 @@ pub(crate) fn lead(name: &str, found: Option<&AssessAnswer>) -> String {
 
 /// The answer in a sentence that names what is missed.
 pub(crate) fn sentence(name: &str, found: &AssessAnswer) -> String {
-    let missed = |wanted: Option<bool>| {
-        let of = found.requirements.iter().filter(|m| m.met == wanted).map(|m| m.name.code());
-        let singular = (found.regular.met == wanted).then_some("singularity");
-        of.chain(singular).collect::<Vec<_>>().join(", ")
-    };
-    let says = match found.met {
-        Some(true) => "meets all its requirements, proved for every pose of its workspace".to_owned(),
-        Some(false) => format!("violates requirements: {}", missed(Some(false))),
-        None => {
-            format!("violates no requirement at the poses looked at; not all is proved: {}", missed(None))
-        }
-    };
-    let short = |wanted: Option<bool>| {
-        let of = found.requirements.iter().filter(|m| m.reserve_kept == wanted).map(|m| m.name.code());
-        of.collect::<Vec<_>>().join(", ")
-    };
-    let reserve = match found.reserve_kept {
-        _ if !has_reserve(found) => String::new(),
-        Some(true) => "; every reserve is kept".to_owned(),
-        Some(false) => format!("; the reserve is not kept: {}", short(Some(false))),
-        None => format!("; that the reserve is kept is not proved: {}", short(None)),
-    };
-    format!("{name} {says}{reserve} ({} poses looked at)\n", found.poses)
+    format!("{name} {}\n", found.explanation)
 }
 
 /// Whether the design asks for a reserve on any limit.

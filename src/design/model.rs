@@ -308,6 +308,8 @@ impl Design {
         self.holes = other.holes;
         self.plates = other.plates.clone();
         self.drive_table.clone_from(&other.drive_table);
+        // other joints would give another length, and the conditioning another value
+        self.optimize.characteristic_length = Some(other.characteristic_length());
         self
     }
 

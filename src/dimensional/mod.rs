@@ -35,4 +35,4 @@ pub use pareto::{ParetoPoint, ParetoReport, pareto};
 pub use problem::{DimensionalProblem, InvalidProblem, Mode, Triangles, Variables};
 pub use scp::HistoryStep;
 pub use search::{Progress, ShapeSearchOptions, Stage, optimize};
-pub(crate) use search::{meet, optimize_without_conflict};
+pub(crate) use search::{meet, optimize_without_conflict, why_not};

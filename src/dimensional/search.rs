@@ -560,6 +560,11 @@ pub(crate) fn optimize_without_conflict(
     searched(problem, &[], options, false, progress)
 }
 
+/// Why a problem cannot be asked; `None` where it can.
+pub(crate) fn why_not(problem: &DimensionalProblem) -> Option<InvalidProblem> {
+    Model::new(problem).err()
+}
+
 /// See [`optimize`]; `explains`: a conflict is looked for where no run meets the requirements.
 fn searched(
     problem: &DimensionalProblem,

@@ -2,12 +2,12 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::judging::AssessReport;
+use super::judging::{AssessReport, deciding};
 use super::moving::{MotionMasses, MotionReport, PlatformMotion};
 use crate::design::Design;
 use crate::dynamics::{least_stiffness, mass_matrix, stiffness_matrix, vibration};
 use crate::geom::Pose;
-use crate::manipulator::{Body, inverse_condition, jacobian};
+use crate::manipulator::{Body, jacobian};
 use crate::manufacture::{ErrorBound, PoseSearch, ToleranceError, joint_allowance};
 use crate::num::Purpose;
 use crate::requirements::{Terms, leg_forces};
@@ -31,9 +31,11 @@ pub(crate) struct FigureOptions<'a> {
     pub(crate) masses: Option<&'a MotionMasses>,
     /// The accuracy for which joints are toleranced.
     pub(crate) accuracy: Option<ErrorBound>,
+    /// Characteristic length of the conditioning: one for all designs that are compared.
+    pub(crate) characteristic_length: f64,
 }
 
-/// Figures of a design over the poses of its workspace. What a design says nothing about has none; an infinite force stands for a singular pose.
+/// Figures of a design over the poses of its workspace, at home where it states none. What a design says nothing about has none; an infinite force stands for a singular pose.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DesignFigures {
     /// What `assess` says; `None` where nothing is required.
@@ -52,7 +54,7 @@ pub(crate) struct DesignFigures {
     pub(crate) speed: Option<f64>,
     /// Greatest force, speed and power (watts) of a leg along the motions.
     pub(crate) motion: MotionFigures,
-    /// Least inverse condition number.
+    /// Least inverse condition number over the poses that `assess` looks at.
     pub(crate) conditioning: f64,
     /// Least stiffness against a force.
     pub(crate) stiffness: Option<f64>,
@@ -86,6 +88,17 @@ impl std::fmt::Display for NoAllowance {
             ),
         }
     }
+}
+
+/// The price of separate joints: figures of a design and of a platform made from it, in this order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Separation {
+    /// Worst conditioning over the poses judged, both by the characteristic length of the design.
+    pub(crate) conditioning: [f64; 2],
+    /// Least distance of the ends of two legs on base and platform: 0 where they share a joint.
+    pub(crate) spacing: [[f64; 2]; 2],
+    /// Radius of base and platform, as in [`DesignFigures`].
+    pub(crate) radius: [[f64; 2]; 2],
 }
 
 /// What cranks do over the poses. Poses that a rod does not reach count for nothing here; `assess` says that there are some.
@@ -127,11 +140,30 @@ impl MotionFigures {
 }
 
 impl Design {
+    /// What separate joints cost in a platform made from this design.
+    pub(crate) fn separation(&self, separate: &Self, seed: u64) -> Separation {
+        let length = self.characteristic_length();
+        let both = [self, separate];
+        Separation {
+            conditioning: both.map(|d| d.least_conditioning(&deciding(seed), length).value),
+            spacing: Body::BOTH.map(|body| both.map(|d| d.leg_spacing(body))),
+            radius: Body::BOTH.map(|body| both.map(|d| d.radius(body))),
+        }
+    }
+
+    /// The least distance of the ends of two legs on a body.
+    fn leg_spacing(&self, body: Body) -> f64 {
+        let legs = self.manipulator().legs();
+        let ends = legs.map(|l| if body == Body::Base { l.base } else { l.platform });
+        let pairs = (0..6).flat_map(|i| (0..i).map(move |k| (i, k)));
+        pairs.map(|(i, k)| (ends[i] - ends[k]).norm()).fold(f64::INFINITY, f64::min)
+    }
+
     /// The figures of the design.
     pub(crate) fn figures(&self, options: &FigureOptions<'_>) -> DesignFigures {
         let m = self.manipulator();
         let home = self.home_or_default();
-        let space = self.workspace_or_default().space(&home);
+        let space = self.workspace.space(&home);
         let mut rng = Purpose::ASSESSED_POSES.rng(options.seed);
         let region = space.cube_points(options.points, &mut rng).into_iter().map(|x| space.pose(&x));
         let poses: Vec<Pose> = space.listed(STEPS).into_iter().chain(region).collect();
@@ -144,13 +176,9 @@ impl Design {
             options.motions.iter().map(|motion| self.along(motion, options.masses)).collect();
         let required = self.requirements();
         let terms = Terms::new(m, &required, &home);
-        let characteristic = self.characteristic_length();
         // cranks of a design that was read make a platform
         let platform = self.rotary().ok().flatten();
-        let conditioning = |pose: &Pose| {
-            let of_rods = terms.conditioning_of_rods(pose, characteristic);
-            Some(of_rods.unwrap_or_else(|| inverse_condition(&jacobian(m, pose, characteristic))))
-        };
+        let (assessment, conditioning) = self.assessed_beside(options.seed, options.characteristic_length);
         let stiffness = self.hardware.leg_stiffness;
         // a singular pose has none
         let softest = |pose: &Pose| {
@@ -158,7 +186,7 @@ impl Design {
         };
         let lowest = |pose: &Pose| self.lowest_frequency(pose, options.masses?);
         DesignFigures {
-            assessment: self.assessed_briefly(options.seed),
+            assessment,
             poses: poses.len(),
             lengths: match &platform {
                 None => [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)],
@@ -174,7 +202,7 @@ impl Design {
                 .map(|v| -v),
             cranks: platform.as_ref().map(|platform| self.crank_figures(platform, &poses)),
             motion: MotionFigures::of(&moving),
-            conditioning: least(&conditioning).unwrap_or(f64::NAN),
+            conditioning: conditioning.value,
             stiffness: least(&softest),
             frequency: least(&lowest),
             spacing: Body::BOTH.map(|body| m.nearest_joints(body).map(|n| n.0)),
@@ -247,8 +275,8 @@ impl Design {
         Some(found[0].frequency)
     }
 
-    /// Joints of a body that carry legs.
-    fn radius(&self, body: Body) -> f64 {
+    /// The greatest distance of a joint of a body from the centroid of those that carry legs.
+    pub(crate) fn radius(&self, body: Body) -> f64 {
         let m = self.manipulator();
         let joints: Vec<Point3<f64>> = m.used_joints(body).iter().map(|&i| m.joints(body)[i]).collect();
         let centroid = joints.iter().map(|p| p.coords).sum::<Vector3<f64>>() / joints.len() as f64;

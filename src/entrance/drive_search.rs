@@ -196,7 +196,7 @@ pub(crate) fn search_drives(
             DriveOutcome::Weaker(stronger.name.clone())
         } else {
             let driven = design.with_drive(drive);
-            let found = find_platform(&driven, extension, options, &mut |p| progress(drive, p))?;
+            let found = find_platform(&driven, extension, options, true, &mut |p| progress(drive, p))?;
             interrupted = found.status() == OptimizeStatus::Interrupted;
             DriveOutcome::Searched(Box::new(DrivenPlatform { design: driven, found }))
         };

@@ -166,7 +166,7 @@ impl Design {
         let proof = self.proved(&rest, seed);
         let (regularity, regularity_cells) = regular_workspace(m, &space, ASSESS_CELLS, seed);
         let conditioning = least_conditioning(m, &space, &deciding(seed), self.characteristic_length());
-        AssessReport { proof, regularity, regularity_cells, conditioning }
+        AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning }
     }
 
     /// What is proved of some requirements, with as many cells as decide them and no more than a search gets. A lost reserve alone does not end it, as it does where a whole design is judged: whether

@@ -6,11 +6,12 @@ use super::optimizing::{Checked, checked, dimensional_problem};
 use super::platform_search::keeps_symmetry_of_start;
 use crate::design::Design;
 use crate::dimensional::{
-    Demand, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Progress,
-    ShapeSearchOptions, meet,
+    ConstraintConflict, Demand, DimensionalOutcome, DimensionalProblem, DimensionalReport,
+    DimensionalSolution, Give, Progress, ShapeSearchOptions, Triangles, meet, optimize,
 };
 use crate::equivalence::VerifyError;
 use crate::manipulator::Octahedral;
+use crate::offsets::DEFAULT_MIN_ABS_DET;
 use crate::requirements::{Envelope, LengthLimits, PlateDesign, TermKind, VariableKind};
 
 /// A freedom that a design does not have.
@@ -40,11 +41,13 @@ pub enum ConflictFreedom {
     BaseMargin,
     /// The plate of the platform is wider on every side.
     PlatformMargin,
+    /// The least `|det A|` that the search holds, and the design does not state, is left out.
+    MinAbsDet,
 }
 
 impl ConflictFreedom {
     /// Every freedom.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::HomeHeight,
         Self::TriangleSizes,
         Self::Triangles,
@@ -54,6 +57,7 @@ impl ConflictFreedom {
         Self::MachineEnvelope,
         Self::BaseMargin,
         Self::PlatformMargin,
+        Self::MinAbsDet,
     ];
 
     /// The word for it.
@@ -69,6 +73,7 @@ impl ConflictFreedom {
             Self::MachineEnvelope => "machine_envelope",
             Self::BaseMargin => "base_margin",
             Self::PlatformMargin => "platform_margin",
+            Self::MinAbsDet => "min_abs_det",
         }
     }
 
@@ -119,6 +124,19 @@ pub(crate) struct OpenedFreedom {
     pub(crate) amount: Option<f64>,
     /// What came of it.
     pub(crate) outcome: FreedomOutcome,
+    /// Demands of the conflict that have to give less with it, from how much to how much.
+    pub(crate) eased: Vec<EasedDemand>,
+}
+
+/// A demand of a conflict that has to give less when a default of the search is left out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct EasedDemand {
+    /// Which.
+    pub(crate) demand: Demand,
+    /// By how much it has to give under the default.
+    pub(crate) from: f64,
+    /// By how much without it.
+    pub(crate) to: f64,
 }
 
 /// Multiples of the amount that the conflict names, tried one after the other.
@@ -137,10 +155,42 @@ fn smaller(options: &ShapeSearchOptions) -> ShapeSearchOptions {
     }
 }
 
-/// The freedoms that a design does not have, those of its variables first, then the limits of the conflict.
-fn closed(design: &Design, report: &DimensionalReport) -> Vec<ConflictFreedom> {
+/// The least `|det A|` where it is to decide about nothing, as a part of the usual one.
+const LOOSE: f64 = 1e-3;
+/// A demand is eased where it has to give less by more than this share.
+const EASED: f64 = 1e-2;
+
+/// The design without the least `|det A|` that it does not state; `None` where it states one, or where the search holds none.
+fn without_default_determinant(design: &Design, extension: f64) -> Option<Design> {
+    let v = dimensional_problem(design, extension).variables;
+    let holds = (v.offsets || v.components) && v.triangles == Triangles::Fixed;
+    let mut loose = design.clone();
+    loose.optimize.min_abs_det = Some(LOOSE * DEFAULT_MIN_ABS_DET);
+    (holds && design.optimize.min_abs_det.is_none()).then_some(loose)
+}
+
+/// The least by which a demand has to give.
+fn given(g: &Give) -> f64 {
+    g.alone.unwrap_or(g.together)
+}
+
+/// The demands of a conflict that give less in another.
+fn eased(before: &ConstraintConflict, after: &ConstraintConflict) -> Vec<EasedDemand> {
+    let less = |g: &Give| {
+        let other = after.demands.iter().find(|other| other.demand == g.demand)?;
+        let found = EasedDemand { demand: g.demand, from: given(g), to: given(other) };
+        (found.to < (1.0 - EASED) * found.from).then_some(found)
+    };
+    before.demands.iter().filter_map(less).collect()
+}
+
+/// The freedoms that a design does not have: defaults of the search first, then those of its variables, then the limits of the conflict.
+fn closed(design: &Design, report: &DimensionalReport, extension: f64) -> Vec<ConflictFreedom> {
     let has = |kind| design.search.variables.contains(&kind);
     let mut out = Vec::new();
+    if without_default_determinant(design, extension).is_some() {
+        out.push(ConflictFreedom::MinAbsDet);
+    }
     if !has(VariableKind::HomeHeight) {
         out.push(ConflictFreedom::HomeHeight);
     }
@@ -203,7 +253,10 @@ fn wider(design: &Design, freedom: ConflictFreedom, amount: f64, ends: [f64; 2])
         ConflictFreedom::BaseEnvelope => grown(&mut out.envelopes.base),
         ConflictFreedom::PlatformEnvelope => grown(&mut out.envelopes.platform),
         ConflictFreedom::MachineEnvelope => grown(&mut out.envelopes.machine),
-        ConflictFreedom::HomeHeight | ConflictFreedom::TriangleSizes | ConflictFreedom::Triangles => {}
+        ConflictFreedom::HomeHeight
+        | ConflictFreedom::TriangleSizes
+        | ConflictFreedom::Triangles
+        | ConflictFreedom::MinAbsDet => {}
     }
     out
 }
@@ -261,9 +314,10 @@ impl FreedomSearch<'_, '_> {
     pub(crate) fn run(mut self) -> Result<Vec<OpenedFreedom>, VerifyError> {
         let mut out = Vec::new();
         let mut ended = false;
-        for freedom in closed(self.design, self.report) {
+        for freedom in closed(self.design, self.report, self.extension) {
             let opened = if ended {
-                Some(OpenedFreedom { freedom, amount: None, outcome: FreedomOutcome::NotTried })
+                let outcome = FreedomOutcome::NotTried;
+                Some(OpenedFreedom { freedom, amount: None, outcome, eased: Vec::new() })
             } else {
                 self.open(freedom)?
             };
@@ -275,7 +329,10 @@ impl FreedomSearch<'_, '_> {
 
     /// `None` for a freedom that cannot be asked for.
     fn open(&mut self, freedom: ConflictFreedom) -> Result<Option<OpenedFreedom>, VerifyError> {
-        let told = |outcome, amount| Some(OpenedFreedom { freedom, amount, outcome });
+        let told = |outcome, amount| Some(OpenedFreedom { freedom, amount, outcome, eased: Vec::new() });
+        if freedom == ConflictFreedom::MinAbsDet {
+            return self.without_default();
+        }
         if let Some(kind) = freedom.variable() {
             let mut more = self.design.clone();
             if more.search.variables.is_empty() {
@@ -328,6 +385,29 @@ impl FreedomSearch<'_, '_> {
             Some((amount, found)) => told(outcome_of(Some(found)), Some(amount)),
             None => told(FreedomOutcome::Unresolved, last),
         })
+    }
+
+    /// The search without the least `|det A|`. Where that does not resolve the conflict, the conflict without it: `None` where nothing has to give less.
+    fn without_default(&mut self) -> Result<Option<OpenedFreedom>, VerifyError> {
+        let freedom = ConflictFreedom::MinAbsDet;
+        let told = |outcome, eased| Some(OpenedFreedom { freedom, amount: None, outcome, eased });
+        let Some(loose) = without_default_determinant(self.design, self.extension) else { return Ok(None) };
+        match self.search(freedom, &loose)? {
+            None => return Ok(None),
+            Some(ControlFlow::Break(())) => return Ok(told(FreedomOutcome::NotTried, Vec::new())),
+            Some(ControlFlow::Continue(Some(found))) => return Ok(told(outcome_of(Some(found)), Vec::new())),
+            Some(ControlFlow::Continue(None)) => {}
+        }
+        let DimensionalOutcome::Infeasible(before) = &self.report.outcome else { return Ok(None) };
+        let problem = dimensional_problem(&loose, self.extension);
+        let report = optimize(&problem, &[], &smaller(&self.options), &mut |p| (self.progress)(freedom, p));
+        let less = match report {
+            Ok(DimensionalReport { outcome: DimensionalOutcome::Infeasible(after), .. }) => {
+                eased(before, &after)
+            }
+            _ => Vec::new(),
+        };
+        Ok(if less.is_empty() { None } else { told(FreedomOutcome::Unresolved, less) })
     }
 
     /// The search for a design with more freedom, and what `assess` says of what it finds; `None` where it cannot be asked. A design that has three-fold symmetry and names none is searched with it

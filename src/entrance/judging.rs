@@ -1,14 +1,14 @@
 //! Is the design singular, and does it meet its requirements?
 
 use super::{Error, SingularHome};
-use crate::design::Design;
+use crate::design::{Design, Workspace};
 use crate::equivalents::Equivalents;
 use crate::fk::{Theorem, pose_bound};
 use crate::geom::{PoseSpace, Region};
 use crate::manipulator::{Level, Manipulator};
 use crate::requirements::{
-    AssessOptions, LeastConditioning, MarginProof, Requirements, RodRegularity, Terms, least_conditioning,
-    least_rod_conditioning, prove, regular_rods,
+    AssessOptions, LeastConditioning, MarginBound, MarginProof, Requirements, RodRegularity, Terms,
+    least_conditioning, least_rod_conditioning, prove, regular_rods,
 };
 use crate::singularity::{
     Architecture, Assembly, BoxOptions, Conditioning, NearestSingular, Regularity, assembly, conditioning,
@@ -102,10 +102,96 @@ impl std::fmt::Display for CheckReport {
     }
 }
 
+/// The poses that a judgement is about: those that the design states, and home.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct JudgedPoses {
+    /// Every pose of a region about home.
+    pub region: bool,
+    /// Single poses, without the motions between them.
+    pub listed: usize,
+    /// Poses of a trajectory, with the straight motions between them.
+    pub trajectory: usize,
+}
+
+impl JudgedPoses {
+    /// Those of a workspace.
+    #[must_use]
+    pub fn of(workspace: &Workspace) -> Self {
+        let trajectory = workspace.trajectory.as_ref().map_or(0, |t| t.poses.len());
+        Self { region: workspace.has_box(), listed: workspace.poses.len(), trajectory }
+    }
+
+    /// Whether the design states any: without them home alone is judged.
+    #[must_use]
+    pub fn are_stated(self) -> bool {
+        self.region || self.listed > 0 || self.trajectory > 0
+    }
+
+    /// The verdict on requirements that are met at these poses, in two or three words.
+    #[must_use]
+    pub fn met_in_words(self) -> String {
+        match self {
+            _ if !self.are_stated() => "met at home only".to_owned(),
+            Self { region: false, trajectory: 0, listed } => format!("met at {}", poses(listed)),
+            _ => "met".to_owned(),
+        }
+    }
+
+    /// The same of poses none of which is singular, as a sentence without its full stop.
+    fn regular_in_words(self) -> String {
+        let among = match (self.region, self.listed, self.trajectory) {
+            (false, 0, 0) => return "Home is not a singular pose: proved; no workspace stated".to_owned(),
+            (true, ..) => "in the workspace",
+            (false, 0, _) => "on the trajectory",
+            (false, n, 0) => {
+                return format!("No singular pose among the {} listed: proved; {BETWEEN}", poses(n));
+            }
+            (false, ..) => "on the trajectory and among the poses listed",
+        };
+        let between = if self.listed > 0 { format!("; {BETWEEN_LISTED}") } else { String::new() };
+        format!("No singular pose {among}: proved{between}")
+    }
+}
+
+/// What a list of poses leaves open.
+const BETWEEN: &str = "nothing is said between them";
+/// The same beside a region or a trajectory.
+const BETWEEN_LISTED: &str = "nothing is said between the poses listed";
+
+/// A number of poses.
+fn poses(n: usize) -> String {
+    if n == 1 { "1 pose".to_owned() } else { format!("{n} poses") }
+}
+
+/// For all of them, as the end of a sentence.
+impl std::fmt::Display for JudgedPoses {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.region, self.listed, self.trajectory) {
+            (false, 0, 0) => f.write_str("at home; no workspace stated"),
+            (false, n, 0) => write!(f, "at the {} listed; {BETWEEN}", poses(n)),
+            (true, 0, _) => f.write_str("for every pose of its workspace"),
+            (true, n, _) => {
+                write!(f, "for every pose of its workspace, with the {} listed; {BETWEEN_LISTED}", poses(n))
+            }
+            (false, 0, _) => f.write_str("for every pose of its trajectory"),
+            (false, n, _) => {
+                write!(
+                    f,
+                    "for every pose of its trajectory, and at the {} listed; {BETWEEN_LISTED}",
+                    poses(n)
+                )
+            }
+        }
+    }
+}
+
 /// By how much a design meets its requirements.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct AssessReport {
+    /// The poses judged.
+    pub judged: JudgedPoses,
     /// The least margin of each kind of requirement, with what is proved of it.
     pub proof: MarginProof,
     /// Whether a pose of the workspace is singular.
@@ -136,16 +222,57 @@ impl AssessReport {
             _ => None,
         }
     }
+
+    /// The kinds of requirements with this answer.
+    fn kinds(&self, of: impl Fn(&MarginBound) -> Option<bool>, wanted: Option<bool>) -> Vec<&'static str> {
+        let these = self.proof.bounds.iter().filter(|b| of(b) == wanted);
+        these.map(|b| b.found.term.kind.code()).collect()
+    }
+
+    /// The requirements with this answer, singularity among them.
+    fn names(&self, wanted: Option<bool>) -> String {
+        let mut names = self.kinds(|b| b.verdict.is_met(), wanted);
+        names.extend((self.regularity.is_regular() == wanted).then_some("singularity"));
+        names.join(", ")
+    }
+
+    /// What is known of singular poses, as a sentence without its full stop.
+    #[must_use]
+    pub fn regularity_in_words(&self) -> String {
+        match self.regularity {
+            Regularity::Regular => self.judged.regular_in_words(),
+            Regularity::ChangesSign(_) => {
+                "The workspace holds a singular pose: det J changes its sign on the way to it".to_owned()
+            }
+            Regularity::Undecided(_) => "Not proved to be free of singular poses".to_owned(),
+        }
+    }
 }
 
-/// The verdict in a sentence.
+/// The verdict, without its subject: the words of every command and every page.
 impl std::fmt::Display for AssessReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self.met() {
-            Some(true) => "all requirements are met, proved for every pose of the workspace",
-            Some(false) => "requirements are violated",
-            None => "no requirement is violated at the poses looked at; not all is proved",
-        })
+        match self.met() {
+            Some(true) => write!(f, "meets all its requirements, proved {}", self.judged)?,
+            Some(false) => write!(f, "violates requirements: {}", self.names(Some(false)))?,
+            None => write!(
+                f,
+                "violates no requirement at the poses looked at; not all is proved: {}",
+                self.names(None)
+            )?,
+        }
+        if self.met() != Some(true) && !self.judged.are_stated() {
+            f.write_str("; no workspace stated, judged at home")?;
+        }
+        if self.proof.bounds.iter().any(|b| b.reserve.is_some()) {
+            let short = |wanted| self.kinds(MarginBound::keeps_reserve, wanted).join(", ");
+            match self.proof.all_reserved() {
+                Some(true) => f.write_str("; every reserve is kept")?,
+                Some(false) => write!(f, "; the reserve is not kept: {}", short(Some(false)))?,
+                None => write!(f, "; that the reserve is kept is not proved: {}", short(None))?,
+            }
+        }
+        write!(f, " ({} looked at)", poses(self.proof.poses))
     }
 }
 
@@ -158,7 +285,7 @@ pub(super) const ASSESS_CELLS: usize = 6000;
 /// The same for what fewer leave undecided: a search drives margins to zero, where proofs need many.
 pub(super) const PATIENT_CELLS: usize = 60_000;
 
-/// The same in answers that are about something else than the requirements: a tenth of a second where the whole proof takes seconds.
+/// Cells of the first attempt where one of several drives is sought.
 pub(super) const BRIEF_CELLS: usize = 300;
 
 /// What is known of the lines of rods, as of those of legs.
@@ -275,34 +402,57 @@ impl Design {
     /// # Errors
     /// [`Error::NothingRequired`] where the design requires nothing.
     pub fn assess_with(&self, options: &AssessOptions, cells: usize) -> Result<AssessReport, Error> {
+        self.judged_by(options, cells, self.characteristic_length())
+    }
+
+    /// The judgement itself, with this length for the conditioning.
+    fn judged_by(&self, options: &AssessOptions, cells: usize, length: f64) -> Result<AssessReport, Error> {
         let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
         let required = self.requirements();
         let proof = prove(m, &required, &space, options, cells);
         if proof.bounds.is_empty() {
             return Err(Error::NothingRequired);
         }
-        let length = self.characteristic_length();
         let of_rods = regular_rods(m, &required, &space, cells.max(options.patient_cells), options.seed);
         let (regularity, regularity_cells) = of_rods.map_or_else(
             || regular_workspace(m, &space, cells, options.seed),
             |(of_rods, cells)| (as_regularity(&of_rods), cells),
         );
+        let conditioning = self.least_conditioning(options, length);
+        Ok(AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning })
+    }
+
+    /// The poses that the design is judged at.
+    pub(crate) fn judged_poses(&self) -> JudgedPoses {
+        JudgedPoses::of(&self.workspace)
+    }
+
+    /// The worst conditioning over these poses, of rods where the design has cranks.
+    pub(super) fn least_conditioning(&self, options: &AssessOptions, length: f64) -> LeastConditioning {
+        let (m, required) = (self.manipulator(), self.requirements());
+        let space = self.workspace.space(&self.home_or_default());
         let terms = Terms::new(m, &required, &space.home);
-        let conditioning = least_rod_conditioning(&terms, &space, options, length)
-            .unwrap_or_else(|| least_conditioning(m, &space, options, length));
-        Ok(AssessReport { proof, regularity, regularity_cells, conditioning })
+        least_rod_conditioning(&terms, &space, options, length)
+            .unwrap_or_else(|| least_conditioning(m, &space, options, length))
     }
 
     /// What [`assess`](Self::assess) decides, with this seed: what every answer that judges a design begins with. `None` where the design requires nothing.
     ///
     /// Proofs end where they decide: the proved margins may be smaller than those of `assess`.
     pub(crate) fn assessed(&self, seed: u64) -> Option<AssessReport> {
-        self.assess_by(&deciding(seed), None).ok()
+        self.assessed_beside(seed, self.characteristic_length()).0
     }
 
-    /// The same with few cells, for answers that are about something else: the same poses are looked at, and less is proved between them.
-    pub(crate) fn assessed_briefly(&self, seed: u64) -> Option<AssessReport> {
-        self.assess_with(&deciding(seed), BRIEF_CELLS).ok()
+    /// The same with the conditioning by a given length, that of all designs of a comparison; the conditioning also where the design requires nothing.
+    pub(crate) fn assessed_beside(
+        &self,
+        seed: u64,
+        length: f64,
+    ) -> (Option<AssessReport>, LeastConditioning) {
+        let options = deciding(seed);
+        let found = self.judged_by(&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS, length).ok();
+        let conditioning = found.as_ref().map(|f| f.conditioning);
+        (found, conditioning.unwrap_or_else(|| self.least_conditioning(&options, length)))
     }
 
     /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half the size and 30 degrees either way.

@@ -38,7 +38,7 @@ pub(crate) mod rounding;
 mod solving;
 
 #[cfg(all(feature = "files", feature = "synthesis"))]
-pub(crate) use comparing::{DesignFigures, FigureOptions};
+pub(crate) use comparing::{DesignFigures, FigureOptions, Separation};
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use equivalence::{SAMPLES, sample_plan};
 #[cfg(all(feature = "files", feature = "synthesis"))]
@@ -49,7 +49,7 @@ pub use holding::SingularHome;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use judging::BOX_CELLS;
 #[cfg(all(feature = "files", feature = "synthesis"))]
-pub use judging::{AssessReport, CheckReport};
+pub use judging::{AssessReport, CheckReport, JudgedPoses};
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]

@@ -7,8 +7,8 @@ use super::platform_search::find_platform;
 use super::{AssessReport, Error, SingularHome};
 use crate::design::{Combination, Design, Origin};
 use crate::dimensional::{
-    self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode,
-    ShapeSearchOptions, Triangles, Variables, evaluate,
+    self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem,
+    Mode, ShapeSearchOptions, Triangles, Variables, evaluate,
 };
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::{FkOptions, Threads};
@@ -17,7 +17,8 @@ use crate::manipulator::{Body, Manipulator, Octahedral, inverse_condition, jacob
 use crate::num::Cancel;
 use crate::offsets::{self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution};
 use crate::requirements::{
-    AssessOptions, Assessment, JointAxes, Objective, Requirements, StartSymmetry, VariableKind, assess,
+    AssessOptions, Assessment, JointAxes, Objective, Requirements, StartSymmetry, TermKind, VariableKind,
+    assess,
 };
 use crate::synthesis::{joint_free, sliding_body};
 
@@ -25,8 +26,10 @@ use crate::synthesis::{joint_free, sliding_body};
 const POINTS: usize = 5000;
 /// Samples of the comparison with the design.
 const SAMPLES: usize = 3;
-/// How far a joint may sit out on the extension of its edge, edge lengths, where nothing is said.
-pub(crate) const EXTENSION: f64 = 1.0;
+/// How far a joint may stand beyond a corner, in lengths of its side, where nothing is said: room for the joint, and a body half as wide again at most.
+pub(crate) const EXTENSION: f64 = 0.3;
+/// The reserve on every limit that `explore` keeps where the design states none, percent.
+pub(crate) const RESERVE_PERCENT: f64 = 5.0;
 /// Most worker threads.
 const MOST_THREADS: usize = 256;
 
@@ -95,7 +98,7 @@ impl Default for OptimizeOptions<'_> {
 }
 
 impl<'a> OptimizeOptions<'a> {
-    /// The defaults: seed 1, a thread for each processor, joints at most one edge length out on the extension of their edge, optimal within one per cent.
+    /// The defaults: seed 1, a thread for each processor, joints at most 0.3 of a side beyond its corners, optimal within one per cent.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -169,8 +172,10 @@ impl<'a> OptimizeOptions<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum OptimizeStatus {
-    /// Feasible by a check of its own. Of offsets: proved to be within the gap of the best. Of platforms under requirements: a local optimum, the best of all starts.
+    /// Feasible by a check of its own, and proved to be within the gap of the best offsets.
     Optimal,
+    /// Feasible by a check of its own, and a local optimum, the best of all starts; that none is better is not proved.
+    BestFound,
     /// Feasible by a check of its own; how much better others could be is not known well enough.
     Feasible,
     /// Proved for offsets: none meets the limits. Under requirements: no start met them together.
@@ -189,6 +194,7 @@ impl OptimizeStatus {
     pub fn name(self) -> &'static str {
         match self {
             Self::Optimal => "optimal",
+            Self::BestFound => "best_found",
             Self::Feasible => "feasible",
             Self::Infeasible => "infeasible",
             Self::Undecided => "undecided",
@@ -282,12 +288,15 @@ impl Design {
         if let Some(home) = hopeless_home(self, options.extension) {
             return Err(Error::SingularHome(home));
         }
+        if let Some(sized) = with_sizes_to_choose(self) {
+            return sized.optimize_with(options);
+        }
         if asks_for_more(self) {
             if let Some(Combination::Pareto { .. }) = self.search.mode {
                 return Err(Error::ParetoFront);
             }
             let search = ShapeSearchOptions { seed, threads, ..ShapeSearchOptions::default() };
-            let found = find_platform(self, options.extension, &search, &mut |p| {
+            let found = find_platform(self, options.extension, &search, true, &mut |p| {
                 options.flow(OptimizeProgress::Dimensions(p))
             })?;
             let of = |s: &DimensionalSolution| checked(self, &found.problem, s, seed);
@@ -358,7 +367,7 @@ pub(crate) fn dimensional_status(report: &DimensionalReport, checked: Option<&Ch
         (DimensionalOutcome::Infeasible(_), _) => OptimizeStatus::Infeasible,
         (_, None) => OptimizeStatus::Undecided,
         (outcome, Some(c)) => match (c.met(), outcome) {
-            (Some(true), DimensionalOutcome::Optimal(_)) => OptimizeStatus::Optimal,
+            (Some(true), DimensionalOutcome::Optimal(_)) => OptimizeStatus::BestFound,
             (Some(true), _) => OptimizeStatus::Feasible,
             (met, _) => missed(met),
         },
@@ -378,26 +387,53 @@ pub(crate) fn met_or_nothing_required(assessed: Option<&AssessReport>) -> Option
 /// Whether a design asks for anything besides offsets with the best worst-case conditioning: requirements, other variables or objectives, or legs moved on families
 /// because it has no offsets.
 pub(crate) fn asks_for_more(design: &Design) -> bool {
-    let plain =
-        Requirements { min_joint_distance: design.optimize.min_joint_distance, ..Requirements::default() };
+    let plain = Requirements {
+        min_joint_distance: design.optimize.min_joint_distance,
+        reserves: design.reserves.clone(),
+        ..Requirements::default()
+    };
     design.search != crate::design::SearchTable::default()
         || design.requirements() != plain
         || Octahedral::recognise(design.manipulator()).is_err()
 }
 
-/// The offsets of an octahedral design over these poses, within the limits of its `[optimize]`.
+/// The design with a reserve on every limit; `None` where it states one.
+pub(crate) fn with_default_reserve(design: &Design) -> Option<Design> {
+    let mut careful = design.clone();
+    careful.reserves.all = Some(RESERVE_PERCENT);
+    design.reserves.is_empty().then_some(careful)
+}
+
+/// The limits of a search for offsets without and with the reserves of the design: the least distance of joints and the least `|det A|`.
+fn offset_limits(design: &Design, octahedral: &Octahedral) -> [[f64; 2]; 2] {
+    let default = OffsetProblem::with_defaults(octahedral.clone(), Vec::new());
+    let table = &design.optimize;
+    let distance = table.min_joint_distance.unwrap_or(default.min_joint_distance);
+    let det = table.min_abs_det.unwrap_or(default.min_abs_det);
+    let required = Requirements { min_joint_distance: Some(distance), ..design.requirements() };
+    let reserve = [TermKind::BaseSpacing, TermKind::PlatformSpacing].map(|kind| required.reserve(kind));
+    let share = design.reserves.all.unwrap_or(0.0) / 100.0;
+    [[distance, distance + reserve[0].max(reserve[1])], [det, det * (1.0 + share)]]
+}
+
+/// What the reserves add to the least distance of joints and to the least `|det A|` in a search for offsets.
+pub(crate) fn offset_reserves(design: &Design, octahedral: &Octahedral) -> [f64; 2] {
+    offset_limits(design, octahedral).map(|[stated, held]| held - stated)
+}
+
+/// The offsets of an octahedral design over these poses, within the limits of its `[optimize]` and with its reserves on them.
 pub(crate) fn offset_problem(
     design: &Design,
     octahedral: Octahedral,
     poses: Vec<Pose>,
     extension: f64,
 ) -> OffsetProblem {
+    let [[_, min_joint_distance], [_, min_abs_det]] = offset_limits(design, &octahedral);
     let default = OffsetProblem::with_defaults(octahedral, poses);
-    let table = &design.optimize;
     OffsetProblem {
-        characteristic_length: table.characteristic_length.unwrap_or(default.characteristic_length),
-        min_joint_distance: table.min_joint_distance.unwrap_or(default.min_joint_distance),
-        min_abs_det: table.min_abs_det.unwrap_or(default.min_abs_det),
+        characteristic_length: design.optimize.characteristic_length.unwrap_or(default.characteristic_length),
+        min_joint_distance,
+        min_abs_det,
         bounds: [(0.0 - extension, 1.0 + extension); 6],
         ..default
     }
@@ -476,6 +512,21 @@ impl Checked {
     pub fn met(&self) -> Option<bool> {
         if self.assessment.all_met() { met_or_nothing_required(self.assessed.as_ref()) } else { Some(false) }
     }
+}
+
+/// The design with the sizes of its bodies and the height of home to choose, where it requires something, names no variables, and no leg of it can be replaced; else `None`.
+pub(crate) fn with_sizes_to_choose(design: &Design) -> Option<Design> {
+    let usual = design.search.variables.is_empty() && Octahedral::recognise(design.manipulator()).is_err();
+    if !usual || design.requirements() == Requirements::default() {
+        return None;
+    }
+    let problem = dimensional_problem(design, EXTENSION);
+    if !matches!(dimensional::why_not(&problem), Some(InvalidProblem::NoFamily)) {
+        return None;
+    }
+    let mut out = design.clone();
+    out.search.variables = vec![VariableKind::TriangleSizes, VariableKind::HomeHeight];
+    Some(out)
 }
 
 /// The problem of a design.
@@ -560,8 +611,9 @@ fn as_dimensional(design: &Design, problem: &OffsetProblem) -> DimensionalProble
     let mut general = dimensional_problem(design, EXTENSION);
     general.variables.offset_bounds = problem.bounds;
     general.characteristic_length = problem.characteristic_length;
-    general.min_abs_det = problem.min_abs_det;
-    general.requirements.min_joint_distance = Some(problem.min_joint_distance);
+    let [[min_joint_distance, _], [min_abs_det, _]] = offset_limits(design, &problem.octahedral);
+    general.min_abs_det = min_abs_det;
+    general.requirements.min_joint_distance = Some(min_joint_distance);
     general
 }
 

@@ -89,7 +89,7 @@ impl FoundPlatform {
     }
 }
 
-/// The best platform of a design under its requirements, with the symmetry of the design where the search keeps it unasked.
+/// The best platform of a design under its requirements, with the symmetry of the design where the search keeps it unasked. `explains`: where nothing meets the requirements a conflict is looked for.
 ///
 /// # Errors
 /// A problem that cannot be asked, or a platform that cannot be compared with the design.
@@ -97,39 +97,33 @@ pub(crate) fn find_platform(
     design: &Design,
     extension: f64,
     options: &ShapeSearchOptions,
+    explains: bool,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<FoundPlatform, Error> {
     let free = dimensional_problem(design, extension);
+    let search = |problem: &DimensionalProblem, progress: &mut dyn FnMut(Progress) -> ControlFlow<()>| {
+        if explains {
+            optimize(problem, &[], options, progress)
+        } else {
+            optimize_without_conflict(problem, options, progress)
+        }
+    };
     let Some(kept) = keeps_symmetry_of_start(design, &free) else {
-        return find_as_asked(design, extension, options, progress);
+        let report = search(&free, progress)?;
+        return Ok(FoundPlatform::judged(design, free, report, None, options.seed)?);
     };
     let report = optimize_without_conflict(&kept, options, progress)?;
     let symmetric = FoundPlatform::judged(design, kept, report, Some(StartSymmetry::Kept), options.seed)?;
     if symmetric.is_met() || symmetric.report.interrupted {
         return Ok(symmetric);
     }
-    let report = optimize(&free, &[], options, progress)?;
+    let report = search(&free, progress)?;
     let other = FoundPlatform::judged(design, free, report, Some(StartSymmetry::GivenUp), options.seed)?;
     if other.rank() >= symmetric.rank() {
         return Ok(other);
     }
     let report = DimensionalReport { interrupted: other.report.interrupted, ..symmetric.report };
     Ok(FoundPlatform { report, ..symmetric })
-}
-
-/// As [`find_platform`], with the symmetry that the design names and no other.
-///
-/// # Errors
-/// As [`find_platform`].
-pub(crate) fn find_as_asked(
-    design: &Design,
-    extension: f64,
-    options: &ShapeSearchOptions,
-    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-) -> Result<FoundPlatform, Error> {
-    let problem = dimensional_problem(design, extension);
-    let report = optimize(&problem, &[], options, progress)?;
-    Ok(FoundPlatform::judged(design, problem, report, None, options.seed)?)
 }
 
 /// A front, its members judged.

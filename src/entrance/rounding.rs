@@ -15,7 +15,7 @@ use crate::design::Design;
 #[cfg(feature = "optimize")]
 use crate::dimensional::{self, DimensionalProblem, Progress, ShapeSearchOptions};
 use crate::manipulator::{Body, Manipulator};
-use crate::manufacture::{NoRounding, Rounding, RoundingProblem, equivalent_octahedral, round_to_grid};
+use crate::manufacture::{NoRounding, Rounding, RoundingProblem, round_to_grid};
 use crate::requirements::{Grid, HolePattern};
 #[cfg(feature = "optimize")]
 use crate::requirements::{Requirements, Reserve, VariableKind};
@@ -81,8 +81,6 @@ impl Design {
         let required = self.requirements();
         let fixed = Body::BOTH.map(|body| self.fixed_joints(body));
         let m = self.manipulator();
-        // that of `optimize`: RMS radius of the platform triangle, of the leg ends where there is none
-        let radius = equivalent_octahedral(m).as_ref().unwrap_or(m).platform_rms_radius();
         round_to_grid(&RoundingProblem {
             manipulator: m,
             grids: choices.grids,
@@ -91,7 +89,7 @@ impl Design {
             requirements: &required,
             space: &space,
             poses: &poses,
-            characteristic_length: self.optimize.characteristic_length.unwrap_or(radius),
+            characteristic_length: self.characteristic_length(),
             min_abs_det: self.optimize.min_abs_det,
             tool: choices.tool,
             candidates: choices.candidates,

@@ -6,13 +6,13 @@ use crate::entrance::Error;
 use crate::records::AssessAnswer;
 use crate::requirements::AssessOptions;
 
-/// What [`Design::assess_with`] finds; a design that requires nothing is refused as there.
+/// What [`Design::assess`] finds with these numbers; a design that requires nothing is refused as there.
 pub(super) fn record(
     design: &Design,
     options: &AssessOptions,
-    cells: usize,
+    cells: Option<usize>,
 ) -> Result<AssessAnswer, Refusal> {
-    match design.assess_with(options, cells) {
+    match design.assess_by(options, cells) {
         Ok(found) => Ok(AssessAnswer::new(design, &found)),
         Err(Error::NothingRequired) => {
             Err(Refusal::new("nothing_required", "the design has no requirements"))

@@ -52,8 +52,8 @@ pub(super) enum Request {
     State { pose: PoseRecord, chosen: Option<Chosen> },
     /// Worst conditioning over the poses of the workspace.
     Worst { chosen: Option<Chosen> },
-    /// The requirements of a platform over its whole workspace, as `assess` answers with these numbers.
-    Assess { which: Which, chosen: Option<Chosen>, points: usize, searches: usize, cells: usize },
+    /// The requirements of a platform over its whole workspace, as `assess` answers with these numbers; without cells with as many as it takes itself.
+    Assess { which: Which, chosen: Option<Chosen>, points: usize, searches: usize, cells: Option<usize> },
     /// All poses with given leg lengths, or with those of a pose; of cranks with angles in degrees.
     Modes { pose: PoseRecord, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
     /// All poses of both platforms, each from its own leg lengths, paired.

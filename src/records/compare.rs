@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{AssessAnswer, LightestDriveRecord, Number};
+use super::nearest::short;
+use super::{AssessAnswer, JudgedPosesRecord, LightestDriveRecord, Number};
 use crate::design::Design;
 use crate::entrance::DesignFigures;
 
@@ -18,6 +19,8 @@ pub struct CompareAnswer {
     pub manoeuvres: Vec<String>,
     /// The accuracy for which joints are toleranced; null: none was asked for.
     pub accuracy: Option<AccuracyRecord>,
+    /// Characteristic length of every conditioning in this answer: that of the first design.
+    pub characteristic_length: f64,
     /// In the order in which they were given.
     pub designs: Vec<FiguresRecord>,
     /// The table and the page that were written.
@@ -33,18 +36,20 @@ pub struct AccuracyRecord {
     pub rotation_deg: f64,
 }
 
-/// The figures of a design over the poses of its workspace. Null: the design says nothing about it, or the value is not finite.
+/// The figures of a design over the poses of its workspace, at home where it states none. Null: the design says nothing about it, or the value is not finite.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FiguresRecord {
     /// Name of the design.
     pub name: String,
     /// Its file.
     pub path: String,
-    /// What `assess` says of it; null: it requires nothing.
+    /// The judgement of `assess`; null: it requires nothing.
     pub assessment: Option<AssessAnswer>,
     /// The lightest drive of the table that the design names with which its requirements are met; null: it names none.
     pub lightest_drive: Option<LightestDriveRecord>,
-    /// Poses looked at.
+    /// The poses of all figures.
+    pub judged: JudgedPosesRecord,
+    /// Poses looked at for the figures besides the judgement and the conditioning.
     pub poses: usize,
     /// Least leg length; null where the legs are rods on cranks.
     pub shortest: Number,
@@ -67,7 +72,7 @@ pub struct FiguresRecord {
     pub motion_speed: Option<Number>,
     /// Greatest power of a drive along the manoeuvres, watts.
     pub motion_power_w: Option<Number>,
-    /// Least inverse condition number of the Jacobian.
+    /// The worst conditioning of `assess`: the least inverse condition number found.
     pub conditioning: Number,
     /// Least stiffness against a force through the platform origin, force units per design unit.
     pub stiffness: Option<Number>,
@@ -111,7 +116,12 @@ pub struct CrankFiguresRecord {
 impl FiguresRecord {
     /// The figures of a design.
     #[must_use]
-    pub(crate) fn new(design: &Design, path: String, found: &DesignFigures) -> Self {
+    pub(crate) fn new(
+        design: &Design,
+        path: String,
+        found: &DesignFigures,
+        characteristic_length: f64,
+    ) -> Self {
         let number = |x: Option<f64>| x.map(Number);
         let [shortest, longest] = found.lengths;
         let turns = found.cranks.is_some();
@@ -123,7 +133,11 @@ impl FiguresRecord {
         Self {
             name: design.name.clone(),
             path,
-            assessment: found.assessment.as_ref().map(|report| AssessAnswer::new(design, report)),
+            assessment: found
+                .assessment
+                .as_ref()
+                .map(|report| AssessAnswer::beside(design, report, characteristic_length)),
+            judged: design.judged_poses().into(),
             lightest_drive: None,
             poses: found.poses,
             shortest: Number(shortest),
@@ -187,7 +201,7 @@ impl CompareAnswer {
         let torque = format!("{force} {length}");
         let mut out = vec![self.words("requirements", |d| {
             d.assessment.as_ref().map(|a| match a.met {
-                Some(true) => "met".to_owned(),
+                Some(true) => a.judged.met_in_words.clone(),
                 Some(false) => "violated".to_owned(),
                 None => "undecided".to_owned(),
             })
@@ -239,6 +253,24 @@ impl CompareAnswer {
     fn words(&self, title: &str, word: impl Fn(&FiguresRecord) -> Option<String>) -> FigureColumn {
         let cells = self.designs.iter().map(|d| word(d).map(FigureCell::Word)).collect();
         FigureColumn { title: title.into(), unit: String::new(), cells }
+    }
+
+    /// A sentence for every design: its verdict with the poses judged.
+    pub(crate) fn verdicts(&self) -> Vec<String> {
+        let sentence = |d: &FiguresRecord| match &d.assessment {
+            Some(a) => format!("{} {}", d.name, a.explanation),
+            None if d.judged.stated => format!("{} requires nothing", d.name),
+            None => format!("{} requires nothing; no workspace stated, figures are those at home", d.name),
+        };
+        self.designs.iter().map(sentence).collect()
+    }
+
+    /// The length by which every conditioning is computed, in a sentence.
+    pub(crate) fn yardstick(&self) -> String {
+        let (length, unit) = (short(self.characteristic_length), &self.length_unit);
+        format!(
+            "Every conditioning is by one characteristic length, {length} {unit}, that of the first design."
+        )
     }
 
     /// A column for every kind of margin that some design has.

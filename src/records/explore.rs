@@ -5,9 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
-    OptimalityWord, OptimizeAnswer, OptimizeWord, SearchWord, SolvedRecord, SymmetryRecord, VariableRecord,
-    VariantWord, VerdictWord,
+    OptimalityWord, OptimizeAnswer, OptimizeWord, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord,
+    VariableRecord, VariantWord, VerdictWord,
 };
+use crate::entrance::Separation;
 use crate::entrance::rounding::{DesignOnHoles, RoundingWay};
 use crate::equivalence::Verification;
 use crate::fk::FkSolutions;
@@ -176,6 +177,10 @@ pub struct ExploreOctahedralAnswer {
     pub assessment: Option<AssessAnswer>,
     /// The platform; null: none was found.
     pub optimize: Option<OptimizedRecord>,
+    /// What separate joints cost: figures of the design and of the platform to build; null: there is none.
+    pub price: Option<PriceRecord>,
+    /// What became of the reserve of 5 % on every limit; null: the design states a reserve.
+    pub reserve: Option<DefaultReserveRecord>,
     /// The comparison of the design with the optimised one; null: there is none.
     pub verify: Option<ComparedRecord>,
     /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The assessment is then that of this platform.
@@ -188,6 +193,85 @@ pub struct ExploreOctahedralAnswer {
     pub freedoms: Option<Vec<FreedomRecord>>,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
+}
+
+/// Figures of a design and of the platform with separate joints made from it, in this order.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PriceRecord {
+    /// Worst conditioning over the poses of the workspace, both by the characteristic length of the design.
+    pub conditioning: [Number; 2],
+    /// Least distance of the ends of two legs on the base, design units; 0 where they share a joint.
+    pub base_spacing: [Number; 2],
+    /// The same on the platform.
+    pub platform_spacing: [Number; 2],
+    /// Greatest distance of a base joint from the centre of the joints.
+    pub base_radius: [Number; 2],
+    /// The same of the platform.
+    pub platform_radius: [Number; 2],
+    /// One sentence.
+    pub message: String,
+}
+
+impl PriceRecord {
+    /// Of figures in a unit of length.
+    #[must_use]
+    pub(crate) fn new(s: &Separation, unit: &str) -> Self {
+        let pair = |[a, b]: [f64; 2]| format!("{} -> {}", digits(a), digits(b));
+        let times = |[a, b]: [f64; 2]| digits(b / a);
+        let [base, platform] = s.radius;
+        let message = format!(
+            "price of separate joints: worst conditioning {}; joint spacing {} {unit} on the base, {} {unit} on the platform; radius {} {unit} of the base ({} times), {} {unit} of the platform ({} times)",
+            pair(s.conditioning),
+            pair(s.spacing[0]),
+            pair(s.spacing[1]),
+            pair(base),
+            times(base),
+            pair(platform),
+            times(platform),
+        );
+        Self {
+            conditioning: s.conditioning.map(Number),
+            base_spacing: s.spacing[0].map(Number),
+            platform_spacing: s.spacing[1].map(Number),
+            base_radius: base.map(Number),
+            platform_radius: platform.map(Number),
+            message,
+        }
+    }
+}
+
+/// Three significant digits.
+fn digits(x: f64) -> String {
+    let rounded = format!("{x:.2e}").parse::<f64>().unwrap_or(x);
+    rounded.to_string()
+}
+
+/// What became of the reserve that a design does not state.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DefaultReserveRecord {
+    /// On every limit.
+    pub percent: f64,
+    /// The platform found keeps it; false: no platform that keeps it was found, and the search went on without.
+    pub kept: bool,
+    /// One sentence.
+    pub message: String,
+}
+
+impl DefaultReserveRecord {
+    /// Whether it is kept.
+    #[must_use]
+    pub fn new(percent: f64, kept: bool) -> Self {
+        let message = if kept {
+            format!(
+                "{percent} % of every limit are kept in reserve by default; `reserve` in [limits] sets another share"
+            )
+        } else {
+            format!(
+                "no platform was found that keeps {percent} % of every limit in reserve; the search was made without a reserve"
+            )
+        };
+        Self { percent, kept, message }
+    }
 }
 
 /// A platform with its joints on the holes that its design states, in short.
@@ -302,6 +386,8 @@ pub struct OptimizedRecord {
     pub shifts: Option<[Number; 6]>,
     /// det A of the leg map; null: the variables do not keep the class of the design.
     pub det: Option<Number>,
+    /// What the platform rides on; null: nothing.
+    pub riding: Option<RidingRecord>,
 }
 
 impl OptimizedRecord {
@@ -317,6 +403,7 @@ impl OptimizedRecord {
             offsets: p.offsets,
             shifts: p.shifts,
             det: p.det,
+            riding: p.riding.clone(),
         })
     }
 }

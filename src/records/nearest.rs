@@ -139,7 +139,7 @@ impl NearestAnswer {
 const SAME: f64 = 1e-9;
 
 /// Six digits.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let digits = format!("{x:.5e}").parse::<f64>().unwrap_or(x);
     digits.to_string()
 }

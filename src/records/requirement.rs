@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{LightestDriveRecord, Number, PoseQuaternionRecord};
 use crate::design::Design;
-use crate::entrance::AssessReport;
+use crate::entrance::{AssessReport, JudgedPoses};
 use crate::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
 use crate::singularity::Regularity;
 
@@ -98,15 +98,25 @@ impl MarginRecord {
 /// The answer of `assess`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AssessAnswer {
-    /// True: every margin and det J are proved, for every pose of the workspace; false: a violation or a change of sign of det J is proved by its pose;
+    /// The design judged.
+    pub name: String,
+    /// What it is in this answer.
+    pub role: DesignRoleWord,
+    /// True: every margin and det J are proved, for all poses that `judged` names; false: a violation or a change of sign of det J is proved by its pose;
     /// null: neither.
     pub met: Option<bool>,
+    /// The verdict in a sentence whose subject is the design.
+    pub explanation: String,
+    /// The poses judged.
+    pub judged: JudgedPosesRecord,
     /// The same of the reserves: true: every margin is proved to keep its reserve; false: one does not, at the pose given; null: neither.
     pub reserve_kept: Option<bool>,
     /// The least of each kind.
     pub requirements: Vec<MarginRecord>,
     /// Whether there are singular poses.
     pub regular: RegularityRecord,
+    /// The same in a sentence.
+    pub regular_explanation: String,
     /// Where the Jacobian is conditioned worst among the poses looked at: a number found, without a limit and without a proof.
     pub conditioning: LeastConditioningRecord,
     /// Poses looked at.
@@ -124,29 +134,104 @@ impl AssessAnswer {
         design.assessed(seed).map(|found| Self::new(design, &found))
     }
 
-    /// The table in an answer that is about something else: the same poses are looked at, and less is proved between them.
-    #[must_use]
-    pub fn briefly(design: &Design, seed: u64) -> Option<Self> {
-        design.assessed_briefly(seed).map(|found| Self::new(design, &found))
-    }
-
     /// What is proved of a design.
     #[must_use]
     pub fn new(design: &Design, found: &AssessReport) -> Self {
+        Self::beside(design, found, design.characteristic_length())
+    }
+
+    /// The same about a design that was made from the one asked about.
+    #[must_use]
+    pub fn with_role(self, role: DesignRoleWord) -> Self {
+        Self { role, ..self }
+    }
+
+    /// The same with a conditioning by another length, that of all designs of a comparison.
+    pub(crate) fn beside(design: &Design, found: &AssessReport, characteristic_length: f64) -> Self {
         let proof = &found.proof;
         Self {
+            name: design.name.clone(),
+            role: DesignRoleWord::Design,
             met: found.met(),
+            explanation: found.to_string(),
+            judged: found.judged.into(),
             reserve_kept: proof.all_reserved(),
             requirements: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
             regular: RegularityRecord::new(&found.regularity, found.regularity_cells),
+            regular_explanation: found.regularity_in_words(),
             conditioning: LeastConditioningRecord {
                 inverse_condition: Number(found.conditioning.value),
                 pose: (&found.conditioning.pose).into(),
-                characteristic_length: design.characteristic_length(),
+                characteristic_length,
             },
             poses: proof.poses,
             cells: proof.bounds.iter().map(|b| b.cells).sum(),
             lightest_drive: None,
+        }
+    }
+}
+
+/// What a design is in an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DesignRoleWord {
+    /// The design that was asked about.
+    Design,
+    /// The platform that a search found for it.
+    Optimised,
+    /// The platform that misses its requirements least, where none meets them.
+    Closest,
+    /// A platform equivalent to it by moves of legs.
+    Equivalent,
+    /// The platform equivalent to the nearest octahedral one.
+    NearestEquivalent,
+    /// The platform with its joints on holes.
+    OnHoles,
+}
+
+impl DesignRoleWord {
+    /// A heading.
+    #[must_use]
+    pub fn heading(self) -> &'static str {
+        match self {
+            Self::Design => "Original",
+            Self::Optimised => "Optimised platform",
+            Self::Closest => "Platform that misses the requirements least",
+            Self::Equivalent => "Equivalent platform",
+            Self::NearestEquivalent => "Equivalent of the nearest octahedral platform",
+            Self::OnHoles => "Platform on the holes",
+        }
+    }
+
+    /// The heading for the word in a document.
+    pub(crate) fn heading_of(word: &str) -> Option<&'static str> {
+        serde_json::from_value(word.into()).ok().map(Self::heading)
+    }
+}
+
+/// The poses that a judgement is about, with home.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct JudgedPosesRecord {
+    /// The design states a workspace; else home alone is judged.
+    pub stated: bool,
+    /// Every pose of a region about home is judged.
+    pub region: bool,
+    /// Single poses; nothing is said between them.
+    pub listed: usize,
+    /// Poses of a trajectory, with the straight motions between them.
+    pub trajectory: usize,
+    /// The verdict of requirements that are met at these poses, in a few words.
+    pub met_in_words: String,
+}
+
+impl From<JudgedPoses> for JudgedPosesRecord {
+    fn from(judged: JudgedPoses) -> Self {
+        Self {
+            stated: judged.are_stated(),
+            region: judged.region,
+            listed: judged.listed,
+            trajectory: judged.trajectory,
+            met_in_words: judged.met_in_words(),
         }
     }
 }

@@ -60,8 +60,8 @@ pub(super) fn table(comparison: &Comparison, sortable: bool) -> String {
                 None => "<td>\u{2013}</td>".to_string(),
                 Some(FigureCell::Word(word)) => {
                     let class = match word.as_str() {
-                        "met" => "yes",
                         "violated" => "no",
+                        word if word.starts_with("met") => "yes",
                         _ => "open",
                     };
                     format!("<td class=\"{class}\" data-value=\"{0}\">{0}</td>", escape(word))
@@ -83,8 +83,9 @@ pub(super) fn table(comparison: &Comparison, sortable: bool) -> String {
 /// What the figures are about, a sentence each.
 pub(super) fn notes(answer: &CompareAnswer) -> String {
     let mut out = String::from(
-        "<p class=\"note\">Figures are the worst over the poses of the workspace of each design that were looked at; conditioning is 1 at best and 0 at a singular pose. Margins below 0 are violations.",
+        "<p class=\"note\">Figures are the worst found over the workspace of each design, at home where none is stated. Conditioning is 1 at best and 0 at a singular pose. Margins below 0 are violations.",
     );
+    let _ = write!(out, " {}", escape(&answer.yardstick()));
     if !answer.manoeuvres.is_empty() {
         let _ = write!(out, " In motion: {}.", escape(&answer.manoeuvres.join("; ")));
     }
@@ -97,7 +98,11 @@ pub(super) fn notes(answer: &CompareAnswer) -> String {
             digits(accuracy.rotation_deg)
         );
     }
-    out.push_str("</p>\n");
+    out.push_str("</p>\n<ul class=\"note\">\n");
+    for verdict in answer.verdicts() {
+        let _ = writeln!(out, "<li>{}.</li>", escape(&verdict));
+    }
+    out.push_str("</ul>\n");
     out
 }
 

@@ -14,8 +14,18 @@ pub struct ResultVerdict {
 }
 
 /// Words of the commands for yes.
-const YES: [&str; 9] =
-    ["equivalent", "optimal", "feasible", "front", "regular", "proved", "met", "found", "identical"];
+const YES: [&str; 10] = [
+    "equivalent",
+    "optimal",
+    "best_found",
+    "feasible",
+    "front",
+    "regular",
+    "proved",
+    "met",
+    "found",
+    "identical",
+];
 /// Words for no.
 const NO: [&str; 7] =
     ["not_equivalent", "not equivalent", "infeasible", "singular", "not_realizable", "violated", "none"];

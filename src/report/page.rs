@@ -10,7 +10,7 @@ use super::{Report, ReportFile, comparison, facts, inputs, parts, requirements};
 use crate::design::{Design, Format, parse};
 use crate::page::policy;
 use crate::plot::escape;
-use crate::records::sha256;
+use crate::records::{DesignRoleWord, sha256};
 
 const STYLE: &str = concat!(include_str!("style.css"), include_str!("comparison.css"));
 
@@ -142,7 +142,7 @@ fn verdicts(out: &mut String, contents: &[(&ReportFile, Content)]) {
         let Content::Result(fields) = content else { return None };
         let v = verdict(fields)?;
         let sentence = v.explanation.as_deref().map_or_else(String::new, |e| format!(": {}", escape(e)));
-        let (anchor, name) = (anchor(&file.name), heading(fields));
+        let (anchor, name) = (anchor(&file.name), title(fields));
         Some(format!("<li><a href=\"#{anchor}\">{name}</a> {}{sentence}</li>\n", badge(&v)))
     });
     let lines: String = lines.collect();
@@ -167,6 +167,12 @@ fn link(name: &str) -> String {
     format!("<a href=\"{}\">{}</a>", encoded.join("/"), escape(name))
 }
 
+/// The heading of a result, with the role of the design that it judges.
+fn title(fields: &Map<String, Value>) -> String {
+    let role = fields.get("role").and_then(Value::as_str).and_then(DesignRoleWord::heading_of);
+    role.map_or_else(|| heading(fields).to_owned(), |role| format!("{}: {role}", heading(fields)))
+}
+
 /// A result folded away: its answer is among the verdicts, and whoever doubts it unfolds the numbers.
 fn result(name: &str, fields: &Map<String, Value>) -> String {
     let verdict = verdict(fields).map_or_else(String::new, |v| format!(" {}", badge(&v)));
@@ -175,7 +181,7 @@ fn result(name: &str, fields: &Map<String, Value>) -> String {
     format!(
         "<details class=\"card\" id=\"{}\"><summary><h3>{}{verdict}</h3></summary>\n{sentence}{}<p class=\"note\">From {}</p></details>\n",
         anchor(name),
-        heading(fields),
+        title(fields),
         facts::tables(fields),
         link(name)
     )

@@ -8,16 +8,19 @@ use super::facts::{digits, words};
 use super::kind::ResultVerdict;
 use super::page::badge;
 use crate::plot::escape;
+use crate::records::DesignRoleWord;
 
 /// The table of a result of `assess`, or of one that carries such an assessment; `link` leads to its file.
 pub(super) fn section(link: &str, fields: &Map<String, Value>) -> Option<String> {
     let record = fields.get("assessment").and_then(Value::as_object).unwrap_or(fields);
     let rows = record.get("requirements").and_then(Value::as_array).filter(|rows| !rows.is_empty())?;
     let mut out = String::new();
-    let name =
-        fields.get("provenance").and_then(|from| from.pointer("/designs/0/name")).and_then(Value::as_str);
-    if let Some(name) = name {
-        let _ = writeln!(out, "<h3>{}</h3>", escape(name));
+    let text = |key: &str| record.get(key).and_then(Value::as_str);
+    if let (Some(name), Some(role)) = (text("name"), text("role").and_then(DesignRoleWord::heading_of)) {
+        let _ = writeln!(out, "<h3>{role}: {}</h3>", escape(name));
+    }
+    if let (Some(name), Some(said)) = (text("name"), text("explanation")) {
+        let _ = writeln!(out, "<p>{} {}.</p>", escape(name), escape(said));
     }
     out.push_str(
         "<div class=\"wide\"><table><thead><tr><th scope=\"col\">requirement</th><th scope=\"col\">answer</th>\
@@ -53,13 +56,8 @@ pub(super) fn section(link: &str, fields: &Map<String, Value>) -> Option<String>
             if position.is_empty() { "any" } else { &position },
         );
     }
-    let regular = |key: &str| record.get("regular").and_then(|r| r.get(key));
-    let singular = match (regular("status").and_then(Value::as_str), regular("met").and_then(Value::as_bool))
-    {
-        (Some("proved"), _) => "<p>No singular pose in the workspace: proved.</p>\n",
-        (_, Some(false)) => "<p>There is a singular pose in the workspace.</p>\n",
-        _ => "",
-    };
+    let singular = record.get("regular_explanation").and_then(Value::as_str);
+    let singular = singular.map_or_else(String::new, |text| format!("<p>{}.</p>\n", escape(text)));
     let conditioning =
         record.get("conditioning").and_then(|c| c.get("inverse_condition")).and_then(Value::as_f64);
     let conditioning = conditioning.map_or_else(String::new, |x| {
@@ -82,7 +80,8 @@ mod tests {
     #[test]
     fn a_violated_requirement_shows_its_margin_with_unit_and_place() {
         let fields: Map<String, Value> = serde_json::from_str(
-            r#"{"met":false,"requirements":[{"name":"leg_too_short","margin":-25.156342123,"met":false,"status":"violated",
+            r#"{"met":false,"name":"a <b>","role":"nearest_equivalent","explanation":"violates requirements: leg_too_short",
+                "regular_explanation":"No singular pose in the workspace: proved","requirements":[{"name":"leg_too_short","margin":-25.156342123,"met":false,"status":"violated",
                 "proved_margin":null,"unit":"mm","between":["leg <1>"],"pose":{"p":[32.4443,14.3,371.8],"q":[1,0,0,0]}}],
                 "regular":{"met":true,"status":"proved","pose":null},"conditioning":{"inverse_condition":0.3359123,"pose":null}}"#,
         )
@@ -95,6 +94,8 @@ mod tests {
             "32.4443, 14.3, 371.8",
             "\u{2717}",
             "no less than",
+            "<h3>Equivalent of the nearest octahedral platform: a &lt;b&gt;</h3>",
+            "a &lt;b&gt; violates requirements",
         ] {
             assert!(text.contains(shown), "{shown}: {text}");
         }

@@ -271,3 +271,31 @@ fn toml_text(text: &str) -> String {
         .collect();
     format!("\"{escaped}\"")
 }
+
+/// The margins of another platform once stood under the title of the design, and two tables had one title.
+#[test]
+fn every_table_of_requirements_has_the_role_of_its_design() {
+    let assessment = |name: &str, role: &str, margin: f64| {
+        format!(
+            r#"{{"schema_version":1,"name":"{name}","role":"{role}","met":true,"explanation":"meets all","provenance":{{"version":"0","designs":[{{"name":"mine"}}]}},
+                "requirements":[{{"name":"leg_too_long","margin":{margin},"met":true,"status":"met","unit":"mm","between":[]}}]}}"#
+        )
+    };
+    let text = report(vec![
+        file("assess.json", &assessment("mine", "design", 1.5)),
+        file("nearest-assess.json", &assessment("mine, nearest", "nearest_equivalent", 2.5)),
+    ]);
+    let section = text.split("id=\"requirements\"").nth(1).unwrap().split("</section>").next().unwrap();
+    let tables: Vec<&str> = section.split("<h3>").skip(1).collect();
+    assert_eq!(tables.len(), 2, "{section}");
+    assert!(tables[0].starts_with("Original: mine</h3>") && tables[0].contains("1.5 mm"), "{section}");
+    let other = "Equivalent of the nearest octahedral platform: mine, nearest</h3>";
+    assert!(tables[1].starts_with(other) && tables[1].contains("2.5 mm"), "{section}");
+    for role in ["Requirements: Original", "Requirements: Equivalent of the nearest octahedral platform"] {
+        assert!(text.contains(role), "{role}");
+    }
+    // an answer of an earlier version has no role, and no name of another design
+    let old = assessment("mine", "design", 1.5).replace("\"role\"", "\"rule\"");
+    let text = report(vec![file("old.json", &old)]);
+    assert!(text.contains("1.5 mm") && !text.contains("Original"), "{text}");
+}

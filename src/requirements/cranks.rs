@@ -257,14 +257,6 @@ impl Terms<'_> {
     }
 }
 
-impl Terms<'_> {
-    /// The inverse condition number at a pose of the lines of the rods with moments over a length; 0 where a rod does not close, `None` where the design has no cranks.
-    #[must_use]
-    pub(crate) fn conditioning_of_rods(&self, pose: &Pose, length: f64) -> Option<f64> {
-        Some(self.rod_conditioning(self.required.cranks.as_ref()?, pose, length))
-    }
-}
-
 /// As [`least_conditioning`](super::least_conditioning), for the rods of a design with cranks and for drives whose joints are not ideal; `None` for other designs.
 #[must_use]
 pub fn least_rod_conditioning(

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use equipod::prelude::*;
 use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
@@ -244,4 +245,115 @@ fn stiffness_and_frequency_have_rows_of_their_own() {
         (Some(1), Some("violated")),
         "{doc}"
     );
+}
+
+/// A fixture with what `edit` makes of it, beside a copy of the original.
+fn fixture(folder: &Path, name: &str, edit: impl Fn(String) -> String) -> String {
+    let text = std::fs::read_to_string(format!("tests/fixtures/verdicts/{name}.toml")).unwrap();
+    let path = folder.join(format!("{name}.toml"));
+    std::fs::write(&path, edit(text)).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// Limits without a workspace were once called met, proved for every pose of the workspace.
+#[test]
+fn limits_without_a_workspace_are_judged_at_home_by_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("page.html").to_str().unwrap().to_owned();
+    let said = |words: &[&str]| {
+        let out = equipod(words);
+        assert!(matches!(out.status.code(), Some(0)), "{words:?}: {}", String::from_utf8_lossy(&out.stderr));
+        String::from_utf8(out.stdout).unwrap()
+    };
+    for name in ["no-workspace", "servo-no-workspace"] {
+        let path = fixture(folder.path(), name, |text| text);
+        for words in [vec!["assess", &path], vec!["compare", &path], vec!["view", &path, "-o", &page]] {
+            let text = said(&words);
+            assert!(text.contains("at home; no workspace stated"), "{words:?}: {text}");
+            assert!(!text.contains("pose of its workspace") && !text.contains("in the workspace"), "{text}");
+        }
+        assert!(said(&["compare", &path]).contains("met at home only"));
+        let (_, doc) = assess(&path);
+        assert_eq!((&doc["judged"]["stated"], &doc["judged"]["region"]), (&false.into(), &false.into()));
+        assert!(doc["regular_explanation"].as_str().unwrap().starts_with("Home is not a singular pose"));
+    }
+    // with a workspace the same design says so, and one that is too wide is refused
+    let with = |x: f64| {
+        let workspace = format!("\n[workspace]\ntranslation = [{x:?}, {x:?}, {x:?}]\n");
+        fixture(folder.path(), "no-workspace", |text| text + &workspace)
+    };
+    let text = said(&["assess", &with(1.0)]);
+    assert!(text.contains("proved for every pose of its workspace") && !text.contains("stated"), "{text}");
+    assert_eq!(assess(&with(40.0)).0, Some(1));
+}
+
+#[test]
+fn a_list_of_poses_is_judged_at_these_poses_and_not_between_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let listed = |poses: &str, more: &str| {
+        let edit = |text: String| {
+            format!("{text}\n[workspace]\nrelative_to = \"home\"\nposes = [{poses}]\n{more}\n")
+        };
+        let path = fixture(folder.path(), "no-workspace", edit);
+        let out = equipod(&["assess", &path]);
+        (String::from_utf8(out.stdout).unwrap(), assess(&path).1)
+    };
+    let poses =
+        "{ position = [2, 0, 0], rpy_deg = [0, 0, 0] }, { position = [0, 2, 0], rpy_deg = [0, 0, 0] }";
+    let (text, doc) = listed(poses, "");
+    assert!(text.contains("at the 2 poses listed; nothing is said between them"), "{text}");
+    assert!(
+        text.contains("No singular pose among the 2 poses listed: proved; nothing is said between them.")
+    );
+    assert!(!text.contains("every pose") && !text.contains("in the workspace"), "{text}");
+    assert_eq!((&doc["met"], &doc["judged"]["listed"]), (&true.into(), &2.into()));
+    assert_eq!(doc["judged"]["met_in_words"], "met at 2 poses");
+    // beside a region both are named
+    let (text, doc) = listed(poses, "translation = [1, 1, 1]");
+    assert!(text.contains("for every pose of its workspace, with the 2 poses listed"), "{text}");
+    assert_eq!(doc["judged"]["met_in_words"], "met");
+}
+
+/// The nearest octahedral platform of two triangles had another characteristic length than the design it was made from, and so another conditioning.
+#[test]
+fn what_is_made_from_a_design_keeps_its_characteristic_length() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = "designs/rbt-octahedral.toml";
+    let made = folder.path().join("made.toml").to_str().unwrap().to_owned();
+    let offsets = "--offsets=0.2,0.8,0.3,0.7,0.1,0.8";
+    let out = equipod(&["equivalents", "family", start, "--pattern", "S123456", offsets, "-o", &made]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    let length = |path: &str| Design::load(path).unwrap().characteristic_length();
+    assert!((length(&made) - length(start)).abs() < 1e-12);
+    // joints inside the sides alone would give a shorter one
+    let own = Design::load(&made).unwrap().manipulator().platform_rms_radius();
+    assert!(own < 0.9 * length(start), "{own}");
+    let (_, judged) = assess(&made);
+    let found = document(&equipod(&["compare", start, &made, "--points", "10", "--json"]));
+    let compared = &found["designs"][1];
+    assert_eq!(found["characteristic_length"].as_f64(), Some(length(start)));
+    let value = |v: &Value| v.as_f64().unwrap();
+    assert_eq!(compared["conditioning"], compared["assessment"]["conditioning"]["inverse_condition"]);
+    // `assess` looked at fewer poses here
+    assert!(value(&compared["conditioning"]) <= value(&judged["conditioning"]["inverse_condition"]) + 1e-12);
+}
+
+/// One length in one comparison: alone this design has another.
+#[test]
+fn designs_that_are_compared_have_one_characteristic_length() {
+    let made = "tests/fixtures/verdicts/two-conditionings.toml";
+    let other = "designs/worked/isolator-octahedral.toml";
+    let conditioning = |designs: &[&str]| {
+        let doc = document(&equipod(&[&["compare", "--points", "5", "--json"], designs].concat()));
+        let of = |d: &Value| d["conditioning"].as_f64().unwrap();
+        let list: Vec<f64> = doc["designs"].as_array().unwrap().iter().map(of).collect();
+        (list, doc["characteristic_length"].as_f64().unwrap())
+    };
+    let (alone, own) = conditioning(&[made]);
+    let (first, again) = conditioning(&[made, other]);
+    let (second, length) = conditioning(&[other, made]);
+    assert_eq!((alone[0].to_bits(), own.to_bits()), (first[0].to_bits(), again.to_bits()));
+    assert!((own - length).abs() > 1.0 && (second[1] - alone[0]).abs() > 1e-6, "{first:?} {second:?}");
+    let text = String::from_utf8(equipod(&["compare", made, other, "--points", "5"]).stdout).unwrap();
+    assert!(text.contains("Every conditioning is by one characteristic length"), "{text}");
 }

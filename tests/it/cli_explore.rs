@@ -317,7 +317,7 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
     };
     let (code, d, folder) = run(&limited(), "met");
     assert_eq!((code, d["verdict"].as_str()), (Some(0), Some("equivalent")), "{d}");
-    assert_eq!((&d["assessment"]["met"], &d["optimize"]["status"]), (&true.into(), &"optimal".into()));
+    assert_eq!((&d["assessment"]["met"], &d["optimize"]["status"]), (&true.into(), &"best_found".into()));
     let new = folder.join("optimised.toml");
     let out = Command::new(env!("CARGO_BIN_EXE_equipod"))
         .args(["assess", new.to_str().unwrap(), "--json"])
@@ -475,4 +475,61 @@ fn holes_of_a_design_that_is_not_octahedral_are_refused() {
     let out = explore(&design, &temp.path().join("out"), &["--json"]);
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
     assert_eq!((out.status.code(), &d["error"]["code"]), (Some(2), &Value::from("explore::holes")));
+}
+
+/// The first result once had three base joints a whole side beyond the corners, a base 2.6 times as wide, and 3.5e-8 mm left between platform joints.
+#[test]
+#[ignore = "slow evidence"]
+fn the_first_result_stays_near_its_triangles_and_keeps_a_reserve() {
+    let temp = tempfile::tempdir().unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
+    let out = command
+        .args(["explore", &shipped("rbt-octahedral"), "--samples", "1", "--json", "-o"])
+        .arg(temp.path())
+        .output()
+        .unwrap();
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(0), &"equivalent".into()), "{d}");
+    let number = |v: &Value| v.as_f64().unwrap();
+    for t in d["optimize"]["offsets"].as_array().unwrap() {
+        assert!((-0.3 - 1e-9..=1.3 + 1e-9).contains(&number(t)), "{t}");
+    }
+    let price = &d["price"];
+    for body in ["base", "platform"] {
+        let radius = &price[format!("{body}_radius")];
+        assert!(number(&radius[1]) < 1.5 * number(&radius[0]), "{price}");
+        assert!(number(&price[format!("{body}_spacing")][1]) >= 1.26 - 1e-6, "{price}");
+    }
+    // what rides on the ends of the ranges is named
+    let riding = d["optimize"]["riding"]["message"].as_str().unwrap();
+    assert!(riding.contains("(end of") && riding.contains("[envelope]"), "{riding}");
+}
+
+#[test]
+fn a_run_says_what_separate_joints_cost_and_keeps_a_reserve_by_default() {
+    let temp = tempfile::tempdir().unwrap();
+    let run = |design: &str, to: &str| {
+        let folder = temp.path().join(to);
+        let out = explore(design, &folder, &["--json"]);
+        let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+        assert_eq!(out.status.code(), Some(0), "{d}");
+        (d, read(&folder, "optimised.toml"), read(&folder, "report.md"))
+    };
+    let spacing = |d: &Value, k: usize| d["price"]["base_spacing"][k].as_f64().unwrap();
+    let (d, design, report) = run(&shipped("rbt-octahedral"), "default");
+    assert_eq!((&d["reserve"]["kept"], &d["reserve"]["percent"]), (&true.into(), &5.0.into()), "{d}");
+    assert!(spacing(&d, 0) == 0.0 && (spacing(&d, 1) - 1.26).abs() < 1e-6, "{}", d["price"]);
+    assert!(design.contains("reserve = \"5%\"") && design.contains("characteristic_length"), "{design}");
+    let [before, after] = [0, 1].map(|k| d["price"]["conditioning"][k].as_f64().unwrap());
+    assert!(before > after && after > 0.0, "{}", d["price"]);
+    for words in ["Price of separate joints: worst conditioning", "5 % of every limit", "Rides on"] {
+        assert!(report.contains(words), "{words}: {report}");
+    }
+    // a reserve that is stated stays the one that is kept
+    let text = std::fs::read_to_string(shipped("rbt-octahedral")).unwrap();
+    let stated = temp.path().join("stated.toml");
+    std::fs::write(&stated, format!("{text}\n[limits]\nreserve = \"1%\"\n")).unwrap();
+    let (d, design, _) = run(stated.to_str().unwrap(), "stated");
+    assert!(d["reserve"].is_null() && design.contains("reserve = \"1%\""), "{d}");
+    assert!((spacing(&d, 1) - 1.212).abs() < 1e-6, "{}", d["price"]);
 }

@@ -183,7 +183,7 @@ fn the_chair_is_hung_again_without_missing_a_worst_pose() {
     let doc = document(&out);
     assert_eq!(
         (out.status.code(), doc["status"].as_str()),
-        (Some(0), Some("optimal")),
+        (Some(0), Some("best_found")),
         "{}",
         doc["constraint_margins"]
     );

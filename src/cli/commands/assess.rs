@@ -68,19 +68,16 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 fn text(name: &str, found: &AssessAnswer) -> String {
     let mut out = requirements::lead(name, Some(found));
     let at = found.regular.pose.as_ref().map_or_else(|| "any".to_owned(), PoseQuaternionRecord::short);
+    let said = &found.regular_explanation;
     let _ = match found.regular.status {
-        RegularityWord::Proved => writeln!(out, "\nNo singular pose in the workspace: proved."),
-        RegularityWord::ChangesSign => {
-            writeln!(out, "\nThe workspace holds a singular pose: det J changes its sign on the way to {at}.")
-        }
-        RegularityWord::Undecided => {
-            writeln!(out, "\nNot proved to be free of singular poses; undecided near {at}.")
-        }
+        RegularityWord::Proved => writeln!(out, "\n{said}."),
+        RegularityWord::ChangesSign => writeln!(out, "\n{said}, {at}."),
+        RegularityWord::Undecided => writeln!(out, "\n{said}; undecided near {at}."),
     };
     if let Some(d) = &found.lightest_drive {
         let _ = writeln!(out, "{}.", d.message);
     }
-    out.push_str("A margin below 0 is a violation (!); = at the limit, as far as rounding can tell, which is none. The proved margin is one that no pose of the workspace falls below.\n");
+    out.push_str("A margin below 0 is a violation (!); = at the limit, as far as rounding can tell, which is none. The proved margin is one that no pose judged falls below.\n");
     if found.met.is_none() {
         out.push_str(
             "What is only searched may be violated between the poses looked at; more --cells may prove it.\n",

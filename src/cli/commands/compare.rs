@@ -146,6 +146,7 @@ pub(super) fn compare(designs: &[(String, Design)], asked: &Asked) -> Result<Com
             accuracy: asked
                 .accuracy
                 .map(|b| AccuracyRecord { position: b.position, rotation_deg: b.rotation_deg }),
+            characteristic_length: designs.first().map_or(f64::NAN, |(_, d)| d.characteristic_length()),
             designs: Vec::new(),
             paths: Vec::new(),
         },
@@ -158,14 +159,16 @@ pub(super) fn compare(designs: &[(String, Design)], asked: &Asked) -> Result<Com
         // a unit that is no length has no forces in motion
         let masses =
             LengthUnit::of(&design.units).ok().and_then(|unit| design.motion_masses(unit.metres, None));
+        let length = out.answer.characteristic_length;
         let found = design.figures(&FigureOptions {
             points: asked.points,
             seed: asked.seed,
             motions: &motions,
             masses: masses.as_ref(),
             accuracy: asked.accuracy,
+            characteristic_length: length,
         });
-        out.answer.designs.push(FiguresRecord::new(design, path.clone(), &found));
+        out.answer.designs.push(FiguresRecord::new(design, path.clone(), &found, length));
         out.thumbnails.push(thumbnail(&drawn(design, &home), &home, &design.name));
     }
     Ok(out)
@@ -210,6 +213,8 @@ fn text(answer: &CompareAnswer) -> String {
         }
         out.push('\n');
     }
+    let _ = writeln!(out, "\n{}", answer.verdicts().join("\n"));
+    let _ = writeln!(out, "{}", answer.yardstick());
     for design in &answer.designs {
         if let Some(why) = &design.no_tolerance {
             let _ = writeln!(out, "{} has no joint tolerance: {why}", design.name);

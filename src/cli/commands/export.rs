@@ -145,7 +145,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         formats.push(FormatRecord { format: name, purpose, files, outcome });
     }
     // what is assessed are legs that change their lengths
-    let assessment = if design.has_cranks() { None } else { AssessAnswer::briefly(&design, context.seed()) };
+    let assessment = if design.has_cranks() { None } else { AssessAnswer::of(&design, context.seed()) };
     let lead = if design.has_cranks() {
         format!("{} has cranks: `equipod ik` says what remains of their limits at a pose\n", design.name)
     } else {

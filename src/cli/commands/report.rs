@@ -49,7 +49,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let files = found.len();
     let first = found.iter().find_map(design_of);
-    let assessment = first.as_ref().and_then(|d| AssessAnswer::briefly(d, context.seed()));
+    let assessment = first.as_ref().and_then(|d| AssessAnswer::of(d, context.seed()));
     // the path, for programs; before it the requirements, for people
     let shown = first.as_ref().filter(|_| std::io::stdout().is_terminal());
     let lead = shown.map(|d| requirements::lead(&d.name, assessment.as_ref()));

@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let output = args.output.as_deref().map_or_else(|| beside(args.design.as_deref()), Path::to_path_buf);
     files::write_text(&output, &html)?;
     let shown = session.shown();
-    let assessment = args.design.as_ref().and_then(|_| AssessAnswer::briefly(&shown, context.seed()));
+    let assessment = args.design.as_ref().and_then(|_| AssessAnswer::of(&shown, context.seed()));
     let record = ViewAnswer {
         name: session.design().name.clone(),
         output: output.display().to_string(),

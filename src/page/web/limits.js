@@ -1,8 +1,8 @@
 // The requirements over the whole workspace: what `equipod assess` answers for the design shown.
 
-/** A quick look first; then the numbers of poses, searches and cells that `equipod assess` takes. */
+/** A quick look first; then the numbers of poses and searches that `equipod assess` takes, and as many cells as it takes. */
 const ROUGH = { points: 500, searches: 1, cells: 0 };
-const THOROUGH = { points: 5000, searches: 3, cells: 6000 };
+const THOROUGH = { points: 5000, searches: 3 };
 
 /** What is known of a margin over the workspace, in a word. */
 const VERDICTS = { met: "proved", at_limit: "at the limit", violated: "violated", searched: "not proved" };
@@ -17,7 +17,7 @@ const Limits = {
     if (limits.error) return limits.error.code === "nothing_required" ? ["", "no requirements"] : ["", "workspace: not looked at"];
     if (limits.regular.met === false) return ["bad", "singular pose in the workspace"];
     if (limits.met === false || limits.requirements.some((m) => m.met === false)) return ["bad", "violates requirements"];
-    if (limits.met) return ["good", "meets all requirements"];
+    if (limits.met) return limits.judged.region ? ["good", "meets all requirements"] : ["good", `requirements ${limits.judged.met_in_words}`];
     return ["", limits.whole ? "no violation found, not all proved" : "no violation found so far"];
   },
 
@@ -40,10 +40,9 @@ const Limits = {
     if (!app.core.live) return "The least margin of each requirement at the pose shown, not over the workspace; below zero the requirement is violated.";
     if (!limits) return `Margins at the pose shown; the workspace of ${whose} is being looked at.`;
     if (limits.error) return limits.error.code === "nothing_required" ? "The design requires nothing: it has no [hardware], loads or keep-outs." : limits.error.message;
-    const over = `over ${limits.poses} poses of the workspace`;
+    const over = limits.judged.stated ? `over ${limits.poses} poses of the workspace` : "at home";
     if (!limits.whole) return `Least margins of ${whose} ${over}; ${Task.possible ? "more poses and a proof are on their way" : "a browser with workers looks at more of them"}.`;
-    const proof = limits.met ? "proved for all poses between them" : limits.met === false ? "with a violation" : "not all proved for the poses between them";
-    return `Least margins of ${whose} ${over}, ${proof}; below zero a requirement is violated.`;
+    return `Least margins of ${whose}, which ${limits.explanation}; below zero a requirement is violated.`;
   },
 
   /** The cell of a requirement over the workspace. */
@@ -57,9 +56,8 @@ const Limits = {
   },
 
   /** The row of the singular poses. */
-  regular(found, go) {
-    const words = { proved: ["good", "none: proved"], changes_sign: ["bad", "det J changes its sign"], undecided: [null, "not decided"] };
-    const [tone, text] = words[found.status] || [null, found.status];
+  regular({ regular: found, regular_explanation: text }, go) {
+    const tone = { proved: "good", changes_sign: "bad" }[found.status] || null;
     return [el("span", { class: tone }, text), ...(found.pose ? [Limits.button(found.pose, go)] : [])];
   },
 

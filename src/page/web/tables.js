@@ -66,7 +66,7 @@ const Tables = {
     });
     const blank = [...(own ? ["–"] : []), ...(second ? ["–"] : [])];
     if (whole) {
-      rows.push(row(["singular poses", Limits.regular(whole.regular, go), ...blank]));
+      rows.push(row(["singular poses", Limits.regular(whole, go), ...blank]));
       rows.push(row(["conditioning σ₆/σ₁", Limits.conditioning(whole.conditioning, go), ...(own ? [show(first.inverse_condition, 3)] : []), ...(second ? [show(second.inverse_condition, 3)] : [])]));
     }
     const heads = ["requirement", ...(whole ? [second ? "workspace, equivalent" : "workspace"] : []), ...(own ? [second ? "here, original" : "here"] : []), ...(second ? ["here, equivalent"] : [])];

@@ -116,7 +116,7 @@ pub(super) fn amount(x: f64) -> String {
 }
 
 /// A constraint in words, and the unit in which it gives.
-fn words(design: &Design, d: Demand) -> (String, String) {
+pub(super) fn words(design: &Design, d: Demand) -> (String, String) {
     match d {
         Demand::Requirement(kind) => {
             let sentence = match kind {
@@ -155,7 +155,11 @@ fn words(design: &Design, d: Demand) -> (String, String) {
             };
             (sentence.to_string(), design.unit_of(kind.quantity()))
         }
-        Demand::Determinant => ("the least |det A|".to_string(), String::new()),
+        Demand::Determinant => {
+            let default =
+                if design.optimize.min_abs_det.is_none() { ", a default of the search," } else { "" };
+            (format!("the least |det A|{default}"), String::new())
+        }
         Demand::Reach => ("the reach of sliding joints".to_string(), "reaches".to_string()),
         Demand::Level(o) => (format!("the level of {}", o.code()), String::new()),
     }

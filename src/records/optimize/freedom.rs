@@ -4,8 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::design::Design;
-use crate::entrance::freedoms::{ConflictFreedom, FreedomOutcome, OpenedFreedom};
-use crate::records::{AssessAnswer, DesignRecord, Number};
+use crate::entrance::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
+use crate::offsets::DEFAULT_MIN_ABS_DET;
+use crate::records::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
 
 /// A freedom that the design does not have, and what came of the search with it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -58,7 +59,11 @@ impl FreedomRecord {
             amount: opened.amount.map(Number),
             unit: design.units.clone(),
             message: message(design, opened, outcome),
-            assessment: found.and_then(|c| c.assessed.as_ref().map(|a| AssessAnswer::new(&c.design, a))),
+            assessment: found.and_then(|c| {
+                c.assessed
+                    .as_ref()
+                    .map(|a| AssessAnswer::new(&c.design, a).with_role(DesignRoleWord::Optimised))
+            }),
             design: found.map(|c| (&c.design).into()),
             output: output.map(str::to_owned),
         }
@@ -94,6 +99,7 @@ fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> Str
         ConflictFreedom::BaseEnvelope => wider("base"),
         ConflictFreedom::PlatformEnvelope => wider("platform"),
         ConflictFreedom::MachineEnvelope => wider("machine"),
+        ConflictFreedom::MinAbsDet => "no least |det A| (the default of the search)".to_owned(),
         ConflictFreedom::BaseMargin => plate("base"),
         ConflictFreedom::PlatformMargin => plate("platform"),
     };
@@ -104,6 +110,18 @@ fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> Str
         FreedomWord::Undecided => format!(
             "with {what} a platform was found that violates nothing at the poses looked at; not all is proved"
         ),
+        FreedomWord::Unresolved if !opened.eased.is_empty() => {
+            let less = |e: &EasedDemand| {
+                let (name, unit) = super::conflict::words(design, e.demand);
+                let [to, from] = [e.to, e.from].map(super::conflict::amount);
+                format!("{name} would have to give by {to} {unit} in place of {from} {unit}")
+            };
+            let list: Vec<String> = opened.eased.iter().map(less).collect();
+            format!(
+                "|det A| >= {DEFAULT_MIN_ABS_DET}, a default of the search, takes part: without it {}",
+                list.join(", ")
+            )
+        }
         FreedomWord::Unresolved => format!("{what} alone did not resolve it from any start"),
         FreedomWord::NotTried => format!("{what} was not tried: the search was told to end"),
     }

@@ -7,6 +7,7 @@ mod conflict;
 mod drive;
 mod freedom;
 mod platform;
+mod riding;
 mod symmetry;
 
 use schemars::JsonSchema;
@@ -23,6 +24,7 @@ pub use self::platform::{
     NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchMarginsRecord, SearchStepRecord,
     VariableRecord, VerifiedRecord, WorstPoseRecord,
 };
+pub use self::riding::{RiddenBoundRecord, RiddenWord, RidingRecord};
 pub use self::symmetry::{SymmetryRecord, SymmetryWord};
 use crate::design::Design;
 use crate::dimensional::{
@@ -66,6 +68,8 @@ pub struct OptimizeAnswer {
     pub candidates: Option<Vec<OptimumRecord>>,
     /// With mode = "pareto": platforms of which none is better in every objective, by falling gain of the first objective; else null.
     pub front: Option<Vec<FrontMemberRecord>>,
+    /// Why the sizes of the bodies and the height of home are chosen, a sentence; null: the variables are those of the design, or the usual ones.
+    pub choice: Option<String>,
     /// What the search itself was held to.
     pub limits: SearchLimitsRecord,
     /// The poses that were asked for.
@@ -88,8 +92,10 @@ pub struct OptimizeAnswer {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OptimizeWord {
-    /// The requirements are met, and the platform is the best by the measure that `optimality` names.
+    /// The requirements are met, and no offsets are better by more than `tolerance`: proved.
     Optimal,
+    /// The requirements are met, and the platform is a local optimum, the best of all starts; that none is better is not proved.
+    BestFound,
     /// The requirements are met; better platforms may be near, or a bound on all others was asked for and is not proved to within `tolerance`.
     Feasible,
     /// There is no platform: proved where `conflict` says so, else no start met the requirements.
@@ -108,6 +114,7 @@ impl From<OptimizeStatus> for OptimizeWord {
     fn from(status: OptimizeStatus) -> Self {
         match status {
             OptimizeStatus::Optimal => Self::Optimal,
+            OptimizeStatus::BestFound => Self::BestFound,
             OptimizeStatus::Feasible => Self::Feasible,
             OptimizeStatus::Infeasible => Self::Infeasible,
             OptimizeStatus::Undecided => Self::Undecided,
@@ -123,6 +130,7 @@ impl OptimizeWord {
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Optimal => "optimal",
+            Self::BestFound => "best_found",
             Self::Feasible => "feasible",
             Self::Infeasible => "infeasible",
             Self::Undecided => "undecided",
@@ -144,7 +152,7 @@ impl OptimizeWord {
     }
 }
 
-/// What is known of platforms better than the one found: the word `optimal` of a status means one or the other.
+/// What is known of platforms better than the one found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OptimalityWord {
@@ -260,6 +268,7 @@ impl OptimizeAnswer {
             drive_search: None,
             candidates: None,
             front: None,
+            choice: None,
             limits,
             region: design.into(),
             search,
@@ -330,7 +339,7 @@ impl OptimizeAnswer {
             ..SearchRecord::of(SearchMethodWord::Dimensional)
         };
         Self {
-            optimality: (status == OptimizeWord::Optimal).then_some(OptimalityWord::BestOfStarts),
+            optimality: (status == OptimizeWord::BestFound).then_some(OptimalityWord::BestOfStarts),
             platform: solution.map_or_else(FoundPlatformRecord::default, |(s, c)| {
                 FoundPlatformRecord::new(design, p.min_abs_det, s, c)
             }),

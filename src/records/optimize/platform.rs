@@ -4,16 +4,17 @@ use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::riding::{DetMargin, RidingRecord};
 use crate::design::Design;
 use crate::dimensional::{ChosenVariable, DimensionalSolution, HistoryStep};
-use crate::entrance::optimizing::Checked;
+use crate::entrance::optimizing::{Checked, offset_reserves};
 use crate::equivalence::Verification;
 use crate::manipulator::Octahedral;
 use crate::offsets::{Branch, OffsetHistoryStep, OffsetProblem, OffsetSolution};
 use crate::records::map::matrix;
 use crate::records::{
-    AssessAnswer, DesignRecord, MarginRecord, Number, PoseQuaternionRecord, PoseRecord, VerdictWord,
-    leg_number,
+    AssessAnswer, DesignRecord, DesignRoleWord, MarginRecord, Number, PoseQuaternionRecord, PoseRecord,
+    VerdictWord, leg_number,
 };
 use crate::requirements::Objective;
 use crate::synthesis::edge_lengths;
@@ -57,6 +58,8 @@ pub struct FoundPlatformRecord {
     pub constraint_margins: Option<Vec<MarginRecord>>,
     /// By how much what the search demands besides them is met.
     pub search_margins: Option<SearchMarginsRecord>,
+    /// What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies have grown; null: nothing.
+    pub riding: Option<RidingRecord>,
     /// Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     pub requirements_met: Option<bool>,
     /// What `assess` says of the platform; null: the design requires nothing.
@@ -84,9 +87,20 @@ impl FoundPlatformRecord {
         let det = map.map(|m| m.determinant);
         let octahedral = s.offsets.and_then(|t| Some((t, Octahedral::recognise(design.manipulator()).ok()?)));
         // a platform that is compared with the design has its triangles
+        let base = Self::checked(design, c, &s.objectives, s.poses.len());
+        let variables = VariableRecord::all(s);
+        let margin =
+            det.map(|det| DetMargin { left: det.abs() - min_abs_det, least: min_abs_det, reserve: 0.0 });
         let edges = octahedral.as_ref().filter(|_| map.is_some()).map(|(t, o)| (*t, edge_lengths(o)));
         Self {
-            variables: Some(VariableRecord::all(s)),
+            riding: RidingRecord::new(
+                design,
+                c,
+                &variables,
+                base.constraint_margins.as_deref().unwrap_or_default(),
+                margin,
+            ),
+            variables: Some(variables),
             offsets: s.offsets.map(|t| t.map(Number)),
             shifts: edges.map(|(t, d)| std::array::from_fn(|i| Number(t[i] * d[i]))),
             edge_lengths: edges.map(|(_, d)| d.map(Number)),
@@ -108,7 +122,7 @@ impl FoundPlatformRecord {
                 pattern_trials: None,
             }),
             history: Some(s.history.iter().map(SearchStepRecord::from).collect()),
-            ..Self::checked(design, c, &s.objectives, s.poses.len())
+            ..base
         }
     }
 
@@ -121,8 +135,14 @@ impl FoundPlatformRecord {
             value: Number(s.offsets[i]),
             bounds: [Number(p.bounds[i].0), Number(p.bounds[i].1)],
         };
+        let base = Self::checked(design, c, &[(Objective::WorstConditioning, r.objective)], count);
+        let variables: Vec<VariableRecord> = (0..6).map(variable).collect();
+        let [_, reserve] = offset_reserves(design, &p.octahedral);
+        let margin = DetMargin { left: r.margins.det + reserve, least: p.min_abs_det - reserve, reserve };
+        let known = base.constraint_margins.as_deref().unwrap_or_default();
         Self {
-            variables: Some((0..6).map(variable).collect()),
+            riding: RidingRecord::new(design, c, &variables, known, Some(margin)),
+            variables: Some(variables),
             offsets: Some(s.offsets.map(Number)),
             shifts: Some(s.shifts.map(Number)),
             edge_lengths: Some(p.edge_lengths().map(Number)),
@@ -134,7 +154,7 @@ impl FoundPlatformRecord {
             home: Some((&design.home_or_default()).into()),
             joint_axes: Some(JointAxesRecord { base: None, platform: None }),
             search_margins: Some(SearchMarginsRecord {
-                abs_det: Some(Number(r.margins.det)),
+                abs_det: Some(Number(margin.left)),
                 bounds: Number(r.margins.bounds),
             }),
             local_optimality: Some(LocalOptimalityRecord {
@@ -144,7 +164,7 @@ impl FoundPlatformRecord {
                 pattern_trials: Some(s.evidence.pattern_trials),
             }),
             history: Some(s.history.iter().map(|h| SearchStepRecord::of_offsets(h, count)).collect()),
-            ..Self::checked(design, c, &[(Objective::WorstConditioning, r.objective)], count)
+            ..base
         }
     }
 
@@ -156,7 +176,7 @@ impl FoundPlatformRecord {
             objectives: Some(objectives),
             constraint_margins: Some(MarginRecord::searched(&c.design, &c.assessment)),
             requirements_met: c.met(),
-            assessment: c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found)),
+            assessment: judged_as(c, DesignRoleWord::Optimised),
             verify: c.verification.as_ref().map(VerifiedRecord::from),
             worst_pose: c
                 .worst_pose
@@ -166,6 +186,11 @@ impl FoundPlatformRecord {
             ..Self::default()
         }
     }
+}
+
+/// The judgement of a platform in its role.
+fn judged_as(c: &Checked, role: DesignRoleWord) -> Option<AssessAnswer> {
+    c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found).with_role(role))
 }
 
 /// How far a variable is from its nearer bound.
@@ -207,7 +232,7 @@ impl OptimumRecord {
             objectives: ObjectiveRecord::all(design, &s.objectives, c),
             variables: VariableRecord::all(s),
             requirements_met: c.met(),
-            assessment: c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found)),
+            assessment: judged_as(c, DesignRoleWord::Optimised),
             design: (&c.design).into(),
             output: output.map(str::to_owned),
         }
@@ -232,7 +257,7 @@ impl NearestPlatformRecord {
         Self {
             variables: VariableRecord::all(s),
             constraint_margins: MarginRecord::searched(&c.design, &c.assessment),
-            assessment: c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found)),
+            assessment: judged_as(c, DesignRoleWord::Closest),
             design: (&c.design).into(),
         }
     }

@@ -10,11 +10,13 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
-use crate::entrance::optimizing::EXTENSION;
 use crate::equivalents::NearestDesigns;
 use crate::offsets::DEFAULT_MIN_ABS_DET;
 use crate::records::NearestAnswer;
 use crate::synthesis::NearestOptions;
+
+/// How far a joint of the design may stand beyond a corner of the triangles sought, in lengths of the side, where nothing is said: what exists is recognised, nothing is chosen.
+pub(in crate::cli::commands) const EXTENSION: f64 = 1.0;
 
 /// Arguments of `equivalents nearest`.
 #[derive(Debug, clap::Args)]

@@ -18,9 +18,10 @@ use crate::design::Design;
 use crate::equivalents::NearestDesigns;
 use crate::fk::{FkOptions, PoseCounting};
 use crate::records::{
-    AssessAnswer, ComparedRecord, ComponentRecord, ComponentsAnswer, ExploreAnswer, ExploreGeneralAnswer,
-    ExploreVerdict, FamiliesFoundRecord, MovesFoundRecord, NearestAnswer, NearestErrorRecord, Number,
-    PoseTotalsRecord, ProvenanceRecord, SearchWord, StageRecord, StageWord, VerdictWord,
+    AssessAnswer, ComparedRecord, ComponentRecord, ComponentsAnswer, DesignRoleWord, ExploreAnswer,
+    ExploreGeneralAnswer, ExploreVerdict, FamiliesFoundRecord, MovesFoundRecord, NearestAnswer,
+    NearestErrorRecord, Number, PoseTotalsRecord, ProvenanceRecord, SearchWord, StageRecord, StageWord,
+    VerdictWord,
 };
 use crate::synthesis::components::{ComponentOptions, Components, components};
 
@@ -57,7 +58,8 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
     progress.stage(2, "equivalent platforms");
     let moves = moves(&mut run, &families)?;
     progress.stage(3, "nearest octahedral platform");
-    let near = nearest_platform(&mut run, args.extension)?;
+    let extension = args.extension.unwrap_or(nearest::EXTENSION);
+    let near = nearest_platform(&mut run, extension)?;
     progress.stage(4, "requirements");
     let met = requirements(&mut run, near.as_ref().map(|n| &n.0))?;
     progress.stage(5, "comparison");
@@ -101,7 +103,7 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
         "equipod explore {} -o DIR --seed {seed} --samples {} --extension {}",
         folder::ORIGINAL,
         args.samples,
-        args.extension
+        extension
     );
     folder.write(folder::REPORT, &markdown(&answer, design, &repeat))?;
     let files = folder.results()?;
@@ -207,17 +209,13 @@ fn nearest_platform(
 /// Whether the equivalent of the nearest octahedral platform meets the requirements of the design.
 fn requirements(run: &mut Run<'_>, near: Option<&NearestDesigns>) -> Result<Option<bool>, Failure> {
     let Some(near) = near else { return Ok(None) };
-    let Ok(found) = near.beside.assess() else {
+    let Some(answer) = AssessAnswer::of(&near.beside, run.seed) else {
         run.done(StageWord::Assess, "the design has no requirements");
         return Ok(None);
     };
-    let answer = AssessAnswer::new(&near.beside, &found);
+    let answer = answer.with_role(DesignRoleWord::NearestEquivalent);
     let met = answer.met;
-    let text = match met {
-        Some(true) => "all requirements are met at every pose of the workspace, proved",
-        Some(false) => "requirements are violated",
-        None => "no requirement is violated at the poses looked at; not all is proved",
-    };
+    let text = format!("the equivalent of the nearest octahedral platform {}", answer.explanation);
     run.folder.write(folder::ASSESS, &document(answer, run.provenance.clone(), &[])?)?;
     run.done(StageWord::Assess, text);
     Ok(met)

@@ -27,7 +27,7 @@ use crate::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::cli::requirements;
 use crate::design::{Design, DriveTable};
 use crate::entrance::exporting::octahedral_of_controllers;
-use crate::entrance::optimizing::EXTENSION;
+use crate::entrance::optimizing::{EXTENSION, RESERVE_PERCENT, with_default_reserve};
 use crate::entrance::rounding::DesignOnHoles;
 use crate::entrance::{SAMPLES, sample_plan};
 use crate::equivalence::{Verification, verify};
@@ -38,9 +38,10 @@ use crate::geom::SamplePlan;
 use crate::manipulator::{LegLengths, Octahedral};
 use crate::manufacture::NoRounding;
 use crate::records::{
-    AssessAnswer, ComparedRecord, ExploreAnswer, ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer,
-    FamilySizeRecord, FkRunRecord, FramesRecord, FreedomWord, LengthsOrigin, OnHolesRecord, PoseTotalsRecord,
-    ProvenanceRecord, RoundAnswer, VariantWord, VerdictWord, VerifyAnswer,
+    AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
+    ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
+    FreedomWord, LengthsOrigin, OnHolesRecord, PoseTotalsRecord, PriceRecord, ProvenanceRecord, RoundAnswer,
+    VariantWord, VerdictWord, VerifyAnswer,
 };
 use crate::requirements::KeptSymmetry;
 use crate::synthesis::{Family, FamilyMember};
@@ -56,9 +57,9 @@ pub(crate) struct Args {
     /// Number of sets of leg lengths at which two designs are solved and compared: an octahedral design with the optimised one, another with the equivalent found, or its nearest octahedral platform with that one's equivalent
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
     samples: usize,
-    /// How far a joint may lie outside its edge, on its extension, in edge lengths
-    #[arg(long, value_name = "X", default_value_t = EXTENSION)]
-    extension: f64,
+    /// How far a joint may stand beyond a corner, on the extension of its side, in lengths of the side; default: 0.3, and 1 for the nearest octahedral platform of a design that is not octahedral
+    #[arg(long, value_name = "X")]
+    extension: Option<f64>,
     /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could win, as `optimize --drives` does, in place of that of the design (`drives` in `[hardware]`). Of octahedral designs
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
@@ -87,6 +88,10 @@ struct Poses {
 #[derive(Debug)]
 struct Results {
     design: Design,
+    /// The same with the reserve that the search kept.
+    held: Design,
+    /// What became of the default reserve; `None` where the design states one.
+    reserve: Option<DefaultReserve>,
     octahedral: Octahedral,
     family: Family,
     search: Search,
@@ -111,6 +116,12 @@ impl Results {
             Some(Err(_)) => None,
             None => self.search.optimised(),
         }
+    }
+
+    /// What separate joints cost in the platform to build.
+    fn price(&self) -> Option<PriceRecord> {
+        let found = self.design.separation(self.built()?, self.options.seed);
+        Some(PriceRecord::new(&found, &self.design.units))
     }
 
     /// What the platform found is judged by: its requirements first, then the comparison.
@@ -276,7 +287,7 @@ fn round_record(on: &DesignOnHoles, assessment: Option<AssessAnswer>) -> RoundAn
 
 /// Runs all stages; each file is written when its stage is finished.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    optimize::check_extension(args.extension)?;
+    args.extension.map_or(Ok(()), optimize::check_extension)?;
     let design = context.load(&args.design)?;
     let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
         let why = "no platform is searched under the requirements of a design that is not octahedral";
@@ -331,18 +342,22 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 
     progress.stage(2, "the best platform");
     let interrupt = Interrupt::watch_for(args.time_limit);
+    let extension = args.extension.unwrap_or(EXTENSION);
+    let careful = with_default_reserve(&design);
     let asked = Asked {
         design: &design,
         octahedral: &octahedral,
         drives: table.as_ref(),
-        extension: args.extension,
+        extension,
+        explains: true,
         context,
         interrupt: &interrupt,
     };
-    let (found, holes) = searched(&asked, &mut progress)?;
+    let Careful { found, holes, reserve } = searched_carefully(&asked, careful.as_ref(), &mut progress)?;
+    let held = careful.as_ref().filter(|_| reserve == Some(DefaultReserve::Kept)).unwrap_or(&design).clone();
     let mut found = found.with_lengths_of(&design);
     found.open_freedoms(&asked, &mut progress, &mut folder)?;
-    found.write(&design, provenance.clone(), &mut folder)?;
+    found.write(&held, provenance.clone(), &mut folder)?;
     if let Some(new) = found.optimised() {
         folder.write(folder::OPTIMISED, &new.to_toml())?;
     }
@@ -369,7 +384,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let mut built = None;
     if let Some(Ok(on)) = &holes {
         let new = on.found.as_ref().map(|(_, design)| design);
-        assessment = new.zip(on.assessed.as_ref()).map(|(d, a)| AssessAnswer::new(d, a));
+        assessment = new
+            .zip(on.assessed.as_ref())
+            .map(|(d, a)| AssessAnswer::new(d, a).with_role(DesignRoleWord::OnHoles));
         let answer = round_record(on, assessment.clone());
         folder.write(folder::ROUND, &document(answer, context.provenance(), &[])?)?;
         if let Some(new) = new {
@@ -383,9 +400,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
 
     progress.stage(5, "report");
-    let extension = args.extension;
     let results = Results {
         design,
+        held,
+        reserve,
         octahedral,
         family,
         search: found,
@@ -397,7 +415,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         options,
         extension,
     };
-    folder.write(folder::REPORT, &report::markdown(&results))?;
+    let short = headline(&record(&results, &folder));
+    folder.write(folder::REPORT, &report::markdown(&results, &short))?;
     let files = folder.results()?;
     folder.write(folder::PAGE, &page(files, None))?;
     let record = record(&results, &folder);
@@ -406,7 +425,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let notes = notes(&record);
     let lead = lead.map_or_else(|| notes.clone(), |lead| format!("{notes}{lead}"));
     let lead = (!lead.is_empty()).then_some(lead);
-    let text = text(&record.name, record.verdict, &record.explanation, &record.paths, lead.as_deref());
+    let explanation = [&[record.explanation.clone()][..], &headline(&record)].concat().join("\n");
+    let text = text(&record.name, record.verdict, &explanation, &record.paths, lead.as_deref());
     Ok(Answer::new(results.exit(), ExploreAnswer::Octahedral(Box::new(record)), text))
 }
 
@@ -418,8 +438,48 @@ pub(super) struct Asked<'a> {
     /// The drives to choose from, where a table was given.
     drives: Option<&'a DriveTable>,
     extension: f64,
+    /// Whether a conflict is looked for where nothing meets the requirements.
+    explains: bool,
     context: &'a Context,
     interrupt: &'a Interrupt,
+}
+
+/// What became of the reserve that a design does not state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum DefaultReserve {
+    /// The platform found keeps it.
+    Kept,
+    /// No platform that keeps it was found: the answer is that of the search without it.
+    GivenUp,
+}
+
+/// A search with what became of the default reserve.
+struct Careful {
+    found: Search,
+    holes: OnHoles,
+    reserve: Option<DefaultReserve>,
+}
+
+/// The search with the default reserve first, where the design states none, and without it where that leads to no platform.
+fn searched_carefully(
+    asked: &Asked<'_>,
+    careful: Option<&Design>,
+    progress: &mut ProgressLine,
+) -> Result<Careful, Failure> {
+    let Some(careful) = careful else {
+        let (found, holes) = searched(asked, progress)?;
+        return Ok(Careful { found, holes, reserve: None });
+    };
+    let (found, holes) = searched(&Asked { design: careful, explains: false, ..*asked }, progress)?;
+    let keeps = match &holes {
+        None => found.optimised().is_some() && found.met() == Some(true),
+        Some(_) => is_met(&holes),
+    };
+    if keeps || asked.interrupt.flow().is_break() {
+        return Ok(Careful { found, holes, reserve: Some(DefaultReserve::Kept) });
+    }
+    let (found, holes) = searched(asked, progress)?;
+    Ok(Careful { found, holes, reserve: Some(DefaultReserve::GivenUp) })
 }
 
 /// A platform with its joints on the holes that the design states; `None` where it states none, or no platform was found.
@@ -430,8 +490,6 @@ type OnHoles = Option<Result<DesignOnHoles, NoRounding>>;
 fn searched(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<(Search, OnHoles), Failure> {
     let found = search::search(asked, progress)?;
     let holes = found.on_holes(asked, progress)?;
-    let is_met =
-        |holes: &OnHoles| matches!(holes, Some(Ok(on)) if on.found.is_some() && on.met() == Some(true));
     let is_last = holes.is_none() || is_met(&holes) || asked.interrupt.flow().is_break();
     if is_last || !found.keeps_symmetry_of_start() {
         return Ok((found, holes));
@@ -442,6 +500,24 @@ fn searched(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<(Search, O
     let other = search::search(&free, progress)?;
     let on_holes = other.on_holes(&free, progress)?;
     Ok(if is_met(&on_holes) { (other.without_symmetry_of_start(), on_holes) } else { (found, holes) })
+}
+
+/// Whether a platform stands on the holes and is proved to meet its requirements.
+fn is_met(holes: &OnHoles) -> bool {
+    matches!(holes, Some(Ok(on)) if on.found.is_some() && on.met() == Some(true))
+}
+
+/// The lines below the verdict: the price of separate joints, what the platform rides on, and the reserve.
+fn headline(a: &ExploreOctahedralAnswer) -> Vec<String> {
+    // of joints on holes the price is known, and not what the platform before the rounding rode on
+    let riding = a.optimize.as_ref().filter(|_| a.holes.is_none()).and_then(|o| o.riding.as_ref());
+    let found = a.price.is_some();
+    let lines = [
+        a.price.as_ref().map(|p| p.message.clone()),
+        riding.map(|r| r.message.clone()),
+        a.reserve.as_ref().filter(|_| found).map(|r| r.message.clone()),
+    ];
+    lines.into_iter().flatten().collect()
 }
 
 /// What the answer says besides its verdict: symmetry, drives, freedoms.
@@ -537,7 +613,9 @@ fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
         name: r.design.name.clone(),
         paths: folder.written().collect(),
         family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
-        optimize: r.search.key_figures(&r.design),
+        optimize: r.search.key_figures(&r.held),
+        price: r.price(),
+        reserve: r.reserve.map(|r| DefaultReserveRecord::new(RESERVE_PERCENT, r == DefaultReserve::Kept)),
         verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
         holes: r.holes.as_ref().map(OnHolesRecord::from),
         symmetry: r.search.symmetry(),

@@ -7,6 +7,7 @@ use super::{Machine, Results, Verified, folder};
 use crate::cli::commands::optimize::Done;
 use crate::cli::commands::optimize::dimensional::{self, opened_file};
 use crate::cli::requirements as table;
+use crate::entrance::optimizing::offset_reserves;
 use crate::entrance::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
 use crate::equivalence::SAME_POSE;
 use crate::export::PART_COLUMNS;
@@ -17,7 +18,7 @@ use crate::records::{AssessAnswer, DriveSearchRecord, LengthsOrigin, Number};
 use crate::synthesis::AffineLegMap;
 
 /// The whole report. Writing to a string cannot fail, so the results of `write!` are dropped.
-pub(super) fn markdown(r: &Results) -> String {
+pub(super) fn markdown(r: &Results, headline: &[String]) -> String {
     let mut out = String::new();
     let _ = writeln!(
         out,
@@ -26,6 +27,9 @@ pub(super) fn markdown(r: &Results) -> String {
         r.verdict().as_str().replace('_', " "),
         plain(&r.explanation())
     );
+    for line in headline {
+        let _ = writeln!(out, "{}.\n", sentence(line));
+    }
     if let (Some(design), Some(a)) = (r.built(), &r.assessment) {
         requirements(&mut out, &design.name, a);
     }
@@ -82,7 +86,7 @@ fn inputs(out: &mut String, r: &Results) {
     let _ = writeln!(
         out,
         "\nHome pose: {}. Worst case over {} poses, workspace: {}. Joints of one body at least {} {} apart, \
-         |det A| at least {}, characteristic length {} {}.\n",
+         |det A| at least {}, reserve included; characteristic length {} {}.\n",
         given(d.home.is_some()),
         p.poses.len(),
         given(!d.workspace.is_empty()),
@@ -137,12 +141,7 @@ fn requirements(out: &mut String, name: &str, found: &AssessAnswer) {
             plain(&m.between.join(", "))
         );
     }
-    let singular = match found.regular.met {
-        Some(true) => "No pose of the workspace is singular: proved.",
-        Some(false) => "The workspace holds a singular pose.",
-        None => "That no pose of the workspace is singular is not proved.",
-    };
-    let _ = writeln!(out, "\n{singular}\n");
+    let _ = writeln!(out, "\n{}.\n", plain(&found.regular_explanation));
 }
 
 /// The bill of materials and the files of the machine.
@@ -331,6 +330,7 @@ fn solution(out: &mut String, r: &Results, done: &Done, s: &OffsetSolution) {
         );
     }
     let (c, m) = (&s.recheck, &s.recheck.margins);
+    let [distance, det] = offset_reserves(&r.held, &p.octahedral);
     let _ = writeln!(
         out,
         "\nWorst inverse condition number {:.9} (pose {} of {}); {}.\n\n| quantity | value | margin |\n|---|---|---|\n\
@@ -345,9 +345,9 @@ fn solution(out: &mut String, r: &Results, done: &Done, s: &OffsetSolution) {
             "the local search has NOT settled"
         },
         c.det,
-        m.det,
-        m.base_spacing,
-        m.platform_spacing,
+        m.det + det,
+        m.base_spacing + distance,
+        m.platform_spacing + distance,
         m.bounds
     );
 }

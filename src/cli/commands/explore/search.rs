@@ -16,8 +16,8 @@ use crate::equivalence::Verdict;
 use crate::manufacture::NoRounding;
 use crate::offsets;
 use crate::records::{
-    AssessAnswer, DriveSearchRecord, FreedomRecord, OptimizeAnswer, OptimizedRecord, ProvenanceRecord,
-    SymmetryRecord,
+    AssessAnswer, DesignRoleWord, DriveSearchRecord, FreedomRecord, OptimizeAnswer, OptimizedRecord,
+    ProvenanceRecord, SymmetryRecord,
 };
 use crate::requirements::StartSymmetry;
 
@@ -61,10 +61,16 @@ pub(super) fn search(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<S
     let seed = asked.context.seed();
     // lengths of drives are requirements
     if asks_for_more(design) || asked.drives.is_some() {
-        let done = dimensional::search(design, asked.drives, extension, &options(seed), &mut |_, p| {
-            part(progress, &p);
-            interrupt.flow()
-        })?;
+        let done = dimensional::search(
+            design,
+            asked.drives,
+            extension,
+            (&options(seed), asked.explains),
+            &mut |_, p| {
+                part(progress, &p);
+                interrupt.flow()
+            },
+        )?;
         return Ok(Search::Dimensions(Box::new(done)));
     }
     let done =
@@ -224,7 +230,7 @@ impl Search {
     /// What `assess` says of the platform found; `None` without one, or where nothing is required.
     pub(super) fn assessment(&self) -> Option<AssessAnswer> {
         let c = self.checked()?;
-        Some(AssessAnswer::new(&c.design, c.assessed.as_ref()?))
+        Some(AssessAnswer::new(&c.design, c.assessed.as_ref()?).with_role(DesignRoleWord::Optimised))
     }
 
     /// Whether the platform found meets what is required; `Some(true)` where nothing is.

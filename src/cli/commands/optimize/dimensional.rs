@@ -99,7 +99,7 @@ impl Done {
         let candidates = self.candidates.as_ref().map(all);
         let found = OptimizeAnswer::of_platform(design, &self.problem, &self.report, found, written);
         let status = self.status();
-        let optimality = found.optimality.filter(|_| status == OptimizeWord::Optimal);
+        let optimality = found.optimality.filter(|_| status == OptimizeWord::BestFound);
         OptimizeAnswer {
             status,
             optimality,
@@ -151,16 +151,16 @@ pub(super) fn failed(why: Error) -> Failure {
     }
 }
 
-/// Optimises and checks, with the drives of a table where there is one; `progress` is told how far the search is.
+/// Optimises and checks, with the drives of a table where there is one; `progress` is told how far the search is. `explains`: as in [`find_platform`].
 pub(in crate::cli::commands) fn search(
     design: &Design,
     table: Option<&DriveTable>,
     extension: f64,
-    options: &ShapeSearchOptions,
+    (options, explains): (&ShapeSearchOptions, bool),
     progress: &mut dyn FnMut(Option<&Drive>, Progress) -> ControlFlow<()>,
 ) -> Result<Done, Failure> {
     let Some(table) = table else {
-        let found = find_platform(design, extension, options, &mut |p| progress(None, p));
+        let found = find_platform(design, extension, options, explains, &mut |p| progress(None, p));
         return Ok(Done::of(found.map_err(failed)?, None));
     };
     let search =
@@ -249,7 +249,7 @@ pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Res
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
     let table = drives::asked(args.drives.as_deref(), &args.design, design, context)?;
     let options = options(args, context);
-    let mut done = search(design, table.as_ref(), args.extension, &options, &mut |drive, p| {
+    let mut done = search(design, table.as_ref(), args.extension, (&options, true), &mut |drive, p| {
         let with = drive.map_or_else(String::new, |d| format!("{}: ", d.name));
         progress.note(&format!("{with}{p}"));
         interrupt.flow()

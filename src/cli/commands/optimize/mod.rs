@@ -21,7 +21,7 @@ use crate::design::{Combination, Design};
 use crate::dimensional::InvalidProblem;
 use crate::entrance::optimizing::{
     Checked, EXTENSION, asks_for_more, checked_offsets, dimensional_problem, hopeless_home, offset_problem,
-    offset_status,
+    offset_status, with_sizes_to_choose,
 };
 use crate::manipulator::Octahedral;
 use crate::offsets::{self, OffsetProblem, OffsetReport, OffsetSearchOptions, OffsetSolution, optimize};
@@ -83,11 +83,17 @@ pub(super) fn workers(asked: Option<u16>) -> usize {
     asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
 }
 
+/// Why the sizes and the height are chosen.
+const SIZES: &str = "no leg of the design can be replaced without another kinematics: the sizes of base and platform and the height of home are chosen";
+
 /// Optimises, and writes the design when asked to.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     refuse_singular_home(&design, args.extension, "optimize::singular_home")?;
+    let sized = with_sizes_to_choose(&design);
+    let choice = sized.as_ref().map(|_| SIZES.to_owned());
+    let design = sized.unwrap_or(design);
     // lengths of drives are requirements
     if asks_for_more(&design) || args.drives.is_some() || design.drive_table.is_some() {
         let why = "no bound over all offsets is proved for a design that asks for more than the best offsets";
@@ -114,7 +120,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             history::write(path, &design, "sum of the weighted objectives", &rows)?;
         }
         let written = write(args.output.as_deref(), done.platform())?;
-        let record = done.record(&design, written.as_deref());
+        let record = OptimizeAnswer { choice, ..done.record(&design, written.as_deref()) };
         return Ok(answered(&design, record, context));
     }
     context.no_effect(
@@ -229,7 +235,7 @@ impl Done {
 /// What the status means for the exit code.
 pub(super) fn exit_of(status: OptimizeWord) -> Exit {
     match status {
-        OptimizeWord::Optimal | OptimizeWord::Front => Exit::Yes,
+        OptimizeWord::Optimal | OptimizeWord::BestFound | OptimizeWord::Front => Exit::Yes,
         OptimizeWord::Infeasible | OptimizeWord::Violated => Exit::No,
         OptimizeWord::Feasible | OptimizeWord::Undecided | OptimizeWord::Interrupted => Exit::Inconclusive,
     }

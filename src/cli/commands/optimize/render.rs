@@ -14,7 +14,10 @@ use crate::synthesis::sliding_body;
 
 /// For people. Writing to a string cannot fail, so the results of `write!` are dropped.
 pub(super) fn text(name: &str, a: &OptimizeAnswer) -> String {
-    let mut out = format!("{name}: {}\n", a.status.as_str());
+    let mut out = format!("{name}: {}\n", a.status.as_str().replace('_', " "));
+    if let Some(choice) = &a.choice {
+        let _ = writeln!(out, "{choice}");
+    }
     search_text(&mut out, a);
     if let Some(s) = &a.symmetry {
         let _ = writeln!(out, "{}", s.message);
@@ -42,6 +45,9 @@ pub(super) fn text(name: &str, a: &OptimizeAnswer) -> String {
     }
     if let Some(list) = &a.candidates {
         candidates_text(&mut out, list);
+    }
+    if let Some(r) = &a.platform.riding {
+        let _ = writeln!(out, "{}", r.message);
     }
     meaning_text(&mut out, a);
     branches_text(&mut out, a);

@@ -18,7 +18,7 @@ use crate::entrance::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, 
 use crate::equivalence::{Verdict, Verification};
 use crate::manipulator::{Body, Manipulator};
 use crate::manufacture::{NoRounding, Rounding};
-use crate::records::{AssessAnswer, VariantWord};
+use crate::records::{AssessAnswer, DesignRoleWord, VariantWord};
 use crate::requirements::{Grid, HoleCircles, HolePattern};
 
 /// Arguments of `build round`.
@@ -226,7 +226,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         files::write_design(path, rounded)?;
         written = Some(path.display().to_string());
     }
-    let assessment = rounded.as_ref().and_then(|(_, d)| AssessAnswer::of(d, context.seed()));
+    let assessment = rounded
+        .as_ref()
+        .and_then(|(_, d)| Some(AssessAnswer::of(d, context.seed())?.with_role(DesignRoleWord::OnHoles)));
     let met = assessment.as_ref().map_or(Some(true), |a| a.met);
     let rounded = rounded.as_ref().map(|(variant, d)| (*variant, d));
     // an exact rounding that is not equivalent would be a fault of the search

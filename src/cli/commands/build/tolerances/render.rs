@@ -18,7 +18,7 @@ use crate::records::{
 pub(super) fn record(design: &Design, f: &Found, seed: u64, path: Option<String>) -> TolerancesAnswer {
     let b = &f.budget;
     TolerancesAnswer {
-        assessment: AssessAnswer::briefly(design, seed),
+        assessment: AssessAnswer::of(design, seed),
         bound: (f.bound.position, f.bound.rotation_deg).into(),
         tool: [f.tool.x, f.tool.y, f.tool.z].map(Number),
         units: design.units.clone(),

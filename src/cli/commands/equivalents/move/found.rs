@@ -12,8 +12,8 @@ use crate::cli::output::Answer;
 use crate::cli::requirements;
 use crate::design::Design;
 use crate::records::{
-    AssessAnswer, CandidateRecord, DesignRecord, HoleRecord, MoveAnswer, MoveSearchAnswer, Number,
-    PlacementRecord, SearchWord, WishMarginRecord,
+    AssessAnswer, CandidateRecord, DesignRecord, DesignRoleWord, HoleRecord, MoveAnswer, MoveSearchAnswer,
+    Number, PlacementRecord, SearchWord, WishMarginRecord,
 };
 use crate::synthesis::components::{ComponentOptions, Components};
 use crate::synthesis::relocate::search::{
@@ -113,9 +113,9 @@ fn judged<'a>(design: &Design, outcome: &'a SearchOutcome, seed: u64) -> Vec<Jud
     let judge = |candidate: &'a Candidate| {
         let shares: Vec<f64> = candidate.placements.iter().flat_map(|p| p.parameters.clone()).collect();
         let built = moved_design(design, &candidate.assembled, &shares);
-        // what misses a wish is not fulfilled whatever is proved of its requirements
-        let assess = if candidate.fulfilled { AssessAnswer::of } else { AssessAnswer::briefly };
-        let assessment = built.as_ref().and_then(|d| assess(d, seed));
+        let assessment = built
+            .as_ref()
+            .and_then(|d| Some(AssessAnswer::of(d, seed)?.with_role(DesignRoleWord::Equivalent)));
         JudgedPlatform { candidate, design: built, assessment }
     };
     let mut found: Vec<JudgedPlatform<'a>> = outcome.candidates.iter().map(judge).collect();
