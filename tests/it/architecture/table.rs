@@ -46,7 +46,7 @@ const LINES: &[Line] = &[
     (
         "solve",
         &["num", "geom", "poly", "manipulator"],
-        &[MATRICES, COMPLEX, INTEGERS, ("num_integer", None), ERRORS],
+        &[MATRICES, COMPLEX, INTEGERS, ("num_integer", None), ("sha2", None), ERRORS],
     ),
     ("solve::certify", &["num", "geom", "manipulator"], &[MATRICES, COMPLEX, ("pulp", None), ERRORS]),
     (
