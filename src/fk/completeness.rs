@@ -283,7 +283,8 @@ pub enum Reason {
     },
     /// The leg vectors are nearly, and not exactly, dependent.
     LegsNearlyDependent,
-    /// Doubles do not tell the equations of the legs apart: the lengths are much longer than the design, or one body is much larger than the other.
+    /// Doubles do not tell the equations of the legs apart: the lengths are much longer than the design, or one body
+    /// is much larger than the other.
     LegsNotToldApart,
     /// Paths that end near points without a certificate.
     EndsUnproved {

@@ -77,7 +77,8 @@ pub(super) fn curves(
     Ok(out)
 }
 
-/// Legs without a relation whose equations doubles do not tell apart, because the lengths are much longer than the design or one body is much larger than the other:
+/// Legs without a relation whose equations doubles do not tell apart, because the lengths are much longer than the
+/// design or one body is much larger than the other:
 /// the count, and no poses.
 pub(super) fn not_told_apart(
     m: &Manipulator,

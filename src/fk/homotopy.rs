@@ -140,7 +140,8 @@ fn failures(found: &FkSolutions) -> usize {
     if found.paths.len() < GENERIC_COUNT { 2 * failed } else { failed }
 }
 
-/// How many times larger one body is than the other, by the distances of leg ends from their mean; 1 for a body in one point.
+/// How many times larger one body is than the other, by the distances of leg ends from their mean; 1 for a body in
+/// one point.
 fn ratio_of_bodies(m: &Manipulator) -> f64 {
     let [base, platform] = m.mean_leg_ends();
     let largest = |list: [f64; 6]| list.into_iter().fold(0.0, f64::max);

@@ -1,9 +1,14 @@
-//! Products of a square root and of cosines of shares of a turn: a basis, over the fractions, of a real field that is closed under products.
+//! Products of a square root and of cosines of shares of a turn: a basis, over the fractions, of a real field that is
+//! closed under products.
 //!
-//! Three towers stand beside the square roots of integers: `2 cos(k 360/32)`, `2 cos(k 360/20)` and `2 cos(k 360/9)` degrees.
-//! Their fields have the degrees 8, 4 and 3; the first holds `sqrt(2)`, the second `sqrt(5)`, and no two of them share more than the fractions.
-//! Square roots of integers without the factors 2 and 5 are independent of all three, because 2, 3 and 5 are the only primes that ramify there and `sqrt(3)` is in none of them.
-//! So each number of the compositum is one sum of fractions times the [`Root`]s (Washington 1997, chapter 2, for the fields and their intersections).
+//! Three towers stand beside the square roots of integers: `2 cos(k 360/32)`, `2 cos(k 360/20)` and `2 cos(k 360/9)`
+//! degrees.
+//! Their fields have the degrees 8, 4 and 3; the first holds `sqrt(2)`, the second `sqrt(5)`, and no two of them
+//! share more than the fractions.
+//! Square roots of integers without the factors 2 and 5 are independent of all three, because 2, 3 and 5 are the only
+//! primes that ramify there and `sqrt(3)` is in none of them.
+//! So each number of the compositum is one sum of fractions times the [`FieldRoot`]s (Washington 1997, chapter 2, for
+//! the fields and their intersections).
 
 use num_bigint::BigInt;
 use num_integer::Integer as _;
@@ -20,12 +25,12 @@ const GUARD: u64 = 16;
 ///
 /// `i` is 1, 2, 3, 5, 6 or 7 and then `r` is odd; `j` is 1 or 3 and then 5 does not divide `r`; `k` is 1 or 2.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Root {
+pub(crate) struct FieldRoot {
     radicand: u64,
     cosines: [u8; 3],
 }
 
-/// An automorphism of the field over the largest field without the generator that a [`Root`] has.
+/// An automorphism of the field over the largest field without the generator that a [`FieldRoot`] has.
 ///
 /// The first in this order are eliminated first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,7 +47,7 @@ pub(super) enum Generator {
     Prime(u64),
 }
 
-impl Root {
+impl FieldRoot {
     pub(super) const ONE: Self = Self { radicand: 1, cosines: [0; 3] };
 
     /// The square root of a squarefree number.
@@ -97,7 +102,8 @@ impl Root {
         self.cosines[1] > 0
     }
 
-    /// The numbers that sum up to the product of two; twice these numbers where `doubled`, which it has to be for two with [`Self::has_twentieth`].
+    /// The numbers that sum up to the product of two; twice these numbers where `doubled`, which it has to be for two
+    /// with [`Self::has_twentieth`].
     ///
     /// `None` when a radicand does not fit.
     pub(super) fn times(self, other: Self, doubled: bool) -> Option<Vec<(Self, i64)>> {
@@ -192,7 +198,8 @@ impl Root {
             let root = ((c * c * self.radicand) << (2 * k)).sqrt();
             return if c.sign() == num_bigint::Sign::Minus { -root } else { root };
         }
-        // errors of 2^-bits in factors whose product is below 2^magnitude: four of them are below 2^(magnitude + 3 - bits) together
+        // errors of 2^-bits in factors whose product is below 2^magnitude: four of them are below 2^(magnitude + 3 -
+        // bits) together
         let bits = k + c.bits() + self.magnitude_bits() + GUARD;
         let root = (BigInt::from(self.radicand) << (2 * bits)).sqrt();
         let product = self.cosines().fold(root, |x, (n, i)| (x * twice_cosine(n, i, bits)) >> bits);
@@ -297,7 +304,8 @@ fn halved(k: u32, fixed: u64) -> BigInt {
     }
 }
 
-/// `2cos 40` and `2cos 80` by Newton's method, as zeros of `x^3 - 3x + 1`: `2cos 3t = x^3 - 3x` is -1 at 120 and 240 degrees.
+/// `2cos 40` and `2cos 80` by Newton's method, as zeros of `x^3 - 3x + 1`: `2cos 3t = x^3 - 3x` is -1 at 120 and 240
+/// degrees.
 fn of_cubic(k: u32, fixed: u64) -> BigInt {
     let start = 2.0 * f64::from(40 * k).to_radians().cos();
     let mut x = (BigInt::from((start * 2f64.powi(50)) as i64) << fixed) >> 50u32;
@@ -317,18 +325,18 @@ fn of_cubic(k: u32, fixed: u64) -> BigInt {
 mod tests {
     use super::*;
 
-    fn value(root: Root) -> f64 {
+    fn value(root: FieldRoot) -> f64 {
         root.cosines().fold((root.radicand as f64).sqrt(), |x, (n, k)| {
             x * 2.0 * (f64::from(k) * std::f64::consts::TAU / f64::from(n)).cos()
         })
     }
 
-    fn basis() -> Vec<Root> {
+    fn basis() -> Vec<FieldRoot> {
         let mut all = Vec::new();
         for radicand in [1u64, 2, 3, 5, 6, 10, 30] {
             for i in [0u8, 1, 2, 3, 5, 6, 7].into_iter().filter(|i| *i == 0 || radicand % 2 == 1) {
                 for j in [0u8, 1, 3].into_iter().filter(|j| *j == 0 || radicand % 5 != 0) {
-                    all.extend([0, 1, 2].map(|k| Root { radicand, cosines: [i, j, k] }));
+                    all.extend([0, 1, 2].map(|k| FieldRoot { radicand, cosines: [i, j, k] }));
                 }
             }
         }
@@ -339,7 +347,8 @@ mod tests {
     fn cosines_of_all_towers_are_sums_of_the_basis() {
         for (tower, n) in TOWERS.into_iter().enumerate() {
             for k in 0..2 * n {
-                let sum: f64 = Root::four_cosines(tower, k).iter().map(|(r, c)| *c as f64 * value(*r)).sum();
+                let sum: f64 =
+                    FieldRoot::four_cosines(tower, k).iter().map(|(r, c)| *c as f64 * value(*r)).sum();
                 let expected = 4.0 * (f64::from(k) * std::f64::consts::TAU / f64::from(n)).cos();
                 assert!((sum - expected).abs() < 1e-13, "{n} {k}");
             }
@@ -364,7 +373,7 @@ mod tests {
     #[test]
     fn images_respect_products() {
         let generators = [Generator::Ninth, Generator::ThirtySecond, Generator::Twentieth];
-        let image = |sum: &[(Root, i64)], g: Generator| {
+        let image = |sum: &[(FieldRoot, i64)], g: Generator| {
             let mut out = std::collections::BTreeMap::new();
             for (r, c) in sum {
                 for (s, d) in r.image(g) {

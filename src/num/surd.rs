@@ -1,7 +1,10 @@
-//! Numbers of the real fields `Q(sqrt 2, sqrt 3, .., cos 11.25, cos 18, cos 40)`: sums of rational multiples of square roots of integers, and of these times cosines.
+//! Numbers of the real fields `Q(sqrt 2, sqrt 3, .., cos 11.25, cos 18, cos 40)`: sums of rational multiples of
+//! square roots of integers, and of these times cosines.
 //!
-//! The square roots of different squarefree integers are linearly independent over `Q` (Besicovitch 1940), and so are their products with the cosines of [`Root`].
-//! The sum is therefore unique: it is zero only when it has no terms, and its sign is found by evaluating it to enough digits.
+//! The square roots of different squarefree integers are linearly independent over `Q` (Besicovitch 1940), and so are
+//! their products with the cosines of [`FieldRoot`].
+//! The sum is therefore unique: it is zero only when it has no terms, and its sign is found by evaluating it to
+//! enough digits.
 //! Numbers are kept small on purpose: an operation whose result would be long, and a square root that is no such sum, give `None`.
 
 use std::cmp::Ordering;
@@ -12,10 +15,11 @@ use num_bigint::BigInt;
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 
-use super::cosine::{Generator, Root};
+use super::cosine::{FieldRoot, Generator};
 use super::exact::{Rational, farthest, nearest};
 
-/// Most terms of a sum: the degree of a field with four square roots, or of the cosines of 3, 3.75, 4.5 and 5.625 degrees.
+/// Most terms of a sum: the degree of a field with four square roots, or of the cosines of 3, 3.75, 4.5 and 5.625
+/// degrees.
 const MAX_TERMS: usize = 16;
 /// Most bits of a numerator or of the common denominator.
 const MAX_BITS: u64 = 2048;
@@ -26,10 +30,11 @@ const MAX_FACTORED: u64 = 512;
 /// How deep square roots of sums are sought under one another.
 const MAX_NESTING: usize = 4;
 
-/// `sum_r c_r r / d` over some of the [`Root`]s, `d > 0`, integers `c_r` that are not zero and share no factor with `d`.
+/// `sum_r c_r r / d` over some of the [`FieldRoot`]s, `d > 0`, integers `c_r` that are not zero and share no factor
+/// with `d`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Surd {
-    terms: BTreeMap<Root, BigInt>,
+    terms: BTreeMap<FieldRoot, BigInt>,
     denominator: BigInt,
 }
 
@@ -39,16 +44,17 @@ impl Surd {
     }
 
     pub(crate) fn integer(x: i64) -> Self {
-        Self::lowest(BTreeMap::from([(Root::ONE, BigInt::from(x))]), BigInt::one()).unwrap_or_else(Self::zero)
+        Self::lowest(BTreeMap::from([(FieldRoot::ONE, BigInt::from(x))]), BigInt::one())
+            .unwrap_or_else(Self::zero)
     }
 
     /// `None` for a fraction that is too long.
     pub(crate) fn rational(x: &Rational) -> Option<Self> {
-        Self::lowest(BTreeMap::from([(Root::ONE, x.numer().clone())]), x.denom().clone())
+        Self::lowest(BTreeMap::from([(FieldRoot::ONE, x.numer().clone())]), x.denom().clone())
     }
 
     /// In lowest terms; `None` when that is too long.
-    fn lowest(terms: BTreeMap<Root, BigInt>, denominator: BigInt) -> Option<Self> {
+    fn lowest(terms: BTreeMap<FieldRoot, BigInt>, denominator: BigInt) -> Option<Self> {
         Self::reduced(terms, denominator).short()
     }
 
@@ -61,7 +67,7 @@ impl Surd {
     }
 
     /// In lowest terms, however long.
-    fn reduced(mut terms: BTreeMap<Root, BigInt>, denominator: BigInt) -> Self {
+    fn reduced(mut terms: BTreeMap<FieldRoot, BigInt>, denominator: BigInt) -> Self {
         terms.retain(|_, c| !c.is_zero());
         let mut common = denominator.clone();
         for c in terms.values() {
@@ -81,7 +87,7 @@ impl Surd {
 
     /// A fraction, however long.
     pub(super) fn long_rational(x: &Rational) -> Self {
-        Self::reduced(BTreeMap::from([(Root::ONE, x.numer().clone())]), x.denom().clone())
+        Self::reduced(BTreeMap::from([(FieldRoot::ONE, x.numer().clone())]), x.denom().clone())
     }
 
     pub(crate) fn is_zero(&self) -> bool {
@@ -92,7 +98,7 @@ impl Surd {
     pub(crate) fn as_rational(&self) -> Option<Rational> {
         match self.terms.iter().next() {
             None => Some(Rational::zero()),
-            Some((&Root::ONE, c)) if self.terms.len() == 1 => {
+            Some((&FieldRoot::ONE, c)) if self.terms.len() == 1 => {
                 Some(Rational::new(c.clone(), self.denominator.clone()))
             }
             Some(_) => None,
@@ -110,7 +116,7 @@ impl Surd {
     }
 
     /// What is summed up, with the numerators that belong to it.
-    pub(crate) fn terms(&self) -> impl Iterator<Item = (Root, &BigInt)> {
+    pub(crate) fn terms(&self) -> impl Iterator<Item = (FieldRoot, &BigInt)> {
         self.terms.iter().map(|(r, c)| (*r, c))
     }
 
@@ -132,7 +138,7 @@ impl Surd {
     pub(super) fn sum(&self, other: &Self) -> Self {
         let common = self.denominator.lcm(&other.denominator);
         let (f, g) = (&common / &self.denominator, &common / &other.denominator);
-        let mut terms: BTreeMap<Root, BigInt> = self.terms.iter().map(|(r, c)| (*r, c * &f)).collect();
+        let mut terms: BTreeMap<FieldRoot, BigInt> = self.terms.iter().map(|(r, c)| (*r, c * &f)).collect();
         for (r, c) in &other.terms {
             *terms.entry(*r).or_default() += c * &g;
         }
@@ -149,7 +155,7 @@ impl Surd {
 
     /// The product, however long; `None` when a radicand exceeds 64 bits.
     pub(super) fn product(&self, other: &Self) -> Option<Self> {
-        let mut terms: BTreeMap<Root, BigInt> = BTreeMap::new();
+        let mut terms: BTreeMap<FieldRoot, BigInt> = BTreeMap::new();
         let doubled = [self, other].iter().all(|x| x.terms.keys().any(|r| r.has_twentieth()));
         for (r, c) in &self.terms {
             for (s, d) in &other.terms {
@@ -170,7 +176,7 @@ impl Surd {
 
     /// The image under the automorphism that moves the generator and none of those that come after it.
     fn image(&self, generator: Generator) -> Self {
-        let mut terms: BTreeMap<Root, BigInt> = BTreeMap::new();
+        let mut terms: BTreeMap<FieldRoot, BigInt> = BTreeMap::new();
         for (r, c) in &self.terms {
             for (root, factor) in r.image(generator) {
                 *terms.entry(root).or_default() += c * factor;
@@ -229,7 +235,8 @@ impl Surd {
             return rational_root(&x);
         }
         let generator = self.generator().filter(|g| depth > 0 && *g != Generator::Ninth)?;
-        // (u + v)^2 = a + b with u^2 = (a +- c) / 2, c^2 = (a + b)(a - b), v = b / (2 u), where a - b is the image of a + b
+        // (u + v)^2 = a + b with u^2 = (a +- c) / 2, c^2 = (a + b)(a - b), v = b / (2 u), where a - b is the image of
+        // a + b
         let half = Self::rational(&Rational::new(1.into(), 2.into()))?;
         let image = self.image(generator);
         let (a, tail) = (self.plus(&image)?.times(&half)?, self.minus(&image)?.times(&half)?);
@@ -248,11 +255,12 @@ impl Surd {
 
     /// `2cos(k 360 / n)` degrees of the tower with this index.
     fn twice_cosine(tower: usize, k: u32) -> Option<Self> {
-        let terms = Root::four_cosines(tower, k).into_iter().map(|(r, c)| (r, BigInt::from(c)));
+        let terms = FieldRoot::four_cosines(tower, k).into_iter().map(|(r, c)| (r, BigInt::from(c)));
         Self::lowest(terms.collect(), BigInt::from(2))
     }
 
-    /// Cosine and sine of `degrees`, where they are in the field: at multiples of a quarter of a degree whose cosine has a degree of 16 at most.
+    /// Cosine and sine of `degrees`, where they are in the field: at multiples of a quarter of a degree whose cosine
+    /// has a degree of 16 at most.
     pub(crate) fn turn(degrees: &Rational) -> Option<(Self, Self)> {
         let quarters = degrees * Rational::from_integer(4.into());
         if !quarters.is_integer() {
@@ -303,7 +311,7 @@ impl Surd {
 
     /// All conjugates are below two to this power.
     pub(crate) fn magnitude_bits(&self) -> i64 {
-        let bits = |(r, c): (&Root, &BigInt)| c.bits() + r.magnitude_bits();
+        let bits = |(r, c): (&FieldRoot, &BigInt)| c.bits() + r.magnitude_bits();
         let largest = self.terms.iter().map(bits).max().unwrap_or(0);
         let terms = self.terms.len().next_power_of_two().trailing_zeros();
         (largest + u64::from(terms) + 1).cast_signed() - self.denominator.bits().cast_signed()
@@ -373,7 +381,7 @@ fn degree(a: u32) -> usize {
 fn rational_root(x: &Rational) -> Option<Surd> {
     // sqrt(n / d) = sqrt(n d) / d
     let (square, radicand) = squarefree(x.numer() * x.denom())?;
-    Surd::lowest(BTreeMap::from([(Root::of(radicand), square)]), x.denom().clone())
+    Surd::lowest(BTreeMap::from([(FieldRoot::of(radicand), square)]), x.denom().clone())
 }
 
 /// `s` and squarefree `r` with `n = s^2 r`, `n` positive; `None` when `r` cannot be told to be squarefree by small primes, or is too large.
@@ -434,7 +442,7 @@ impl fmt::Display for Surd {
                 (_, true) => " - ",
             };
             f.write_str(sign)?;
-            let number = (*r == Root::ONE || !share.numer().is_one()).then(|| share.numer().to_string());
+            let number = (*r == FieldRoot::ONE || !share.numer().is_one()).then(|| share.numer().to_string());
             let root = (r.radicand() > 1).then(|| format!("sqrt({})", r.radicand()));
             let cosines =
                 r.cosines().map(|(n, k)| format!("cos_deg({})", 360.0 * f64::from(k) / f64::from(n)));
@@ -448,7 +456,8 @@ impl fmt::Display for Surd {
     }
 }
 
-/// Integers whose square roots generate the same field as those of squarefree integers in ascending order, beside the cosines of these divisions: a root that is a
+/// Integers whose square roots generate the same field as those of squarefree integers in ascending order, beside the
+/// cosines of these divisions: a root that is a
 /// fraction times a product of two or three before it is left out, and so is a cosine whose double is there.
 #[cfg(feature = "files")]
 pub(crate) fn generators(radicands: &[u64], divisions: &mut Vec<u32>) -> Vec<u64> {
@@ -507,7 +516,7 @@ mod tests {
     fn value(x: &Surd) -> f64 {
         let double = |x: &BigInt| nearest(&Rational::from_integer(x.clone()));
         let cosine = |(n, k): (u32, u32)| 2.0 * (f64::from(360 * k) / f64::from(n)).to_radians().cos();
-        let root = |r: &Root| (r.radicand() as f64).sqrt() * r.cosines().map(cosine).product::<f64>();
+        let root = |r: &FieldRoot| (r.radicand() as f64).sqrt() * r.cosines().map(cosine).product::<f64>();
         x.terms.iter().map(|(r, c)| double(c) * root(r)).sum::<f64>() / double(&x.denominator)
     }
 

@@ -166,7 +166,7 @@ fn judges(command: &str) -> bool {
 fn calls_good(answer: &Value) -> bool {
     let met = |v: &Value| v["met"] == true || v["assessment"]["met"] == true || v["fulfilled"] == true;
     let each = |key: &str| answer[key].as_array().is_some_and(|list| list.iter().any(met));
-    let found = ["optimal", "feasible", "front"].iter().any(|word| answer["status"] == *word);
+    let found = ["optimal", "best_found", "feasible", "front"].iter().any(|word| answer["status"] == *word);
     met(answer) || found || each("candidates") || each("designs")
 }
 

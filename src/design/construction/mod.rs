@@ -306,9 +306,11 @@ impl ExactJoint {
 pub struct DesignExactness {
     /// The least exact of its joints; `None` where every joint is given by three plain numbers and so is the three doubles that are read.
     pub exactness: Option<Exactness>,
-    /// The integers whose square roots generate the field of all exact coordinates, with the fractions and the cosines of `divisions`.
+    /// The integers whose square roots generate the field of all exact coordinates, with the fractions and the
+    /// cosines of `divisions`.
     pub radicands: Vec<u64>,
-    /// Numbers `n` whose cosines `cos(360 / n)` degrees generate the field, beside the square roots: some of 9, 16, 20 and 32.
+    /// Numbers `n` whose cosines `cos(360 / n)` degrees generate the field, beside the square roots: some of 9, 16,
+    /// 20 and 32.
     pub divisions: Vec<u32>,
     /// The joints that are known between bounds only, with their bodies: `"base.A2"`.
     pub enclosed: Vec<String>,

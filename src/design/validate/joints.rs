@@ -53,7 +53,8 @@ impl NamedJoints {
         self.joints.iter().map(|j| Point3::from(point(j))).collect()
     }
 
-    /// Notes which joints are at one place: by their exact coordinates where some are constructed, else by their doubles.
+    /// Notes which joints are at one place: by their exact coordinates where some are constructed, else by their
+    /// doubles.
     pub(super) fn find_coincident(&mut self, constructions: Option<&Constructions>) {
         let exact = constructions
             .filter(|_| self.joints.iter().any(|j| j.constructed))
@@ -235,18 +236,14 @@ fn refuse_identical(
     let mut seen: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (i, pair) in pairs.iter().enumerate() {
         let Some(pair) = pair else { continue };
-        // joints at one place are one joint, whatever their names are
-        let place = (base.first_there[pair.0], platform.first_there[pair.1]);
-        if let Some(first) = seen.get(&place) {
-            let name = |body: &NamedJoints, j: usize| shown(&body.joints[j].name);
-            let (a, b) = (name(base, place.0), name(platform, place.1));
-            let places = if place == *pair { "" } else { ", or joints at the same places" };
-            let message = format!("legs {} and {} both join {a} to {b}{places}", first + 1, i + 1);
+        if let Some(first) = seen.get(pair) {
+            let (a, b) = (shown(&base.joints[pair.0].name), shown(&platform.joints[pair.1].name));
+            let message = format!("legs {} and {} both join {a} to {b}", first + 1, i + 1);
             let help =
                 "each leg needs its own pair of joints; with two equal legs the platform is never rigid";
             report.refuse(Code::IdenticalLegs, &list[i].span, message, help);
         } else {
-            seen.insert(place, i);
+            seen.insert(*pair, i);
         }
     }
 }
@@ -259,7 +256,7 @@ fn check_use(report: &mut Findings<'_>, body: &NamedJoints, used: [usize; 6]) {
             report.warn(Warning::UnusedJoint { body: body.body, name: joint.name.clone(), line });
         }
     }
-    let mut distinct = used.map(|i| body.first_there[i]).to_vec();
+    let mut distinct = used.to_vec();
     distinct.sort_unstable();
     distinct.dedup();
     if let [i, j, k] = distinct.as_slice() {

@@ -9,8 +9,10 @@ use crate::num::modular::Field;
 
 /// Whether they are seen to be finitely many, whatever the lengths.
 ///
-/// With `h = 0` the quadrics and leg equations are homogeneous and know no lengths. A curve of points meets every hyperplane, so that a homogeneous linear equation
-/// that leaves no zeros but zero itself, an algebra of finite dimension, proves that there is no curve, whichever equation it is. The dimension of a projective scheme does
+/// With `h = 0` the quadrics and leg equations are homogeneous and know no lengths. A curve of points meets every
+/// hyperplane, so that a homogeneous linear equation
+/// that leaves no zeros but zero itself, an algebra of finite dimension, proves that there is no curve, whichever
+/// equation it is. The dimension of a projective scheme does
 /// not fall modulo a prime, so that finitely many points are finitely many for the joints as they are.
 pub(crate) fn are_points_at_infinity_finite(field: Field, ends: &EndResidues, rng: &mut Rng) -> bool {
     let hyperplane = std::array::from_fn(|k| if k < H { rng.next_u64() >> 4 } else { 0 });
@@ -35,7 +37,8 @@ fn are_finite_by(field: Field, ends: &EndResidues, hyperplane: Linear) -> bool {
 mod tests {
     use super::*;
 
-    /// The octahedral platform has isolated points at infinity; four joints at one place of the base and two at another leave curves of them.
+    /// The octahedral platform has isolated points at infinity; four joints at one place of the base and two at
+    /// another leave curves of them.
     #[test]
     fn no_hyperplane_hides_a_curve_of_points_at_infinity() {
         let field = Field::MERSENNE;

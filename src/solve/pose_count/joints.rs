@@ -1,6 +1,7 @@
 //! The joints of a design modulo a prime: doubles as the dyadic numbers they are, exact joints as the algebraic numbers they are.
 //!
-//! Coordinates that are sums of square roots and cosines have residues modulo primes for which these exist ([`SplitField`]); primes are drawn until there is one.
+//! Coordinates that are sums of square roots and cosines have residues modulo primes for which these exist
+//! ([`SplitField`]); primes are drawn until there is one.
 
 use super::{CountUndecided, Lengths};
 use crate::manipulator::{ExactEnds, JointKnowledge, Leg, Manipulator};
@@ -41,7 +42,8 @@ impl CountedJoints {
 
     /// The generator of the primes and sections for these joints and lengths.
     ///
-    /// No design and lengths have the primes of others at the same seed, so that none can be made of the primes by which it will be judged: these follow from a hash of
+    /// No design and lengths have the primes of others at the same seed, so that none can be made of the primes by
+    /// which it will be judged: these follow from a hash of
     /// it.
     pub(super) fn rng(&self, lengths: Lengths<'_>, seed: u64) -> Rng {
         let mut hash = Sha256::new();

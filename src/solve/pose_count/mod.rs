@@ -36,7 +36,8 @@ const SECTION_BITS: f64 = 64.0;
 /// How the poses are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CountOptions {
-    /// Seed of the primes and of the random linear sections, which follow from it and from a hash of the joints and lengths.
+    /// Seed of the primes and of the random linear sections, which follow from it and from a hash of the joints and
+    /// lengths.
     pub seed: u64,
     /// Number of primes that have to agree.
     pub primes: usize,
@@ -125,7 +126,8 @@ pub struct PoseCount {
     pub set: PoseSet,
     /// Whether it is the set of the lengths given.
     pub lengths: CountedLengths,
-    /// The primes, drawn uniformly from those between `2^60` and `2^61`; for joints made of square roots and cosines the first of several draws that has these.
+    /// The primes, drawn uniformly from those between `2^60` and `2^61`; for joints made of square roots and cosines
+    /// the first of several draws that has these.
     pub primes: Vec<u64>,
     /// Bound on the probability that primes drawn so lead to another set than exact arithmetic does; zero when the set is undecided.
     pub error_probability: f64,
@@ -386,7 +388,8 @@ fn leg_equation(field: Field, [a, b]: &[[u64; 3]; 2], square: u64) -> Linear {
 /// A bad prime divides a minor, not zero, of the integer matrix of all multiples of some degree `<= depth + 1` of the quadrics and linear equations in sixteen unknowns, or of its columns above one of the
 /// degrees `0..=DEGREE`, of seventeen where the chart is not `h = 1`. Hadamard: a minor is at most
 /// the product of the norms of its rows. It has as many prime factors above `2^60` as sixty goes into its bits, of more than `3 2^60 / (5 ln 2^60)` primes between `2^60` and
-/// `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots and cosines are algebraic integers: a bad prime divides their norm, and any of the primes
+/// `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots and cosines are algebraic integers:
+/// a bad prime divides their norm, and any of the primes
 /// drawn may be bad.
 fn error_probability(
     joints: &CountedJoints,
