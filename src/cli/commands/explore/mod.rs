@@ -308,7 +308,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         )?;
         return general::run(args, &design, context);
     };
-    optimize::refuse_singular_home(&design, args.extension, "explore::singular_home")?;
+    let extension = args.extension.unwrap_or(EXTENSION);
+    optimize::refuse_singular_home(&design, extension, "explore::singular_home")?;
     search::refuse_front(&design)?;
     search::refuse_options(&design, args.drives.is_some(), context)?;
     if design.holes.is_some() {
@@ -342,7 +343,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 
     progress.stage(2, "the best platform");
     let interrupt = Interrupt::watch_for(args.time_limit);
-    let extension = args.extension.unwrap_or(EXTENSION);
     let careful = with_default_reserve(&design);
     let asked = Asked {
         design: &design,
