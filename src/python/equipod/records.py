@@ -74,6 +74,7 @@ Loss = Literal["cauchy", "huber", "squares", "tukey"]
 LossUnit = Literal["leg", "pose"]
 MarginVerdict = Literal["at_limit", "met", "searched", "violated"]
 Method = Literal["homotopy", "near", "octic", "sylvester", "template", "trilateration"]
+MotionRegularity = Literal["proved", "sampled", "singular"]
 NearWord = Literal["lost", "near_singularity", "tracked"]
 NoRoundingWord = Literal[
     "bad_grid",
@@ -112,6 +113,7 @@ SearchMethodWord = Literal["dimensional", "offsets"]
 SearchWord = Literal["found", "impossible", "undecided", "violated"]
 SideWord = Literal["above", "below"]
 SignOutcome = Literal["crosses", "keeps_sign", "undecided"]
+SingularEvidenceWord = Literal["rounding", "sign_change", "zero"]
 SourceWord = Literal["default", "design"]
 SpecialDemand = Literal["abs_det", "reach"]
 StageWord = Literal["assess", "components", "fk", "moves", "nearest", "verify"]
@@ -476,6 +478,9 @@ class CheckAnswer(Record):
     architecturally_singular: Union[bool, None]
     #: Decided exactly, for the joints as the numbers they are.
     singular_as_written: bool
+    #: What shows that the home pose of the design is singular; null: it is regular, or the design states
+    #: none.
+    singular_home: Union[SingularEvidenceWord, None]
     #: A short code of the reason; null: regular.
     reason: Union[str, None]
     #: One sentence.
@@ -2471,7 +2476,7 @@ class MotionAnswer(Record):
     schema_version: int
     #: The name of the design.
     name: str
-    #: No requirement is violated and no force is undetermined at the instants looked at.
+    #: No requirement is violated at the instants looked at, and no pose of the motions is singular.
     met: bool
     #: Of lengths; speeds are in it per second, accelerations per second squared.
     length_unit: str
@@ -2521,8 +2526,14 @@ class MotionRunRecord(Record):
     legs: tuple[LegMotionRecord, ...]
     #: The least margin of each kind of requirement, force and speed by this motion.
     requirements: tuple[TimedMarginRecord, ...]
-    #: When forces are not determined, since the pose is singular; null: at no instant.
+    #: Whether every pose of the motion is regular.
+    regularity: MotionRegularity
+    #: When the first singular pose is passed; null: none was found.
     singular_at_s: Union[float, None]
+    #: That pose.
+    singular_pose: Union[PoseQuaternionRecord, None]
+    #: What shows that it is singular.
+    singular_evidence: Union[SingularEvidenceWord, None]
     #: By leg, where the legs are rods on cranks; empty where a rod does not reach at some instant.
     cranks: Union[tuple[CrankMotionRecord, ...], None]
     #: When a rod first does not reach from its crank to the platform, where one does not.
