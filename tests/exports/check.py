@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the files of `equipod export`, and the schemas of `equipod design schema`, with programs that are not ours. `tests/exports/run` installs them and calls this.
+"""Checks the files of `equipod export` with programs that are not ours. `tests/exports/run` installs them and calls this.
 
     python tests/exports/check.py target/debug/equipod
 
@@ -20,7 +20,6 @@ from dynamics import check_dynamics
 from drawings import check_dxf, check_svg, check_xml
 from linuxcnc import check_linuxcnc, check_preset
 from motion import check_equivalent, check_poses
-from schemas import check_schemas
 from solids import check_step, check_stl
 from standing import check_standing
 from swing import check_swing
@@ -70,7 +69,6 @@ def main():
         check_step(folder, design, doc, limits and [1000 * x for x in limits])
         check_poses(folder, design, time, limits)
     check_preset(program, top / "preset")
-    check_schemas(program, top / "schemas", ROOT)
     check_dynamics(program, top / "dynamics")
     check_cranks(program, top / "cranks", ROOT / "designs/presets/reachy-mini.toml")
     check_standing(program, top / "standing", ROOT / "designs/worked/simulator-300kg-built.toml")

@@ -1,4 +1,4 @@
-//! Answers are read by programs in Rust as their types; `tests/exports/schemas.py` holds every answer against its schema.
+//! Answers are read by programs in Rust as their types; `tests/answers/check.py` holds every answer against its schema.
 
 use equipod::records::{
     CheckAnswer, CompletionsAnswer, Document, ErrorAnswer, FamilyAnswer, FkAnswer, HelpAnswer, IkAnswer,

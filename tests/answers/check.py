@@ -1,6 +1,6 @@
 """`equipod design schema`: shipped designs and answers of all commands against their schemas, by a validator that is not ours.
 
-    python tests/exports/schemas.py PROGRAM
+    python tests/answers/check.py PROGRAM
 """
 
 import json
@@ -10,6 +10,8 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "exports"))
 
 from answers import answers
 from common import failed, missing, module, passed, report, run
