@@ -7,12 +7,10 @@ use nalgebra::Point3;
 
 use super::{Body, ExactEnds, JointKnowledge, Leg, Manipulator};
 use crate::num::algebraic::Algebraic;
-use crate::num::exact::{ExactVector, Number, Rational, product, rank, rational};
+use crate::num::exact::{ExactNumber, ExactVector, Rational, product, rank, rational};
 use crate::num::modular::{Field, mantissa_and_exponent};
-use crate::num::split::{SplitField, degree_of};
+use crate::num::split::{SplitField, common_bits, degree_of};
 use crate::num::surd::Surd;
-use num_bigint::BigInt;
-use num_integer::Integer as _;
 
 /// A vector of numbers of one field of square roots.
 pub(crate) type AlgebraicVector = Vec<Algebraic>;
@@ -41,7 +39,7 @@ pub(crate) fn homogeneous(p: &Point3<f64>) -> Option<ExactVector> {
 }
 
 /// Dimension of the flat of homogeneous points: 0 a point, 1 a line, 2 a plane, 3 space.
-pub(crate) fn flat_dimension<'a, N: Number + 'a>(points: impl IntoIterator<Item = &'a Vec<N>>) -> usize {
+pub(crate) fn flat_dimension<'a, N: ExactNumber + 'a>(points: impl IntoIterator<Item = &'a Vec<N>>) -> usize {
     rank(&points.into_iter().cloned().collect::<Vec<_>>()).saturating_sub(1)
 }
 
@@ -136,11 +134,7 @@ impl ExactJoints {
                     },
                 )
             }
-            Self::Surds(_) => {
-                let common = self.surds().fold(BigInt::from(1), |l, x| l.lcm(x.denominator()));
-                let magnitude = self.surds().map(Surd::magnitude_bits).fold(0, i64::max);
-                [common.bits().cast_signed(), magnitude]
-            }
+            Self::Surds(_) => common_bits(self.surds()),
         }
     }
 }

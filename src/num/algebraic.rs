@@ -7,7 +7,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_traits::Zero;
 
-use super::exact::{self, Number, Rational};
+use super::exact::{self, ExactNumber, Rational};
 use super::split::{SplitField, degree_of};
 use super::surd::Surd;
 
@@ -163,7 +163,7 @@ impl std::iter::Sum for Algebraic {
     }
 }
 
-impl Number for Algebraic {
+impl ExactNumber for Algebraic {
     fn product(&self, other: &Self) -> Self {
         self * other
     }

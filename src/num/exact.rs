@@ -13,7 +13,7 @@ use super::modular::Field;
 pub(crate) type Rational = BigRational;
 
 /// Numbers of a field that knows the linear relations between its rows.
-pub(crate) trait Number: Clone {
+pub(crate) trait ExactNumber: Clone {
     /// The product of two.
     fn product(&self, other: &Self) -> Self;
 
@@ -21,7 +21,7 @@ pub(crate) trait Number: Clone {
     fn relations(rows: &[Vec<Self>]) -> Vec<Vec<Self>>;
 }
 
-impl Number for Rational {
+impl ExactNumber for Rational {
     fn product(&self, other: &Self) -> Self {
         self * other
     }
@@ -44,7 +44,7 @@ fn zero() -> Rational {
 }
 
 /// A basis of the linear relations between the rows: vectors `c` with `sum_i c_i row_i = 0`, exactly.
-pub(crate) fn relations<N: Number>(rows: &[Vec<N>]) -> Vec<Vec<N>> {
+pub(crate) fn relations<N: ExactNumber>(rows: &[Vec<N>]) -> Vec<Vec<N>> {
     N::relations(rows)
 }
 
@@ -94,12 +94,12 @@ fn relations_of_fractions(rows: &[ExactVector]) -> Vec<ExactVector> {
 }
 
 /// Rank of a list of rows.
-pub(crate) fn rank<N: Number>(rows: &[Vec<N>]) -> usize {
+pub(crate) fn rank<N: ExactNumber>(rows: &[Vec<N>]) -> usize {
     rows.len() - relations(rows).len()
 }
 
 /// `a (x) b`, entry by entry.
-pub(crate) fn product<N: Number>(a: &[N], b: &[N]) -> Vec<N> {
+pub(crate) fn product<N: ExactNumber>(a: &[N], b: &[N]) -> Vec<N> {
     a.iter().flat_map(|x| b.iter().map(move |y| x.product(y))).collect()
 }
 

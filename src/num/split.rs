@@ -158,6 +158,16 @@ impl SplitField {
     }
 }
 
+/// Bits of a common denominator of the numbers, and a power of two that none of their conjugates exceeds, as its exponent.
+pub(crate) fn common_bits<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> [i64; 2] {
+    let (mut common, mut magnitude) = (BigInt::from(1), 0);
+    for x in numbers {
+        common = common.lcm(x.denominator());
+        magnitude = magnitude.max(x.magnitude_bits());
+    }
+    [common.bits().cast_signed(), magnitude]
+}
+
 /// `2cos(k 360 / n)` degrees modulo the prime.
 fn cosine(field: Field, turns: &[(u32, u64)], n: u32, k: u32) -> Option<u64> {
     let (order, turn) = turns.iter().find(|(order, _)| order % n == 0)?;

@@ -132,8 +132,14 @@ fn a_singular_design_typed_with_three_decimals_is_headlined_as_one() {
 fn exact_joints_have_the_families_of_their_construction() {
     let (_, doc) = asked(&["equivalents", "components", &fixture("free-exact")]);
     let list = doc["components"].as_array().unwrap();
-    let exact: Vec<&Value> = list.iter().filter(|c| c["exact"] == true).collect();
-    assert_eq!((exact.len(), list.len()), (3, 3), "{doc}");
+    assert_eq!((list.len(), doc["complete"].as_bool()), (6, Some(true)));
+    assert!(list.iter().all(|c| c["exact"] == true && c["type"] == "point-line"), "{doc}");
+    // the curve of either plane is exactly three lines, with whole coefficients
+    for body in ["base", "platform"] {
+        let exact = &doc["planes"][0][body]["exact"];
+        let kinds: Vec<&Value> = exact["parts"].as_array().unwrap().iter().map(|p| &p["kind"]).collect();
+        assert_eq!(kinds, ["line"; 3], "{exact}");
+    }
 }
 
 /// Equivalent platforms rounded to doubles: one verdict, with the distance, and no claim.
@@ -214,7 +220,7 @@ fn offsets(pattern: &Pattern, singular: bool, rng: &mut Rng) -> Vec<f64> {
 
 /// `check`, `leg_map` and `verify`, both ways, of a platform made exactly from an octahedral one say what the formula of `det A` says.
 ///
-/// `EVIDENCE=full` goes through all patterns of the class.
+/// `EVIDENCE=full` goes through all 728 patterns of the class, every other one on each of the platforms.
 #[test]
 fn check_map_and_verify_agree_on_exact_designs() {
     let full = std::env::var("EVIDENCE").is_ok_and(|v| v == "full");
@@ -226,11 +232,11 @@ fn check_map_and_verify_agree_on_exact_designs() {
         let original: Design = text.parse().unwrap();
         let class = original.equivalents().unwrap();
         let picked = members.iter().enumerate().filter(|(n, m)| {
-            full || n % 182 == 90 * k + 1
-                || (m.pattern.offsets().len() == 6 && m.pattern.to_string() == "S123456")
+            (full && n % 2 == k) || *n == 300 * k + 100 || m.pattern.to_string() == "S123456"
         });
         for (n, member) in picked {
-            for wanted in [false, true] {
+            let can_be_singular = full || member.pattern.to_string() == "S123456";
+            for wanted in [false, true].into_iter().filter(|wanted| !wanted || can_be_singular) {
                 let t = offsets(&member.pattern, wanted, &mut rng);
                 let Ok((design, _)) = class.build(&member.pattern, &t) else { continue };
                 // multiples of 1/20: the determinant is zero or at least 20^-6
@@ -254,5 +260,5 @@ fn check_map_and_verify_agree_on_exact_designs() {
         }
     }
     println!("{regular} regular and {singular} singular designs agree");
-    assert!(regular >= 6 && singular >= 2, "{regular} {singular}");
+    assert!(regular >= 4 && singular >= 2, "{regular} {singular}");
 }

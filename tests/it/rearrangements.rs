@@ -9,7 +9,7 @@ use equipod::methods::synthesis::rearrangement::{
     Argument, Arrangement, NoOctahedralEquivalent, PlanarBodies, Rearrangement, Reduction, rearrangement,
     rearrangements,
 };
-use equipod::methods::synthesis::{Family, LegMapTolerances, Relation, leg_map};
+use equipod::methods::synthesis::{Family, LegMapTolerances, leg_map};
 use equipod::methods::topology::{Topology, catalogue};
 use nalgebra::{Vector3, Vector6};
 

@@ -70,6 +70,7 @@ Invariant = Literal[
     "platform_principal_value",
 ]
 LengthsOrigin = Literal["design", "home"]
+Level = Literal["doubles_as_written", "exact_joints", "within_rounding"]
 Loss = Literal["cauchy", "huber", "squares", "tukey"]
 LossUnit = Literal["leg", "pose"]
 MarginVerdict = Literal["at_limit", "met", "searched", "violated"]
@@ -103,7 +104,7 @@ OptimalityWord = Literal["best_of_starts", "proved_within_gap"]
 OptimizeWord = Literal["feasible", "front", "infeasible", "interrupted", "optimal", "undecided", "violated"]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
 PoseAxis = Literal["pitch", "roll", "x", "y", "yaw", "z"]
-ProofWord = Literal["leg_vectors", "pose_lattice", "regular_pose"]
+ProofWord = Literal["leg_vectors", "none", "pose_lattice", "regular_pose"]
 ProvedReality = Literal["non_real", "real", "undecided"]
 RegionWord = Literal["box", "ellipsoid"]
 RegularityWord = Literal["changes_sign", "proved", "undecided"]
@@ -474,7 +475,8 @@ class CheckAnswer(Record):
     name: str
     #: How exactly its joints are known.
     joints: JointsRecord
-    #: Null: the design as written is regular, and a singular one lies within rounding of it.
+    #: Null: the design as written is regular, and a singular one lies within rounding of it or within the
+    #: digits given; or joints are known between bounds only.
     architecturally_singular: Union[bool, None]
     #: Decided exactly, for the joints as the numbers they are.
     singular_as_written: bool
@@ -2335,6 +2337,10 @@ class MapAnswer(Record):
     schema_version: int
     #: What the designs have to do with each other; null: undecided, exit 3.
     relation: Union[Relation, None]
+    #: What the relation is proved about; within rounding: nothing is proved.
+    level: Level
+    #: It holds within rounding of the joints, or exactly.
+    holds_within_rounding: bool
     #: One sentence with the numbers that decided.
     explanation: str
     #: Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
@@ -2343,8 +2349,8 @@ class MapAnswer(Record):
     c: tuple[Union[float, None], ...]
     #: The determinant of A.
     det: Union[float, None]
-    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors was checked in
-    #: exact arithmetic on exact joints; null elsewhere.
+    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact
+    #: arithmetic; null elsewhere, and for numbers too long to be read.
     det_exact: Union[str, None]
     #: Rows of A as exact numbers; null where `det_exact` is.
     A_exact: Union[tuple[tuple[str, ...], ...], None]
@@ -2389,6 +2395,10 @@ class MapRecord(Record):
 
     #: What the designs have to do with each other; null: undecided, exit 3.
     relation: Union[Relation, None]
+    #: What the relation is proved about; within rounding: nothing is proved.
+    level: Level
+    #: It holds within rounding of the joints, or exactly.
+    holds_within_rounding: bool
     #: One sentence with the numbers that decided.
     explanation: str
     #: Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
@@ -2397,8 +2407,8 @@ class MapRecord(Record):
     c: tuple[Union[float, None], ...]
     #: The determinant of A.
     det: Union[float, None]
-    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors was checked in
-    #: exact arithmetic on exact joints; null elsewhere.
+    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact
+    #: arithmetic; null elsewhere, and for numbers too long to be read.
     det_exact: Union[str, None]
     #: Rows of A as exact numbers; null where `det_exact` is.
     A_exact: Union[tuple[tuple[str, ...], ...], None]
@@ -2715,6 +2725,9 @@ class NearestSingularRecord(Record):
     residual: Union[float, None]
     #: Rounding of the file may be the only difference.
     within_rounding: bool
+    #: Half a unit of the last digit given, design units, where no coordinate differs by more; null
+    #: otherwise.
+    within_digits: Union[float, None]
     #: Its base joints by name, base frame.
     base: dict[str, tuple[Union[float, None], ...]]
     #: Its platform joints by name, platform frame.
@@ -3904,8 +3917,8 @@ class VerifyAnswer(Record):
     verdict: VerdictWord
     #: One sentence with the numbers that decided.
     explanation: str
-    #: Whether the map is proved: every leg vector of B is a combination of those of A, checked in exact
-    #: arithmetic on exact joints.
+    #: Whether the verdict is proved, in exact arithmetic on the leg vectors; `level` of the map says about
+    #: which joints.
     proved: bool
     #: The algebraic side; that of the designs as they are given where no motion was found.
     map: MapRecord
