@@ -133,7 +133,8 @@ impl PosePath {
 }
 
 impl PosePath {
-    /// The piece between two times that follow each other, by the control points of its Bezier curve: position, then quaternion of any norm.
+    /// The piece between two times that follow each other, by the control points of its Bezier curve: position, then
+    /// quaternion of any norm.
     ///
     /// Pieces meet exactly; inside a piece the control points round the spline.
     pub(crate) fn control_points(&self, piece: usize) -> [[f64; 7]; 4] {

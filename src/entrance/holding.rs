@@ -27,7 +27,8 @@ impl std::fmt::Display for SingularHome {
 }
 
 impl Design {
-    /// The home pose that the design states, where it is singular; `None` where it is proved to be regular, or where no home is stated.
+    /// The home pose that the design states, where it is singular; `None` where it is proved to be regular, or where
+    /// no home is stated.
     #[must_use]
     pub fn singular_home(&self) -> Option<SingularHome> {
         self.singular_at(&self.home?)
@@ -49,7 +50,8 @@ impl Design {
         }
     }
 
-    /// The home pose, stated or not, where it is singular and the design is not: no equivalent platform holds it. Architecturally singular designs are left to the decision about these.
+    /// The home pose, stated or not, where it is singular and the design is not: no equivalent platform holds it.
+    /// Architecturally singular designs are left to the decision about these.
     #[cfg(feature = "optimize")]
     pub(crate) fn home_that_no_equivalent_holds(&self) -> Option<SingularHome> {
         let home = self.singular_at(&self.home_or_default())?;

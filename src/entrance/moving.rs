@@ -49,7 +49,8 @@ impl PlatformMotion {
 const TURN: f64 = std::f64::consts::FRAC_PI_2;
 
 impl PlatformMotion {
-    /// The first pose of the whole motion at which the legs do not hold the platform; `None` where all are proved to be regular.
+    /// The first pose of the whole motion at which the legs do not hold the platform; `None` where all are proved to
+    /// be regular.
     fn singular(&self, m: &Manipulator) -> Option<SingularInstant> {
         match self {
             Self::Path(path, _) => {
@@ -139,7 +140,8 @@ pub(crate) struct MotionReport {
     pub(crate) legs: Vec<LegExtremes>,
     /// The least margin of each kind of requirement over the instants.
     pub(crate) margins: Vec<TimedMargin>,
-    /// The first pose at which the legs or rods do not hold the platform, or a crank is singular; of legs on the whole path, between the instants too.
+    /// The first pose at which the legs or rods do not hold the platform, or a crank is singular; of legs on the whole
+    /// path, between the instants too.
     pub(crate) singular: Option<SingularInstant>,
     /// When a rod first does not reach.
     pub(crate) unreached: Option<f64>,

@@ -339,7 +339,8 @@ impl Design {
     }
 }
 
-/// A singular home pose that the search cannot leave: neither the triangles nor the height of home are chosen, and `det J` of an equivalent platform is that of the
+/// A singular home pose that the search cannot leave: neither the triangles nor the height of home are chosen, and
+/// `det J` of an equivalent platform is that of the
 /// design times a constant.
 pub(crate) fn hopeless_home(design: &Design, extension: f64) -> Option<SingularHome> {
     let variables = dimensional_problem(design, extension).variables;

@@ -1,6 +1,8 @@
-//! Decides whether the legs hold the platform at a pose, and along a path of poses: the one test that all commands share.
+//! Decides whether the legs hold the platform at a pose, and along a path of poses: the one test that all commands
+//! share.
 //!
-//! The sign of `det J` is proved by intervals. Where the intervals hold zero, exact arithmetic decides on joints that are exact. A pose that is left
+//! The sign of `det J` is proved by intervals. Where the intervals hold zero, exact arithmetic decides on joints that
+//! are exact. A pose that is left
 //! is singular to rounding: `det J` is not above the rounding errors of its own computation.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -77,7 +79,8 @@ pub struct SingularOnPath {
     pub evidence: SingularEvidence,
 }
 
-/// The first singular pose of a path of Bezier curves, each of which begins where the one before ends; `None` where every pose is proved to be regular.
+/// The first singular pose of a path of Bezier curves, each of which begins where the one before ends; `None` where
+/// every pose is proved to be regular.
 #[must_use]
 pub fn singular_along<'a>(
     m: &Manipulator,
@@ -128,7 +131,8 @@ fn on_curve(control: &[ControlPoint], u: f64) -> Pose {
     Pose { rotation: turn.to_rotation_matrix(), position: Vector3::new(x, y, z) }
 }
 
-/// Whether the leg lines are dependent, in exact arithmetic; `None` where joints are not known exactly, or numbers become too long.
+/// Whether the leg lines are dependent, in exact arithmetic; `None` where joints are not known exactly, or numbers
+/// become too long.
 fn is_exactly_singular(m: &Manipulator, pose: &Pose) -> Option<bool> {
     let ends = m.exact_ends()?;
     let number = |x: f64| Surd::rational(&rational(x)?);

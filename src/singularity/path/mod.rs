@@ -9,7 +9,8 @@
 //! coefficients `c_k` of `(1 - u)^{18 - k} u^k`, which multiply like those of ordinary polynomials; `c_k` over the binomial coefficient is
 //! the Bernstein coefficient: when all have one sign the form has it on `[0, 1]`.
 //!
-//! A *curved path* is given by the control points of a Bezier curve of positions and quaternions; of degree `n` it has a form of degree `18 n`
+//! A *curved path* is given by the control points of a Bezier curve of positions and quaternions; of degree `n` it has
+//! a form of degree `18 n`
 //! ([`signs_on_curve`]).
 //!
 //! [`join()`] looks for a chain of straight paths on a random roadmap, whose edges are proved.

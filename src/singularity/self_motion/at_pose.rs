@@ -1,13 +1,16 @@
-//! Decides whether a platform with locked legs can leave a pose: proved not to, or a motion found by tracing, or undecided.
+//! Decides whether a platform with locked legs can leave a pose: proved not to, or a motion found by tracing, or
+//! undecided.
 //!
-//! Displacements of the pose are `x = (t, c)`: the quaternion `(1, c)` and the dual part `(-c.t, t)`, lengths in units of the size. With the
+//! Displacements of the pose are `x = (t, c)`: the quaternion `(1, c)` and the dual part `(-c.t, t)`, lengths in units
+//! of the size. With the
 //! joints `a` and `w` of a leg at the pose, `d = w - a` and `o = a + w`, the leg keeps its length where
 //!
 //! ```text
 //! f = d.r + (r.r + k^2 - d.d c.c) / 2 + m k + m^2 / 2 = 0,   r = t - o x c,  k = d.c,  m = c.t.
 //! ```
 //!
-//! So `f = L x + Q(x) + ..` with exact `f(0) = 0`. `docs/theory/self-motions.md` has the theorem of second order that [`isolated`] proves.
+//! So `f = L x + Q(x) + ..` with exact `f(0) = 0`. `docs/theory/self-motions.md` has the theorem of second order that
+//! [`isolated`] proves.
 
 use nalgebra::{DMatrix, Matrix6, Quaternion, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3, Vector6};
 
@@ -53,7 +56,8 @@ pub struct AtPose {
 /// Whether the platform can leave a pose with locked legs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PoseVerdict {
-    /// Proved: every pose with these lengths within `radius` lies within `within`, in `(t / size, c)` of the displacement.
+    /// Proved: every pose with these lengths within `radius` lies within `within`, in `(t / size, c)` of the
+    /// displacement.
     Isolated {
         /// 1: the leg lines are independent; 2: no freedom of first order can be continued.
         order: u8,
@@ -78,7 +82,8 @@ pub enum PoseVerdict {
 /// What shows that a platform moves with locked legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MotionEvidence {
-    /// Proved: the leg lines have the rank of this pose at all poses nearby, so that the poses with these lengths are a manifold.
+    /// Proved: the leg lines have the rank of this pose at all poses nearby, so that the poses with these lengths are
+    /// a manifold.
     ConstantRank,
     /// Found by tracing: poses with equal lengths, to rounding, along a stretch; the dimension is sampled.
     Traced,
@@ -98,7 +103,7 @@ impl PoseVerdict {
 
 /// A motion that leaves the pose: a pose on it, and the pose a little further on.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Branch {
+pub(super) struct Departure {
     pub(super) from: Pose,
     pub(super) to: Pose,
 }
@@ -110,7 +115,7 @@ pub fn motion_at(m: &Manipulator, pose: &Pose, seed: u64) -> AtPose {
 }
 
 /// The same, with the motions found.
-pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<Branch>) {
+pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<Departure>) {
     let local = Local::new(m, pose);
     let undecided = |values: [f64; 6], tangent_dimension: usize| AtPose {
         tangent_dimension,
@@ -135,16 +140,18 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<B
     } else if sampled > 0 {
         at.verdict = PoseVerdict::Moves { dimension: sampled, reach, evidence: MotionEvidence::Traced };
     }
-    let branch = |arc: &Arc| {
+    let departure = |arc: &Arc| {
         let [from, to] = arc.last_two().map(|x| local.displaced(&x));
-        Branch { from, to }
+        Departure { from, to }
     };
-    (at, arcs.iter().map(branch).collect())
+    (at, arcs.iter().map(departure).collect())
 }
 
-/// Whether the leg lines are proved to have the same rank at the pose and at all poses around it, and this is below six.
+/// Whether the leg lines are proved to have the same rank at the pose and at all poses around it, and this is below
+/// six.
 ///
-/// No pose has a greater rank than almost all poses have, and the rank does not fall near a pose. Exact joints are left to tracing: the doubles that
+/// No pose has a greater rank than almost all poses have, and the rank does not fall near a pose. Exact joints are
+/// left to tracing: the doubles that
 /// stand for them decide nothing about them.
 fn has_generic_rank(m: &Manipulator, local: &Local, split: &Split) -> bool {
     let k = split.corank();
@@ -295,8 +302,10 @@ impl Split {
 
 /// The proof that the pose is isolated, with the last `k` singular values taken as zeros.
 ///
-/// With the parts `a` (along the `k` right vectors `K`) and `b` (along the others, `N`) of a displacement in the ball, the rows along the left vectors
-/// of `N` give `|b| <= tau |a|`. The rows along the others, `W`, give `c |a|^2 <= rest |a|^2 + error |a|`, where `c` is the least
+/// With the parts `a` (along the `k` right vectors `K`) and `b` (along the others, `N`) of a displacement in the ball,
+/// the rows along the left vectors
+/// of `N` give `|b| <= tau |a|`. The rows along the others, `W`, give `c |a|^2 <= rest |a|^2 + error |a|`, where `c`
+/// is the least
 /// norm of the forms `W Q(K a)` for `|a| = 1`.
 fn isolated(local: &Local, split: &Split, k: usize) -> Option<PoseVerdict> {
     let rank = 6 - k;
@@ -431,7 +440,8 @@ impl Forms {
 
     /// A lower bound of their norm on the unit sphere; `None` unless one above zero is proved.
     ///
-    /// The sphere is covered by the faces of a cube, whose boxes are halved. On a box the combination that is greatest at its middle is bounded.
+    /// The sphere is covered by the faces of a cube, whose boxes are halved. On a box the combination that is greatest
+    /// at its middle is bounded.
     fn least(&self) -> Option<f64> {
         let k = self.k;
         let size = norm(self.matrices.iter().flatten().copied());
@@ -649,7 +659,8 @@ impl<'a> Search<'a> {
         out
     }
 
-    /// Dimension of the set of poses at the end of an arc: the span of the nearest poses of the set to random poses nearby.
+    /// Dimension of the set of poses at the end of an arc: the span of the nearest poses of the set to random poses
+    /// nearby.
     fn dimension(&self, arc: &Arc, rng: &mut Rng) -> usize {
         const SAMPLES: usize = 18;
         let [_, at] = arc.last_two();
@@ -670,7 +681,8 @@ impl<'a> Search<'a> {
 }
 
 impl Forms {
-    /// Goes from `a` to a zero of the forms on the unit sphere, by Gauss-Newton steps; where there is none, to a small value.
+    /// Goes from `a` to a zero of the forms on the unit sphere, by Gauss-Newton steps; where there is none, to a small
+    /// value.
     fn towards_zero(&self, a: &mut [f64]) {
         let k = self.k;
         for _ in 0..40 {

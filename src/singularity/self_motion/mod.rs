@@ -121,7 +121,8 @@ impl SelfMotion {
 
 /// Follows the curves of poses with squared lengths `s` from the poses given.
 ///
-/// Curves are followed where the first pose is on one. A pose that is on a curve followed already adds nothing. Poses are improved to rounding first.
+/// Curves are followed where the first pose is on one. A pose that is on a curve followed already adds nothing. Poses
+/// are improved to rounding first.
 /// Where the curve through the first pose consists of zeros of higher multiplicity, no other pose is followed.
 #[must_use]
 pub fn self_motion(
@@ -171,7 +172,7 @@ pub fn self_motion(
 }
 
 /// A point of a branch, and the direction in which it leaves the pose.
-fn way(branch: &at_pose::Branch, size: f64) -> [Point<f64>; 2] {
+fn way(branch: &at_pose::Departure, size: f64) -> [Point<f64>; 2] {
     let [from, to] = [branch.from, branch.to].map(|p| point(&p, size));
     let to = if from.dot(&to) < 0.0 { -to } else { to };
     [from, (to - from).normalize()]

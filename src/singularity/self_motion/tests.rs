@@ -87,7 +87,8 @@ fn crossing_curves_are_all_followed() {
     }
 }
 
-/// Singular poses between poses of opposite sign have one freedom of first order, which the legs stop; none of them is called moving.
+/// Singular poses between poses of opposite sign have one freedom of first order, which the legs stop; none of them is
+/// called moving.
 #[test]
 fn singular_poses_of_random_designs_are_proved_to_be_isolated() {
     let mut rng = Rng::new(11);

@@ -19,7 +19,8 @@ const RESIDUAL: f64 = 4e-15;
 const MULTIPLE_RESIDUAL: f64 = 4e-14;
 /// Half the distance of the two points whose difference is the tangent of such a curve.
 const ASIDE: f64 = 1e-3;
-/// A singular value below this times the largest is zero at a zero of higher multiplicity, which is known to half the digits.
+/// A singular value below this times the largest is zero at a zero of higher multiplicity, which is known to half the
+/// digits.
 const DROPPED: f64 = 1e-6;
 
 /// Smallest step before a curve counts as stuck.
@@ -65,7 +66,8 @@ pub(super) struct Tracer<'a> {
     /// Seven random combinations of the eight equations.
     mix: SMatrix<f64, 7, 8>,
     turn: f64,
-    /// The curve consists of zeros of higher multiplicity, whose tangent is no null vector: it is followed by its points.
+    /// The curve consists of zeros of higher multiplicity, whose tangent is no null vector: it is followed by its
+    /// points.
     multiple: bool,
 }
 
@@ -168,7 +170,8 @@ impl<'a> Tracer<'a> {
         Some(OnCurve { y, tangent, gap, orientation: 1.0 })
     }
 
-    /// The zero of the equations near `start` in the plane through it orthogonal to `normal`. Every step halves the error at multiple zeros.
+    /// The zero of the equations near `start` in the plane through it orthogonal to `normal`. Every step halves the
+    /// error at multiple zeros.
     fn in_plane(&self, start: &Point<f64>, normal: &Point<f64>) -> Option<Point<f64>> {
         let mut y = *start;
         let mut best = (f64::INFINITY, y);

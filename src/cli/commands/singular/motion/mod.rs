@@ -64,7 +64,8 @@ struct Found {
     /// The pose given.
     start: Option<Pose>,
     squares: SquaredLegLengths,
-    /// Of the motion through the pose, or of the poses with the lengths, also where no real pose is on them; `None` undecided.
+    /// Of the motion through the pose, or of the poses with the lengths, also where no real pose is on them; `None`
+    /// undecided.
     dimension: Option<usize>,
     motion: SelfMotion,
     /// Of each curve.
