@@ -33,6 +33,7 @@ DesignObjective = Literal[
     "stroke",
     "worst_conditioning",
 ]
+DesignRoleWord = Literal["closest", "design", "equivalent", "nearest_equivalent", "on_holes", "optimised"]
 DriveRanking = Literal["objective", "price"]
 DriveSearchWord = Literal[
     "dearer",
@@ -53,6 +54,7 @@ Freedom = Literal[
     "base_margin",
     "home_height",
     "machine_envelope",
+    "min_abs_det",
     "platform_envelope",
     "platform_margin",
     "stroke",
@@ -101,7 +103,16 @@ Objective = Literal[
     "worst_conditioning",
 ]
 OptimalityWord = Literal["best_of_starts", "proved_within_gap"]
-OptimizeWord = Literal["feasible", "front", "infeasible", "interrupted", "optimal", "undecided", "violated"]
+OptimizeWord = Literal[
+    "best_found",
+    "feasible",
+    "front",
+    "infeasible",
+    "interrupted",
+    "optimal",
+    "undecided",
+    "violated",
+]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
 PoseAxis = Literal["pitch", "roll", "x", "y", "yaw", "z"]
 ProofWord = Literal["leg_vectors", "none", "pose_lattice", "regular_pose"]
@@ -110,6 +121,7 @@ RegionWord = Literal["box", "ellipsoid"]
 RegularityWord = Literal["changes_sign", "proved", "undecided"]
 RejectionReason = Literal["duplicate", "not_certified", "not_finite", "residual_too_large"]
 Relation = Literal["equivalent", "singular", "undecided", "unrelated"]
+RiddenWord = Literal["limit", "range_end", "reserve"]
 SearchMethodWord = Literal["dimensional", "offsets"]
 SearchWord = Literal["found", "impossible", "undecided", "violated"]
 SideWord = Literal["above", "below"]
@@ -212,9 +224,17 @@ class AssessAnswer(Record):
 
     #: Always 1: the version of these definitions.
     schema_version: int
-    #: True: every margin and det J are proved, for every pose of the workspace; false: a violation or a
+    #: The design judged.
+    name: str
+    #: What it is in this answer.
+    role: DesignRoleWord
+    #: True: every margin and det J are proved, for all poses that `judged` names; false: a violation or a
     #: change of sign of det J is proved by its pose; null: neither.
     met: Union[bool, None]
+    #: The verdict in a sentence whose subject is the design.
+    explanation: str
+    #: The poses judged.
+    judged: JudgedPosesRecord
     #: The same of the reserves: true: every margin is proved to keep its reserve; false: one does not, at
     #: the pose given; null: neither.
     reserve_kept: Union[bool, None]
@@ -222,6 +242,8 @@ class AssessAnswer(Record):
     requirements: tuple[MarginRecord, ...]
     #: Whether there are singular poses.
     regular: RegularityRecord
+    #: The same in a sentence.
+    regular_explanation: str
     #: Where the Jacobian is conditioned worst among the poses looked at: a number found, without a limit
     #: and without a proof.
     conditioning: LeastConditioningRecord
@@ -630,6 +652,8 @@ class CompareAnswer(Record):
     manoeuvres: tuple[str, ...]
     #: The accuracy for which joints are toleranced; null: none was asked for.
     accuracy: Union[AccuracyRecord, None]
+    #: Characteristic length of every conditioning in this answer: that of the first design.
+    characteristic_length: float
     #: In the order in which they were given.
     designs: tuple[FiguresRecord, ...]
     #: The table and the page that were written.
@@ -847,6 +871,18 @@ class CrankMotionRecord(Record):
     rms_torque: Union[float, None]
     #: Power of the greatest size, watts; negative where the drive brakes.
     power_w: Union[ExtremeRecord, None]
+
+
+class DefaultReserveRecord(Record):
+    """What became of the reserve that a design does not state."""
+
+    #: On every limit.
+    percent: float
+    #: The platform found keeps it; false: no platform that keeps it was found, and the search went on
+    #: without.
+    kept: bool
+    #: One sentence.
+    message: str
 
 
 class DependencyRecord(Record):
@@ -1370,6 +1406,10 @@ class ExploreAnswer(Record):
     assessment: Union[AssessAnswer, None]
     #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
+    #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
+    price: Union[PriceRecord, None]
+    #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
+    reserve: Union[DefaultReserveRecord, None]
     #: The comparison of the design with the optimised one; null: there is none.
     verify: Union[ComparedRecord, None]
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
@@ -1444,6 +1484,10 @@ class ExploreOctahedralAnswer(Record):
     assessment: Union[AssessAnswer, None]
     #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
+    #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
+    price: Union[PriceRecord, None]
+    #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
+    reserve: Union[DefaultReserveRecord, None]
     #: The comparison of the design with the optimised one; null: there is none.
     verify: Union[ComparedRecord, None]
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
@@ -1548,18 +1592,20 @@ class FamilyTopologyRecord(Record):
 
 
 class FiguresRecord(Record):
-    """The figures of a design over the poses of its workspace. Null: the design says nothing about it, or the value is not finite."""
+    """The figures of a design over the poses of its workspace, at home where it states none. Null: the design says nothing about it, or the value is not finite."""
 
     #: Name of the design.
     name: str
     #: Its file.
     path: str
-    #: What `assess` says of it; null: it requires nothing.
+    #: The judgement of `assess`; null: it requires nothing.
     assessment: Union[AssessAnswer, None]
     #: The lightest drive of the table that the design names with which its requirements are met; null: it
     #: names none.
     lightest_drive: Union[LightestDriveRecord, None]
-    #: Poses looked at.
+    #: The poses of all figures.
+    judged: JudgedPosesRecord
+    #: Poses looked at for the figures besides the judgement and the conditioning.
     poses: int
     #: Least leg length; null where the legs are rods on cranks.
     shortest: Union[float, None]
@@ -1580,7 +1626,7 @@ class FiguresRecord(Record):
     motion_speed: Union[float, None]
     #: Greatest power of a drive along the manoeuvres, watts.
     motion_power_w: Union[float, None]
-    #: Least inverse condition number of the Jacobian.
+    #: The worst conditioning of `assess`: the least inverse condition number found.
     conditioning: Union[float, None]
     #: Least stiffness against a force through the platform origin, force units per design unit.
     stiffness: Union[float, None]
@@ -1945,6 +1991,9 @@ class FrontMemberRecord(Record):
     constraint_margins: Union[tuple[MarginRecord, ...], None]
     #: By how much what the search demands besides them is met.
     search_margins: Union[SearchMarginsRecord, None]
+    #: What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies
+    #: have grown; null: nothing.
+    riding: Union[RidingRecord, None]
     #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     requirements_met: Union[bool, None]
     #: What `assess` says of the platform; null: the design requires nothing.
@@ -2191,6 +2240,21 @@ class JudgedPoseRecord(Record):
     inverse_condition: Union[float, None]
     #: The two conditions of four planes in one point, of octahedral designs.
     four_planes: Union[tuple[Union[float, None], ...], None]
+
+
+class JudgedPosesRecord(Record):
+    """The poses that a judgement is about, with home."""
+
+    #: The design states a workspace; else home alone is judged.
+    stated: bool
+    #: Every pose of a region about home is judged.
+    region: bool
+    #: Single poses; nothing is said between them.
+    listed: int
+    #: Poses of a trajectory, with the straight motions between them.
+    trajectory: int
+    #: The verdict of requirements that are met at these poses, in a few words.
+    met_in_words: str
 
 
 class JudgementRecord(Record):
@@ -2879,6 +2943,9 @@ class OptimizeAnswer(Record):
     constraint_margins: Union[tuple[MarginRecord, ...], None]
     #: By how much what the search demands besides them is met.
     search_margins: Union[SearchMarginsRecord, None]
+    #: What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies
+    #: have grown; null: nothing.
+    riding: Union[RidingRecord, None]
     #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     requirements_met: Union[bool, None]
     #: What `assess` says of the platform; null: the design requires nothing.
@@ -2919,6 +2986,9 @@ class OptimizeAnswer(Record):
     #: With mode = "pareto": platforms of which none is better in every objective, by falling gain of the
     #: first objective; else null.
     front: Union[tuple[FrontMemberRecord, ...], None]
+    #: Why the sizes of the bodies and the height of home are chosen, a sentence; null: the variables are
+    #: those of the design, or the usual ones.
+    choice: Union[str, None]
     #: What the search itself was held to.
     limits: SearchLimitsRecord
     #: The poses that were asked for.
@@ -2959,6 +3029,8 @@ class OptimizedRecord(Record):
     shifts: Union[tuple[Union[float, None], ...], None]
     #: det A of the leg map; null: the variables do not keep the class of the design.
     det: Union[float, None]
+    #: What the platform rides on; null: nothing.
+    riding: Union[RidingRecord, None]
 
 
 class OptimumRecord(Record):
@@ -3180,6 +3252,23 @@ class PoseUncertaintyRecord(Record):
     covariance: tuple[tuple[Union[float, None], ...], ...]
 
 
+class PriceRecord(Record):
+    """Figures of a design and of the platform with separate joints made from it, in this order."""
+
+    #: Worst conditioning over the poses of the workspace, both by the characteristic length of the design.
+    conditioning: tuple[Union[float, None], ...]
+    #: Least distance of the ends of two legs on the base, design units; 0 where they share a joint.
+    base_spacing: tuple[Union[float, None], ...]
+    #: The same on the platform.
+    platform_spacing: tuple[Union[float, None], ...]
+    #: Greatest distance of a base joint from the centre of the joints.
+    base_radius: tuple[Union[float, None], ...]
+    #: The same of the platform.
+    platform_radius: tuple[Union[float, None], ...]
+    #: One sentence.
+    message: str
+
+
 class ProvenanceRecord(Record):
     """What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a machine in it."""
 
@@ -3314,6 +3403,32 @@ class ResidualsRecord(Record):
     greatest: Union[GreatestResidualRecord, None]
     #: Lengths counted.
     count: int
+
+
+class RiddenBoundRecord(Record):
+    """A bound of which nothing is left."""
+
+    #: A variable, a requirement, or `abs_det`.
+    name: str
+    #: What bounds it.
+    kind: RiddenWord
+    #: The value of a variable; what is left of a limit.
+    value: Union[float, None]
+    #: Of the value; empty for a pure number.
+    unit: str
+
+
+class RidingRecord(Record):
+    """The bounds that decide about a platform, and the growth of its bodies."""
+
+    #: Ranges of variables and limits of which nothing is left.
+    bounds: tuple[RiddenBoundRecord, ...]
+    #: Greatest distance of a base joint from the centre of the joints, over that in the design.
+    base_growth: Union[float, None]
+    #: The same of the platform.
+    platform_growth: Union[float, None]
+    #: One sentence.
+    message: str
 
 
 class RoundAnswer(Record):
