@@ -104,33 +104,32 @@ impl std::fmt::Display for CheckReport {
 
 /// The poses that a judgement is about: those that the design states, and home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct JudgedPoses {
+pub(crate) struct JudgedPoses {
     /// Every pose of a region about home.
-    pub region: bool,
+    pub(crate) region: bool,
     /// Single poses, without the motions between them.
-    pub listed: usize,
+    pub(crate) listed: usize,
     /// Poses of a trajectory, with the straight motions between them.
-    pub trajectory: usize,
+    pub(crate) trajectory: usize,
 }
 
 impl JudgedPoses {
     /// Those of a workspace.
     #[must_use]
-    pub fn of(workspace: &Workspace) -> Self {
+    pub(crate) fn of(workspace: &Workspace) -> Self {
         let trajectory = workspace.trajectory.as_ref().map_or(0, |t| t.poses.len());
         Self { region: workspace.has_box(), listed: workspace.poses.len(), trajectory }
     }
 
     /// Whether the design states any: without them home alone is judged.
     #[must_use]
-    pub fn are_stated(self) -> bool {
+    pub(crate) fn are_stated(self) -> bool {
         self.region || self.listed > 0 || self.trajectory > 0
     }
 
     /// The verdict on requirements that are met at these poses, in two or three words.
     #[must_use]
-    pub fn met_in_words(self) -> String {
+    pub(crate) fn met_in_words(self) -> String {
         match self {
             _ if !self.are_stated() => "met at home only".to_owned(),
             Self { region: false, trajectory: 0, listed } => format!("met at {}", poses(listed)),
@@ -191,7 +190,7 @@ impl std::fmt::Display for JudgedPoses {
 #[non_exhaustive]
 pub struct AssessReport {
     /// The poses judged.
-    pub judged: JudgedPoses,
+    pub(crate) judged: JudgedPoses,
     /// The least margin of each kind of requirement, with what is proved of it.
     pub proof: MarginProof,
     /// Whether a pose of the workspace is singular.

@@ -263,7 +263,7 @@ impl DefaultReserveRecord {
     pub fn new(percent: f64, kept: bool) -> Self {
         let message = if kept {
             format!(
-                "{percent} % of every limit are kept in reserve by default; `reserve` in [limits] sets another share"
+                "{percent} % of every limit is kept in reserve by default; `reserve` in [limits] sets another share"
             )
         } else {
             format!(

@@ -282,7 +282,7 @@ fn limits_without_a_workspace_are_judged_at_home_by_every_command() {
         let workspace = format!("\n[workspace]\ntranslation = [{x:?}, {x:?}, {x:?}]\n");
         fixture(folder.path(), "no-workspace", |text| text + &workspace)
     };
-    let text = said(&["assess", &with(1.0)]);
+    let text = said(&["assess", &with(1.0), "--points", "100"]);
     assert!(text.contains("proved for every pose of its workspace") && !text.contains("stated"), "{text}");
     assert_eq!(assess(&with(40.0)).0, Some(1));
 }
@@ -341,8 +341,8 @@ fn what_is_made_from_a_design_keeps_its_characteristic_length() {
 /// One length in one comparison: alone this design has another.
 #[test]
 fn designs_that_are_compared_have_one_characteristic_length() {
-    let made = "tests/fixtures/verdicts/two-conditionings.toml";
-    let other = "designs/worked/isolator-octahedral.toml";
+    let made = "tests/fixtures/verdicts/no-workspace.toml";
+    let other = "designs/rbt-griffis-duffy.toml";
     let conditioning = |designs: &[&str]| {
         let doc = document(&equipod(&[&["compare", "--points", "5", "--json"], designs].concat()));
         let of = |d: &Value| d["conditioning"].as_f64().unwrap();
