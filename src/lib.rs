@@ -202,13 +202,9 @@ pub mod prelude {
     pub use crate::design::{Design, Format, PRESETS, Violation, Warning};
     #[cfg(all(feature = "files", feature = "synthesis"))]
     #[doc(inline)]
-<<<<<<< ours
     pub use crate::entrance::{
-        AssessReport, CheckReport, JudgedPoses, SingularHome, VerifyOptions, leg_map, verify, verify_with,
+        AssessReport, CheckReport, SingularHome, VerifyOptions, leg_map, verify, verify_with,
     };
-=======
-    pub use crate::entrance::{AssessReport, CheckReport, VerifyOptions, leg_map, verify, verify_with};
->>>>>>> theirs
     #[cfg(all(feature = "files", feature = "synthesis"))]
     #[doc(inline)]
     pub use crate::equivalence::{Sample, Verdict, Verification};
