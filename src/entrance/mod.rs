@@ -45,10 +45,12 @@ pub(crate) use equivalence::{SAMPLES, sample_plan};
 pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
 pub use error::Error;
 #[cfg(all(feature = "files", feature = "synthesis"))]
+pub use holding::SingularHome;
+#[cfg(all(feature = "files", feature = "synthesis"))]
 pub use judging::{AssessReport, CheckReport};
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use judging::{BOX_CELLS, JudgedPoses};
-#[cfg(feature = "files")]
+#[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub use optimizing::{OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus};

@@ -160,7 +160,7 @@ impl SplitField {
 
 /// Bits of a common denominator of the numbers, and a power of two that none of their conjugates exceeds, as its exponent.
 pub(crate) fn common_bits<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> [i64; 2] {
-    let (mut common, mut magnitude) = (BigInt::from(1), 0);
+    let (mut common, mut magnitude) = (BigInt::from(1), 0_i64);
     for x in numbers {
         common = common.lcm(x.denominator());
         magnitude = magnitude.max(x.magnitude_bits());

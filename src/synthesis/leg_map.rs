@@ -505,9 +505,11 @@ fn related(
         matches!(relation, ExactRelation::Singular { .. }) && residual <= tolerances.residual;
     outcome.decided(&relation, level);
     if let ExactRelation::Unrelated(legs_off) = &relation {
-        outcome.off = from_fn(|i| legs_off.contains(&i));
         let limits = rounding_of_residuals(from, legs, &outcome.closest.a, &span.normalisation());
-        if level == Level::DoublesAsWritten && residuals.iter().zip(limits).all(|(r, limit)| *r <= limit) {
+        // plain joints are off by rounding as well: the legs to name are those off by more
+        let exact = level == Level::ExactJoints;
+        outcome.off = from_fn(|i| legs_off.contains(&i) && (exact || !(residuals[i] <= limits[i])));
+        if !outcome.off.contains(&true) {
             // rounded values of equivalent platforms look like this
             (outcome.relation, outcome.level) = (Relation::Undecided, Level::WithinRounding);
             outcome.holds_within_rounding = true;
