@@ -500,8 +500,12 @@ class CheckAnswer(Record):
     #: Null: the design as written is regular, and a singular one lies within rounding of it or within the
     #: digits given; or joints are known between bounds only.
     architecturally_singular: Union[bool, None]
-    #: Decided exactly, for the joints as the numbers they are.
-    singular_as_written: bool
+    #: What the answer is proved about; within rounding: a singular design may have been meant. Null: not
+    #: decided.
+    level: Union[Level, None]
+    #: Decided exactly, for the joints as the numbers they are; null where they are known between bounds
+    #: only.
+    singular_as_written: Union[bool, None]
     #: What shows that the home pose of the design is singular; null: it is regular, or the design states
     #: none.
     singular_home: Union[SingularEvidenceWord, None]
@@ -1724,7 +1728,8 @@ class FkAnswer(Record):
     dimension: Union[int, None]
     #: What was seen numerically.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy the relation within rounding only and have finitely many poses.
+    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy
+    #: the relation within rounding only and have finitely many poses.
     dimension_established: Union[bool, None]
     #: Null: not established.
     degree: Union[int, None]
@@ -1789,7 +1794,8 @@ class FkOneAnswer(Record):
     dimension: Union[int, None]
     #: What was seen numerically.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy the relation within rounding only and have finitely many poses.
+    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy
+    #: the relation within rounding only and have finitely many poses.
     dimension_established: Union[bool, None]
     #: Null: not established.
     degree: Union[int, None]
@@ -1859,7 +1865,8 @@ class FkRowRecord(Record):
     dimension: Union[int, None]
     #: What was seen numerically.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy the relation within rounding only and have finitely many poses.
+    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy
+    #: the relation within rounding only and have finitely many poses.
     dimension_established: Union[bool, None]
     #: Null: not established.
     degree: Union[int, None]
@@ -2217,7 +2224,8 @@ class JointsRecord(Record):
 
     #: The least exact of the joints decides.
     exactness: ExactnessWord
-    #: The integers whose square roots generate the field of the exact coordinates, beside the cosines of `divisions`; empty for fractions.
+    #: The integers whose square roots generate the field of the exact coordinates, beside the cosines of
+    #: `divisions`; empty for fractions.
     radicands: tuple[int, ...]
     #: Numbers `n` whose cosines `cos(360 / n)` degrees belong to the generators: some of 9, 16, 20 and 32.
     divisions: tuple[int, ...]
