@@ -85,8 +85,8 @@ fn quarter_of_sine(m: &Manipulator, sine: &Manoeuvre, about: &Pose, start: f64) 
     let turn = if freedom.is_turn() { amplitude.to_radians() } else { 0.0 };
     let parts = (turn.abs() / TURN).ceil().max(1.0);
     let time = |share: f64| start + share.clamp(0.0, 1.0).asin() / rate;
-    let poses: Vec<Pose> =
-        (0..=parts as usize).map(|k| sine.at(about, time(k as f64 / parts)).pose).collect();
+    let steps = (0u32..).map(f64::from).take_while(|k| *k <= parts);
+    let poses: Vec<Pose> = steps.map(|k| sine.at(about, time(k / parts)).pose).collect();
     let curves: Vec<_> = poses.windows(2).map(|w| straight(&w[0], &w[1])).collect();
     let found = singular_along(m, curves.iter().map(|c| &c[..]))?;
     // the quaternion is linear in the parameter, and its angle half of the turn

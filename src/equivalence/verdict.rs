@@ -230,8 +230,7 @@ impl Verification {
                     ""
                 }
             ),
-            Verdict::Singular => v.map.explanation(),
-            Verdict::NotEquivalent(None) => v.map.explanation(),
+            Verdict::Singular | Verdict::NotEquivalent(None) => v.map.explanation(),
             Verdict::NotEquivalent(Some(c)) => {
                 let other = if c.solves == "A" { "B" } else { "A" };
                 format!(

@@ -136,19 +136,19 @@ impl FieldRoot {
 
     /// The radicand without 2 and 5.
     fn coprime_part(self) -> u64 {
-        let odd = if self.radicand % 2 == 0 { self.radicand / 2 } else { self.radicand };
-        if odd % 5 == 0 { odd / 5 } else { odd }
+        let odd = if self.radicand.is_multiple_of(2) { self.radicand / 2 } else { self.radicand };
+        if odd.is_multiple_of(5) { odd / 5 } else { odd }
     }
 
     fn thirty_second(self) -> u8 {
-        if self.radicand % 2 == 0 { SQRT_2 } else { self.cosines[0] }
+        if self.radicand.is_multiple_of(2) { SQRT_2 } else { self.cosines[0] }
     }
 
     fn twentieth(self) -> Twentieth {
         match self.cosines[1] {
             1 => Twentieth::Cos18,
             3 => Twentieth::Cos54,
-            _ if self.radicand % 5 == 0 => Twentieth::Sqrt5,
+            _ if self.radicand.is_multiple_of(5) => Twentieth::Sqrt5,
             _ => Twentieth::One,
         }
     }

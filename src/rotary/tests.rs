@@ -192,7 +192,7 @@ fn a_crank_that_would_turn_too_often_is_lost() {
     for turns in [80.0, 1e6, -1e6, 1e300] {
         let outcome = tracker.step(&with(turns)).unwrap();
         let NearOutcome::Lost { reason, fraction, pose, evidence } = outcome else { panic!("{outcome:?}") };
-        assert_eq!((reason, fraction, pose), (WhyLost::AnglesTooFar, 0.0, home()));
+        assert!(reason == WhyLost::AnglesTooFar && pose == home() && fraction.abs() < f64::MIN_POSITIVE);
         assert!(evidence.residual < 1e-12 && evidence.frobenius_ratio > 0.01, "of the pose where it stays");
         assert_eq!(tracker.angles(), &start);
     }

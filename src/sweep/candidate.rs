@@ -111,10 +111,9 @@ impl<'a> SweepCandidate<'a> {
         placed.pattern.determinant(&placed.offsets).ok()
     }
 
-    /// The length that turns angles into lengths.
+    /// The length that turns angles into lengths: one for all candidates, so that their conditioning can be compared.
     pub(super) fn characteristic_length(&self) -> f64 {
-        let given = self.ground.design.optimize.characteristic_length;
-        given.unwrap_or_else(|| self.manipulator().platform_rms_radius())
+        self.ground.design.characteristic_length()
     }
 
     /// The candidate as a design, with all tables of the base design, and home as it is there.

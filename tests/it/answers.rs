@@ -49,7 +49,9 @@ fn an_answer_read_as_its_type_is_written_as_it_was() {
             ("\"warnings\":[", "\"more\":1,\"warnings\":["),
             ("\"seed\":", "\"seed\":{},\"x\":"),
         ] {
-            let spoilt = text.trim_end().replacen(from, to, 1);
+            // the last place: an answer may hold the schema of another one
+            let at = text.rfind(from).unwrap_or_else(|| panic!("{line}: no {from}"));
+            let spoilt = format!("{}{to}{}", &text[..at], text[at + from.len()..].trim_end());
             assert_ne!(spoilt, text.trim_end(), "{line}");
             assert_ne!(reread(&spoilt).as_deref(), Ok(&*spoilt), "{line}: {from}");
         }

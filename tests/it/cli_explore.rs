@@ -88,8 +88,8 @@ fn the_folder_holds_designs_records_pictures_and_report() {
     std::fs::create_dir_all(&first).unwrap();
     std::fs::copy(shipped("dietmaier"), first.join("foreign.toml")).unwrap();
     std::fs::File::create(first.join("huge.json")).unwrap().set_len(1 << 30).unwrap();
-    let out = explore(&shipped("rbt-octahedral"), &first, &["--json"]);
-    assert!(out.stderr.is_empty(), "no progress when nobody watches");
+    let out = explore(&shipped("rbt-octahedral"), &first, &["--json", "--quiet"]);
+    assert!(out.stderr.is_empty(), "no progress where none is wanted");
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
     assert_eq!((&d["verdict"], &d["schema_version"]), (&Value::from("equivalent"), &Value::from(1)));
     assert_eq!(d["paths"].as_array().unwrap().len(), FILES.len());
@@ -194,7 +194,9 @@ fn a_design_without_shared_joints_has_its_legs_moved_and_is_compared_with_the_re
     let temp = tempfile::tempdir().unwrap();
     let out = explore(&shipped("rbt-griffis-duffy"), temp.path(), &["--json"]);
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
-    assert_eq!((out.status.code(), &d["verdict"]), (Some(0), &"equivalent".into()), "{d}");
+    // the new joints are rounded: the map holds within rounding, which is no proof
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(3), &"inconclusive".into()), "{d}");
+    assert!(d["explanation"].as_str().unwrap().contains("equivalent within rounding"), "{d}");
     assert!(!d["moves"]["moved_legs"].as_array().unwrap().is_empty());
     assert!(
         d["nearest"]["largest_displacement"].as_f64().unwrap() < 1e-9,
@@ -479,7 +481,7 @@ fn holes_of_a_design_that_is_not_octahedral_are_refused() {
 
 /// The first result once had three base joints a whole side beyond the corners, a base 2.6 times as wide, and 3.5e-8 mm left between platform joints.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn the_first_result_stays_near_its_triangles_and_keeps_a_reserve() {
     let temp = tempfile::tempdir().unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
@@ -506,6 +508,7 @@ fn the_first_result_stays_near_its_triangles_and_keeps_a_reserve() {
 }
 
 #[test]
+#[ignore = "evidence"]
 fn a_run_says_what_separate_joints_cost_and_keeps_a_reserve_by_default() {
     let temp = tempfile::tempdir().unwrap();
     let run = |design: &str, to: &str| {

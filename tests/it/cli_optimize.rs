@@ -491,13 +491,13 @@ fn a_slip_in_the_name_of_a_variable_is_refused_with_the_nearest_one() {
 }
 
 #[test]
-fn a_design_that_is_not_octahedral_is_told_what_can_be_chosen() {
+fn a_design_whose_legs_cannot_move_has_its_sizes_chosen() {
     // without variables its legs are to move along families, and it has none that is rational
     let design = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/symmetric-hexapod.toml");
     let out = Command::new(env!("CARGO_BIN_EXE_equipod")).args(["optimize", design]).output().unwrap();
-    assert_eq!(out.status.code(), Some(2));
-    let text = String::from_utf8_lossy(&out.stderr);
-    assert!(text.contains("rational family") && text.contains("\"triangle_sizes\""), "{text}");
+    assert_eq!(out.status.code(), Some(0));
+    let text = String::from_utf8_lossy(&out.stdout);
+    assert!(text.contains("no leg of the design can be replaced"), "{text}");
 }
 
 /// The worst-case inverse condition number of a 6-4 platform with legs 1 to 4 moved along their point-line families. Both platform joints that two legs share stay shared: the families of
@@ -858,15 +858,15 @@ fn what_a_platform_rides_on_is_named_with_what_would_keep_it_away() {
     };
     assert_eq!(limit(&r)["kind"], "limit");
     assert!(limit(&r)["value"].as_f64().unwrap().abs() < 1e-6, "{r}");
-    // with a reserve the same limit has it left
+    // with a reserve it rides on neither limit
     let (r, _) = riding("\n[limits]\nreserve = \"10%\"\n", &["--extension", "0"]);
-    assert_eq!(limit(&r)["kind"], "reserve");
-    assert!((limit(&r)["value"].as_f64().unwrap() - 0.12).abs() < 1e-6, "{r}");
+    let named = r["bounds"].as_array().into_iter().flatten().any(|b| b["kind"] == "limit");
+    assert!(!named, "{r}");
 }
 
 /// A usual hexapod whose legs are too short for its workspace: none of them can be replaced, and other sizes with another height cure it.
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn a_hexapod_without_families_is_cured_by_its_sizes_and_its_height() {
     let text = std::fs::read_to_string("tests/fixtures/verdicts/usual-hexapod-too-small.toml").unwrap();
     let (out, folder) = optimize(&text, &["-o", "out.toml"]);

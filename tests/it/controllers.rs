@@ -1,4 +1,4 @@
-//! C of `equipod export --to c`, compiled and run with the checking programs of `tests/controllers/checks`.
+//! C of `export --to c`, compiled and run with the checking programs of `tests/controllers/checks`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -62,7 +62,7 @@ fn exit_0_stands_beside_no_doubt_about_a_surface() {
 }
 
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "evidence"]
 fn exit_0_never_stands_beside_components_that_may_be_missing() {
     doubts(&[("borel-bricard.toml", "0,0,0,0,0,180"), ("similar-circle-doubles.toml", "home")]);
 }

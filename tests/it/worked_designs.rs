@@ -158,8 +158,11 @@ fn octahedral_starts_have_no_room_for_twelve_joints() {
 #[test]
 fn the_griffis_duffy_hexapod_has_the_kinematics_of_the_machine_it_replaces() {
     let machine = load("designs/presets/linuxcnc-hexapod.toml");
+    // joints in inches are rounded: the map holds within rounding, which proves nothing
     for name in ["linuxcnc-octahedral", "linuxcnc-griffis-duffy"] {
-        assert_eq!(verdict(&machine, &worked(name)), "equivalent", "{name}");
+        assert_eq!(verdict(&machine, &worked(name)), "inconclusive", "{name}");
+        let map = equipod::prelude::leg_map(&machine, &worked(name)).unwrap();
+        assert!(map.explanation().contains("within rounding"), "{name}: {}", map.explanation());
     }
     let found = equipod::methods::singularity::GriffisDuffy::recognise(
         worked("linuxcnc-griffis-duffy").manipulator(),

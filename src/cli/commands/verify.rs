@@ -41,14 +41,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     same_units(&a, &b, "verify::different_units")?;
     let second = args.frames.apply(&a, &b, context)?;
     let map = second.judged(a.manipulator()).map_err(|e| failure_of(&e.into()))?;
-    if let Some(none) = second.refuted() {
-        if map.relation == Relation::Unrelated {
-            let exit = if none { Exit::No } else { Exit::Inconclusive };
-            let explanation = second.explanation().unwrap_or_default();
-            let record = VerifyAnswer::unaligned(&map, none, explanation, second.record());
-            let text = format!("{} ~ {}: {}\n{}", a.name, b.name, record.verdict.as_str(), second.text());
-            return Ok(Answer::new(exit, record, text));
-        }
+    if let Some(none) = second.refuted()
+        && map.relation == Relation::Unrelated
+    {
+        let exit = if none { Exit::No } else { Exit::Inconclusive };
+        let explanation = second.explanation().unwrap_or_default();
+        let record = VerifyAnswer::unaligned(&map, none, explanation, second.record());
+        let text = format!("{} ~ {}: {}\n{}", a.name, b.name, record.verdict.as_str(), second.text());
+        return Ok(Answer::new(exit, record, text));
     }
     let plan = sample_plan(&a, args.samples, context.seed());
     let options = FkOptions { seed: context.seed(), ..FkOptions::default() };

@@ -687,7 +687,9 @@ impl Forms {
         let k = self.k;
         for _ in 0..40 {
             let length = a.iter().map(|x| x * x).sum::<f64>().sqrt();
-            a.iter_mut().for_each(|x| *x /= length);
+            for x in a.iter_mut() {
+                *x /= length;
+            }
             let values = self.at(a);
             let rows = DMatrix::from_fn(k + 1, k, |i, j| {
                 if i == k {

@@ -56,7 +56,7 @@ impl CountedJoints {
         match self {
             Self::Dyadic(legs) => {
                 legs.iter().for_each(|l| {
-                    doubles(&[l.base.coords.as_slice(), l.platform.coords.as_slice()].concat())
+                    doubles(&[l.base.coords.as_slice(), l.platform.coords.as_slice()].concat());
                 });
             }
             Self::Algebraic(ends) => {

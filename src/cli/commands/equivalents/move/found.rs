@@ -11,10 +11,12 @@ use crate::cli::files;
 use crate::cli::output::Answer;
 use crate::cli::requirements;
 use crate::design::Design;
+use crate::equivalence::judge;
 use crate::records::{
     AssessAnswer, CandidateRecord, DesignRecord, DesignRoleWord, HoleRecord, MoveAnswer, MoveSearchAnswer,
     Number, PlacementRecord, SearchWord, WishMarginRecord,
 };
+use crate::synthesis::LegMapOutcome;
 use crate::synthesis::components::{ComponentOptions, Components};
 use crate::synthesis::relocate::search::{
     Candidate, Impossibility, LegSource, MoveSearchOptions, Placement, SearchError, SearchOutcome,
@@ -92,6 +94,8 @@ struct JudgedPlatform<'a> {
     candidate: &'a Candidate,
     /// `None` where the legs make no platform.
     design: Option<Design>,
+    /// The relation to the design, decided on the joints of both.
+    map: LegMapOutcome,
     /// `None` where nothing is required.
     assessment: Option<AssessAnswer>,
 }
@@ -116,7 +120,13 @@ fn judged<'a>(design: &Design, outcome: &'a SearchOutcome, seed: u64) -> Vec<Jud
         let assessment = built
             .as_ref()
             .and_then(|d| Some(AssessAnswer::of(d, seed)?.with_role(DesignRoleWord::Equivalent)));
-        JudgedPlatform { candidate, design: built, assessment }
+        let on_joints = built.as_ref().and_then(|d| judge(design.manipulator(), d.manipulator()).ok());
+        JudgedPlatform {
+            candidate,
+            design: built,
+            map: on_joints.unwrap_or_else(|| candidate.map.clone()),
+            assessment,
+        }
     };
     let mut found: Vec<JudgedPlatform<'a>> = outcome.candidates.iter().map(judge).collect();
     found.sort_by_key(|f| !f.is_fulfilled());
@@ -278,7 +288,7 @@ impl MoveReport<'_> {
             shared_joints: c.shared_joints,
             margins: c.margins.iter().map(WishMarginRecord::from).collect(),
             moves: c.placements.iter().map(place).collect::<Result<_, Failure>>()?,
-            map: (&c.map).into(),
+            map: (&f.map).into(),
             design: f.design.as_ref().map(DesignRecord::from),
         })
     }

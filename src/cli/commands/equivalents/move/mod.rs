@@ -14,11 +14,12 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
+use crate::equivalence::judge;
 use crate::manipulator::Body;
 use crate::records::MoveAnswer;
 use crate::synthesis::components::{ComponentOptions, Components, ComponentsError, components};
 use crate::synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
-use crate::synthesis::{LegMapTolerances, Relation};
+use crate::synthesis::{LegMapOutcome, LegMapTolerances, Relation};
 use naming::{Meant, family_names, list_families, moved_design, resolve};
 use request::{Request, requests};
 
@@ -85,12 +86,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         sequence(&design, &wanted, options)?
     };
     let steps: Vec<Relocation> = done.iter().map(|s| s.relocation.clone()).collect();
-    let chain = Chain::of(design.manipulator(), &steps, LegMapTolerances::default())
+    let mut chain = Chain::of(design.manipulator(), &steps, LegMapTolerances::default())
         .map_err(|e| Failure::internal(e.to_string()))?;
     let regular = steps.iter().all(Relocation::is_regular);
     let last = done.last().and_then(|s| s.design.clone());
     if let Some(new) = &last {
         keeps_fixed(&design, new)?;
+        chain.direct = judged(&design, new)?;
     }
     let built = last.map(|d| finished(d, &design, &chain, regular, args.together));
     let mut written = None;
@@ -200,7 +202,7 @@ fn one_step(
         let parameters = r.parameters.clone();
         moves.push(LegMove { leg: r.leg, family: index, parameters, formulas });
     }
-    let relocation = relocate(current.manipulator(), &found, &moves, LegMapTolerances::default())
+    let mut relocation = relocate(current.manipulator(), &found, &moves, LegMapTolerances::default())
         .map_err(|e| refusal(&e, current, &found))?;
     let mut names = Vec::new();
     for step in &moves {
@@ -209,7 +211,15 @@ fn one_step(
     }
     let shares: Vec<f64> = wanted.iter().flat_map(|r| r.parameters.clone()).collect();
     let design = moved_design(current, &relocation.assembled, &shares);
+    if let Some(new) = &design {
+        relocation.map = judged(current, new)?;
+    }
     Ok(Done { relocation, families: names, design })
+}
+
+/// The relation of two designs, decided on their joints.
+fn judged(from: &Design, to: &Design) -> Result<LegMapOutcome, Failure> {
+    judge(from.manipulator(), to.manipulator()).map_err(|e| Failure::internal(e.to_string()))
 }
 
 /// What cannot be done, with what could be.
