@@ -230,7 +230,9 @@ impl Verification {
                     ""
                 }
             ),
-            Verdict::Singular | Verdict::NotEquivalent(None) => v.map.explanation(),
+            Verdict::Singular
+            | Verdict::NotEquivalent(None)
+            | Verdict::Inconclusive(InconclusiveReason::MapUndecided) => v.map.explanation(),
             Verdict::NotEquivalent(Some(c)) => {
                 let other = if c.solves == "A" { "B" } else { "A" };
                 format!(
@@ -245,7 +247,6 @@ impl Verification {
                     deviation(v)
                 )
             }
-            Verdict::Inconclusive(InconclusiveReason::MapUndecided) => v.map.explanation(),
             Verdict::Inconclusive(reason @ InconclusiveReason::WithinRounding) => format!(
                 "{} at {n} of {n} sets of lengths; {}{}{}",
                 reason.sentence(),

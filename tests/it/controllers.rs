@@ -10,6 +10,7 @@ use tempfile::TempDir;
 /// Whether there is a C compiler; without one a test says that it did not run.
 fn compiler() -> bool {
     let there = Command::new("cc").arg("--version").output().is_ok_and(|out| out.status.success());
+    #[allow(clippy::print_stderr, reason = "a test that does not run says so")]
     if !there {
         eprintln!("NOT RUN: there is no C compiler `cc`, and the C for controllers is not checked");
     }

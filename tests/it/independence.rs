@@ -10,7 +10,8 @@ fn code(module: &Path) -> String {
     } else {
         std::fs::read_to_string(module.with_extension("rs")).unwrap_or_default()
     };
-    text.lines().filter(|l| !l.trim_start().starts_with("//")).map(|l| format!("{l}\n")).collect()
+    let lines: Vec<&str> = text.lines().filter(|l| !l.trim_start().starts_with("//")).collect();
+    lines.join("\n")
 }
 
 fn source(module: &str) -> String {

@@ -204,10 +204,9 @@ fn offsets(pattern: &Pattern, singular: bool, rng: &mut Rng) -> Vec<f64> {
     let mut twentieths: Vec<i64> = list.iter().map(|_| draw()).collect();
     for k in 0..list.len() {
         // the second point of a side is apart from the first one
-        if let Some(first) = list[..k].iter().position(|o| o.side == list[k].side) {
-            if twentieths[first] == twentieths[k] {
-                twentieths[k] += 1;
-            }
+        let first = list[..k].iter().position(|o| o.side == list[k].side);
+        if first.is_some_and(|first| twentieths[first] == twentieths[k]) {
+            twentieths[k] += 1;
         }
     }
     if singular && list.len() == 6 && (0..6).all(|side| list.iter().any(|o| o.side == side && !o.second)) {
@@ -259,6 +258,5 @@ fn check_map_and_verify_agree_on_exact_designs() {
             }
         }
     }
-    println!("{regular} regular and {singular} singular designs agree");
     assert!(regular >= 4 && singular >= 2, "{regular} {singular}");
 }

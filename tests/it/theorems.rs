@@ -1,5 +1,7 @@
 //! Designs at the boundary of what the theorems ask for, and answers that contradicted each other.
 
+use std::fmt::Write as _;
+
 use std::path::Path;
 
 use serde_json::Value;
@@ -27,15 +29,17 @@ fn asked(args: &[&str]) -> (Option<i32>, Value) {
 fn hexagons(turn: &str, last: &str) -> String {
     let mut text = String::from("name = \"hexagons\"\nunits = \"mm\"\nlegs = [");
     for i in 1..=6 {
-        text += &format!("[\"A{i}\", \"B{i}\"], ");
+        write!(text, "[\"A{i}\", \"B{i}\"], ").unwrap();
     }
     text += "]\n[base]\nA1 = { radius = 100, angle_deg = 0 }\nA2 = { radius = 100, angle_deg = 60 }\nA3 = { turn = \"A1\", deg = 120 }\n";
     text += "A4 = { radius = 100, angle_deg = 180 }\nA5 = { mirror = \"A3\", plane = \"xz\" }\nA6 = { mirror = \"A2\", plane = \"xz\" }\n[platform]\n";
-    text += &format!(
+    write!(
+        text,
         "B1 = {{ radius = 60, angle_deg = \"{turn}\" }}\nB2 = {{ turn = \"B1\", deg = 60 }}\nB3 = {{ turn = \"B1\", deg = 120 }}\n"
-    );
+    )
+    .unwrap();
     text += "B4 = { turn = \"B1\", deg = 180 }\nB5 = { turn = \"B1\", deg = 240 }\n";
-    text += &format!("B6 = {{ radius = \"{last}\", angle_deg = \"{turn} + 300\" }}\n");
+    writeln!(text, "B6 = {{ radius = \"{last}\", angle_deg = \"{turn} + 300\" }}").unwrap();
     text + "[home]\nposition = [0, 0, 90]\nrpy_deg = [0, 0, 0]\n"
 }
 

@@ -54,7 +54,7 @@ fn the_exact_rounding_is_on_the_grid_on_its_lines_and_proved_equivalent() {
     let found = round(&free(), [GRID; 2]).unwrap();
     let e = found.exact.unwrap();
     assert!(e.proved);
-    assert!(equivalent_to_rounding(e.verification.unwrap().verdict));
+    assert!(equivalent_to_rounding(&e.verification.unwrap().verdict));
     for p in e.manipulator.base_joints().iter().chain(e.manipulator.platform_joints()) {
         for x in p.iter() {
             assert!((x / GRID.pitch).fract().abs() <= 0.0, "{x} is not a multiple of the pitch");
@@ -191,7 +191,7 @@ fn requirements_are_respected_or_the_violation_is_told() {
 }
 
 /// Holes of a turned grid are doubles, so that the map holds within rounding.
-fn equivalent_to_rounding(verdict: Verdict) -> bool {
+fn equivalent_to_rounding(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Equivalent | Verdict::Inconclusive(InconclusiveReason::WithinRounding))
 }
 
@@ -201,7 +201,7 @@ fn grids_may_be_turned_shifted_and_of_two_pitches() {
     let platform = Grid { pitch: 0.2, origin: [0.0, 0.05], angle_deg: -12.0, ..GRID };
     let e = round(&free(), [base, platform]).unwrap().exact.unwrap();
     assert!(e.proved);
-    assert!(equivalent_to_rounding(e.verification.unwrap().verdict));
+    assert!(equivalent_to_rounding(&e.verification.unwrap().verdict));
     let back = Rotation3::from_axis_angle(&Vector3::z_axis(), -30f64.to_radians());
     for p in e.manipulator.base_joints() {
         // the origin is given before the turn
@@ -268,7 +268,7 @@ fn free_grids_are_never_worse_than_the_given_ones() {
         );
         if let (Ok(a), Ok(b)) = (fixed.exact, chosen.exact) {
             assert!(b.judgement.objective >= a.judgement.objective && b.proved, "{:?}", b.grids);
-            assert!(equivalent_to_rounding(b.verification.unwrap().verdict));
+            assert!(equivalent_to_rounding(&b.verification.unwrap().verdict));
         }
     }
     // and better where there is something to choose
@@ -333,7 +333,7 @@ fn three_fold_platforms_keep_their_symmetry_on_triangular_grids() {
     assert!(symmetric(&three_fold()));
     let e = round(&three_fold(), grids).unwrap().exact.unwrap();
     assert!(e.three_fold && e.proved && symmetric(&e.manipulator), "{:?}", e.joints);
-    assert!(equivalent_to_rounding(e.verification.unwrap().verdict));
+    assert!(equivalent_to_rounding(&e.verification.unwrap().verdict));
     assert!(e.joints.iter().all(|j| j.off_line.is_none_or(|off| off < 1e-12)));
     // negative controls: squares, a grid that does not turn about the middle, a platform that does not turn
     let off = Grid { origin: [0.3 * pitch, 0.0], ..triangular };
