@@ -1,8 +1,8 @@
 // The requirements over the whole workspace: what `equipod assess` answers for the design shown.
 
-/** A quick look first; then the numbers of poses and searches that `equipod assess` takes, and as many cells as it takes. */
+/** A quick look first; then the numbers of poses, searches and cells that `equipod assess` begins with: a page cannot go on for minutes. */
 const ROUGH = { points: 500, searches: 1, cells: 0 };
-const THOROUGH = { points: 5000, searches: 3 };
+const THOROUGH = { points: 5000, searches: 3, cells: 6000 };
 
 /** What is known of a margin over the workspace, in a word. */
 const VERDICTS = { met: "proved", at_limit: "at the limit", violated: "violated", searched: "not proved" };
