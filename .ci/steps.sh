@@ -8,7 +8,6 @@
 
 rows=()
 over=
-failed=
 left_out=0
 stop_at=0
 
@@ -75,16 +74,18 @@ attempt() {
     return "$status"
 }
 
-stopped_late() { printf '\n*** stopped after %d s in the step `%s`; the step that grew most: %s\n' "$SECONDS" "$over" "$(grew)" >&2; }
-
-step() {
-    local status=0
-    attempt "$@" || status=$?
-    [ "$status" = 0 ] && return
+# ends the run with its table and the reason
+give_up() {
     table
-    [ "$status" = 124 ] && [ -n "$over" ] && stopped_late || printf '\n*** failed: %s\n' "$1" >&2
+    if [ -n "$over" ]; then
+        printf '\n*** stopped after %d s in the step `%s`; the step that grew most: %s\n' "$SECONDS" "$over" "$(grew)" >&2
+    else
+        printf '\n*** failed: %s\n' "$1" >&2
+    fi
     exit 1
 }
+
+step() { attempt "$@" || give_up "$1"; }
 
 outside() {
     local status=0
@@ -92,10 +93,6 @@ outside() {
     case $status in
         0) ;;
         77) left_out=$((left_out + 1)) ;;
-        *)
-            table
-            [ "$status" = 124 ] && [ -n "$over" ] && stopped_late || printf '\n*** failed: %s\n' "$1" >&2
-            exit 1
-            ;;
+        *) give_up "$1" ;;
     esac
 }
