@@ -51,7 +51,7 @@ pub struct DecisionRecord {
     pub numerical: usize,
     /// In exact arithmetic; null: not asked.
     pub exact: Option<usize>,
-    /// Both say the same; null: not asked.
+    /// Exact arithmetic gives the value used; null: not asked.
     pub agrees: Option<bool>,
     /// The smallest number not counted as zero.
     pub above: Option<Number>,

@@ -154,6 +154,21 @@ variables = [\"home_height\"]
     assert!(d["conflict"]["requirements"][1]["alone"].as_f64().unwrap() > 0.0);
 }
 
+/// What the design doesn't ask for takes no part in its conflicts: a least `|det A|` that nobody asked for would add 4.85 mm to the longest leg.
+#[test]
+#[ignore = "evidence"]
+fn a_conflict_is_about_what_was_asked_for() {
+    let design = std::fs::read_to_string("tests/fixtures/verdicts/unasked-determinant.toml").unwrap();
+    let (out, _folder) = optimize(&design, &[]);
+    assert_eq!(out.status.code(), Some(1), "{}", String::from_utf8_lossy(&out.stdout));
+    let d = document(&out);
+    let requirements = d["conflict"]["requirements"].as_array().unwrap();
+    let names: Vec<&str> = requirements.iter().map(|r| r["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["leg_too_short", "leg_too_long"]);
+    let alone = requirements[1]["alone"].as_f64().unwrap();
+    assert!((alone - 28.194).abs() < 0.01, "{alone}");
+}
+
 /// Each candidate is a file that `assess` judges as the answer says; with other values than the answer, and without the option there are none.
 #[test]
 #[ignore = "evidence"]

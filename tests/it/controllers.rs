@@ -98,11 +98,11 @@ fn poses_of_every_worked_design_come_back_through_the_kinematics_of_linuxcnc() {
         let name = path.display();
         let Some(exported) = Exported::possible(&Design::load(&path).unwrap()) else { continue };
         written += 1;
-        let (good, said) = exported.kinematics("poses.c", "linuxcnc", &["-DCASES=8u"]);
+        let (good, said) = exported.kinematics("poses.c", "linuxcnc", &["-DCASES=4u"]);
         assert!(good, "{name}: {said}");
         if exported.octahedral {
             mapped += 1;
-            let (good, said) = exported.mapped(300);
+            let (good, said) = exported.mapped(60);
             assert!(good, "{name}: {said}");
         }
     }

@@ -47,6 +47,7 @@ mod controllers;
 mod cranks;
 mod design_files;
 mod documents;
+mod doors;
 mod eliminations;
 mod entrance;
 mod evidence;

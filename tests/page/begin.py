@@ -56,9 +56,11 @@ def examples(shown):
     assert len(names) == len(presets) > 0, names
     for name in names:
         page.select_option("#preset", name)
-        shown.settle()
-        assert name in page.text_content("#begin-words")
+        page.wait_for_function("name => document.getElementById('begin-words').textContent.includes(name)", arg=name)
+        shown.drawn()
         assert "bad" not in page.get_attribute("#begin-words", "class")
+    numbers(page, base_spread_deg=30, platform_spread_deg=25.5)
+    shown.settle()
 
 
 def from_points(shown, folder):

@@ -5,9 +5,13 @@
 """
 
 import argparse
+import concurrent.futures
+import os
 import re
+import shutil
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 from playwright.sync_api import sync_playwright
@@ -29,8 +33,7 @@ NO_WASM = "delete window.WebAssembly;"
 
 
 def octahedral(chromium, program, folder, pictures):
-    path = program.page(DESIGNS / "rbt-octahedral.toml", folder / "octahedral.html")
-    with Opened(chromium, path) as shown:
+    with Opened(chromium, folder / "octahedral.html") as shown:
         assert shown.ready == "live"
         fresh.same_answers(shown)
         picture(shown, pictures, "octahedral")
@@ -109,7 +112,7 @@ def general(chromium, program, folder, pictures):
 
 def rods(chromium, program, folder, pictures):
     """Rods on cranks, light and dark, wide and narrow."""
-    path = program.page(cranks.HEAD, folder / "rods.html")
+    path = program.page(cranks.near_home(folder), folder / "rods.html")
     with Opened(chromium, path) as shown:
         assert shown.ready == "live" and not shown.page.is_visible("#locus-label")
         cranks.as_ik(shown, program)
@@ -121,7 +124,7 @@ def rods(chromium, program, folder, pictures):
         picture(shown, pictures, "rods")
         shown.quiet()
     for width, dark in ((360, False), (390, True), (1360, True)):
-        with Opened(chromium, path, width=width, height=780, dark=dark, touch=width < 1000) as shown:
+        with Opened(chromium, path, width=width, height=780, dark=dark, touch=width < 1000, judged=False) as shown:
             if width < 1000:
                 access.narrow(shown)
             access.contrast(shown)
@@ -234,7 +237,7 @@ def hidden(chromium, program, folder, pictures):
     """The first view hides no leg."""
     for name in ("rbt-octahedral", "rbt-griffis-duffy", "general-6-6", "symmetric-hexapod", "presets/bench-l16", "presets/linuxcnc-hexapod"):
         path = program.page(DESIGNS / f"{name}.toml", folder / "hidden.html")
-        with Opened(chromium, path) as shown:
+        with Opened(chromium, path, judged=False) as shown:
             pair = shown.page.is_visible("#figure-second")
             poses.no_leg_hidden(shown, ["view-first", "view-second"][: 1 + pair])
 
@@ -355,12 +358,14 @@ def faults(chromium, program, folder, pictures):
         "a workspace that is not looked at": ("limits.regular.met === false", "true", lambda s: limits.as_assess(s, program, folder)),
         "pale text": ("--soft:#555c66", "--soft:#b5bcc6", access.contrast),
     }
+    judged = {"a shade that says nothing", "a workspace that is not looked at"}
     for name, (good, bad, check) in planted.items():
         assert good in whole, f"{name}: the place to plant it is gone"
         path = folder / "fault.html"
         path.write_text(unguarded(whole.replace(good, bad, 1)))
         try:
-            with Opened(chromium, path) as shown:
+            with Opened(chromium, path, judged=name in judged) as shown:
+                shown.page.wait_for_timeout(350)
                 check(shown)
         except AssertionError:
             continue
@@ -373,31 +378,41 @@ def picture(shown, folder, name):
         shown.page.screenshot(path=folder / f"{name}.png", full_page=True)
 
 
+CHECKS = [
+    rods, faults, first, spaces, lengths, whole, shared, start, octahedral, hidden, slow, required, equivalent, singular, general, phone, recorded, printed, reported, foreign,
+]
+
+
+def run(check, binary, pictures, octahedral_page):
+    """One check in a browser and a folder of its own: what it found, and its seconds."""
+    began, program = time.monotonic(), Program(binary)
+    try:
+        with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, browser(playwright) as chromium:
+            folder = Path(folder)
+            shutil.copy(octahedral_page, folder)
+            check(chromium, program, folder, pictures)
+        fault = None
+    except Exception as error:  # every check is reported
+        fault = f"{type(error).__name__}: {error}"
+    return check.__name__, fault, time.monotonic() - began
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
     parser.add_argument("--pictures", type=Path)
-    parser.add_argument("--only", help="one check by name")
+    parser.add_argument("--only", nargs="+", help="checks by name")
     args = parser.parse_args()
     if args.pictures:
         args.pictures.mkdir(parents=True, exist_ok=True)
-    program, failed = Program(args.program), 0
-    checks = [
-        octahedral, equivalent, spaces, singular, general, rods, required, first, hidden, lengths, whole, shared, start, slow, phone, recorded, printed, reported, foreign, faults,
-    ]
-    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, browser(playwright) as chromium:
-        folder = Path(folder)
-        program.page(DESIGNS / "rbt-octahedral.toml", folder / "octahedral.html")
-        for check in checks:
-            if args.only and check.__name__ != args.only:
-                continue
-            try:
-                check(chromium, program, folder, args.pictures)
-                print(f"ok      {check.__name__}")
-            except Exception as error:  # every check is reported
-                failed += 1
-                print(f"FAILED  {check.__name__}: {type(error).__name__}: {error}")
-    return 1 if failed else 0
+    failed, checks = 0, [check for check in CHECKS if not args.only or check.__name__ in args.only]
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
+        made = Program(args.program).page(DESIGNS / "rbt-octahedral.toml", Path(folder) / "octahedral.html")
+        for done in concurrent.futures.as_completed([pool.submit(run, check, args.program, args.pictures, made) for check in checks]):
+            name, fault, seconds = done.result()
+            failed += fault is not None
+            print(f"FAILED  {name}: {fault}" if fault else f"ok      {name}  {seconds:.0f} s", flush=True)
+    return 1 if failed or not checks else 0
 
 
 if __name__ == "__main__":

@@ -187,10 +187,11 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     .beside(Some(ends.exact.rank(&all)));
     let mut doubts = search.doubts;
     let leg_rank = match leg_rank.exact {
-        // no tolerance has a say about exact joints
-        Some(exact) if m.level() == Level::ExactJoints && exact != leg_rank.value => {
+        // the rank is that of the joints, exact or as written; a tolerance has no say about it
+        Some(exact) if exact != leg_rank.value => {
+            let joints = if m.level() == Level::ExactJoints { "exact joints" } else { "joints as written" };
             doubts.push(format!(
-                "the exact joints have leg vectors of rank {exact}, of rank {} within the tolerance: families of the exact joints alone are not found",
+                "the {joints} have leg vectors of rank {exact}, of rank {} within the tolerance: families that the {joints} alone have are not found",
                 leg_rank.value
             ));
             leg_rank.taken(exact)

@@ -174,7 +174,7 @@ pub fn relocate(
     }
     if let [only] = moves {
         let family = &found.components[only.family];
-        if found.leg_rank.value == 6 && !family.support.contains(&only.leg) {
+        if found.leg_rank.numerical == 6 && !family.support.contains(&only.leg) {
             return Err(RelocateError::NotCarried { leg: only.leg, family: only.family });
         }
     }
