@@ -4,9 +4,9 @@
 //! twice by one run; and a design gives way to another design only, not to a picture or a table. A file appears whole or not at all.
 
 use std::cell::RefCell;
-use std::ffi::{OsStr, OsString};
-use std::fs::{File, OpenOptions};
-use std::io::{ErrorKind, Read, Write};
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
@@ -15,12 +15,11 @@ use clap::ArgMatches;
 use super::exit::Exit;
 use super::failure::Failure;
 use crate::design::{Design, Format, parse_with_cranks};
+use crate::entrance::whole::WholeFile;
 use crate::records::{FileSourceRecord, sha256};
 
 /// Nothing this program reads is larger; a design has some kilobytes.
 const MAX_BYTES: u64 = 4 << 20;
-/// But models of CAD programs.
-const MAX_MODEL_BYTES: u64 = 64 << 20;
 
 /// The name for standard input and standard output.
 const STANDARD: &str = "-";
@@ -63,14 +62,6 @@ pub(crate) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
 pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Failure> {
     let help = "a design has some kilobytes, a table of leg lengths about 100 bytes a row; split the table";
     read_limited(path, MAX_BYTES, help)
-}
-
-/// The bytes of a table of points or of a model of at most 64 MiB.
-///
-/// # Errors
-/// As [`read_table`].
-pub(crate) fn read_points(path: &Path) -> Result<Vec<u8>, Failure> {
-    read_limited(path, MAX_MODEL_BYTES, "export the machine without threads, screws and covers")
 }
 
 fn read_limited(path: &Path, most: u64, help: &str) -> Result<Vec<u8>, Failure> {
@@ -285,6 +276,24 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
+/// Opens a file that a folder of results should hold: a pipe in its place would be waited for without end.
+///
+/// # Errors
+/// What the system says; `InvalidInput` for a pipe or device.
+pub(crate) fn open_regular(path: &Path) -> std::io::Result<File> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(std::io::Error::new(ErrorKind::InvalidInput, "it is no file"));
+    }
+    File::open(path)
+}
+
+/// The bytes of a file that a folder of results should hold; `None` where there is none of at most `most` bytes.
+pub(crate) fn found_in_folder(path: &Path, most: u64) -> Option<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open_regular(path).ok()?.take(most + 1).read_to_end(&mut bytes).ok()?;
+    (bytes.len() as u64 <= most).then_some(bytes)
+}
+
 /// The bytes of a file of at most `most` bytes.
 ///
 /// # Errors
@@ -358,26 +367,6 @@ pub(crate) fn not_written(shown: &str, error: &std::io::Error) -> Failure {
     }
 }
 
-/// The beginning and the end of the name under which a file is written before it gets its own.
-const PART: (&str, &str) = (".", ".part");
-
-/// The name under which a file is written.
-pub(crate) fn beside(path: &Path) -> PathBuf {
-    let mut name = OsString::from(PART.0);
-    name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}{}", std::process::id(), PART.1));
-    path.with_file_name(name)
-}
-
-/// Whether `name` is a file that an interrupted run left beside the file `of`.
-pub(crate) fn is_part(name: &OsStr, of: &str) -> bool {
-    let name = name.to_string_lossy();
-    let inner = name.strip_prefix(PART.0).and_then(|n| n.strip_suffix(PART.1));
-    inner.and_then(|n| n.rsplit_once('.')).is_some_and(|(file, process)| {
-        file == of && !process.is_empty() && process.bytes().all(|b| b.is_ascii_digit())
-    })
-}
-
 /// Writes a file whole: first beside it, then renamed, so that a half-written file never stands there. `-` is standard output.
 ///
 /// # Errors
@@ -399,20 +388,7 @@ pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
         return Err(failed(std::io::ErrorKind::IsADirectory.into()));
     }
     check_target(path, text)?;
-    // the file a link points to is replaced, not the link
-    let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let part = beside(&target);
-    let write = || {
-        let mut file = OpenOptions::new().write(true).create_new(true).open(&part)?;
-        let done = file.write_all(text.as_bytes()).and_then(|()| {
-            target.metadata().map_or(Ok(()), |m| std::fs::set_permissions(&part, m.permissions()))?;
-            std::fs::rename(&part, &target)
-        });
-        done.inspect_err(|_| {
-            let _ = std::fs::remove_file(&part); // the error to report is the first one
-        })
-    };
-    write().map_err(failed)?;
+    WholeFile::write(path, text.as_bytes()).map_err(failed)?;
     RUN.with_borrow_mut(|run| run.written.push(Identity::of(path)));
     Ok(())
 }

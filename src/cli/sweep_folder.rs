@@ -17,6 +17,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::files::{self, OutputPath};
 use crate::design::{Format, Violation};
+use crate::entrance::whole::{WholeFile, part_of};
 use crate::records::{
     DamagedPartRecord, SCHEMA_VERSION, SweepFolderRecord, SweepManifestRecord, SweepStatusAnswer,
     SweepTextRecord, sha256,
@@ -63,9 +64,12 @@ fn json(value: &impl Serialize) -> Result<String, Failure> {
     Ok(text + "\n")
 }
 
+/// Bytes of a record of the folder at most: the plan of a sweep is its largest, with the table of poses in it.
+const MAX_RECORD: u64 = 64 << 20;
+
 /// Reads a small JSON file; `None` where there is none, or another one.
 fn read_json<T: DeserializeOwned>(path: &Path) -> Option<T> {
-    serde_json::from_slice(&fs::read(path).ok()?).ok()
+    serde_json::from_slice(&files::found_in_folder(path, MAX_RECORD)?).ok()
 }
 
 fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure + '_ {
@@ -93,21 +97,12 @@ pub(crate) fn write_whole<T>(
     path: &Path,
     write: impl FnOnce(BufWriter<File>) -> Result<Option<(BufWriter<File>, T)>, Failure>,
 ) -> Result<Option<T>, Failure> {
-    let part = files::beside(path);
-    let done = (|| {
-        let file = File::create(&part).map_err(failed(path))?;
-        let Some((mut writer, value)) = write(BufWriter::with_capacity(1 << 16, file))? else {
-            return Ok(None);
-        };
-        writer.flush().map_err(failed(path))?;
-        writer.get_ref().sync_all().map_err(failed(path))?;
-        fs::rename(&part, path).map_err(failed(path))?;
-        Ok(Some(value))
-    })();
-    if !matches!(done, Ok(Some(_))) {
-        let _ = fs::remove_file(&part); // the error to report is the first one
-    }
-    done
+    let whole = WholeFile::begin(path).map_err(failed(path))?;
+    let file = whole.file().try_clone().map_err(failed(path))?;
+    let Some((mut writer, value)) = write(BufWriter::with_capacity(1 << 16, file))? else { return Ok(None) };
+    writer.flush().map_err(failed(path))?;
+    whole.finish().map_err(failed(path))?;
+    Ok(Some(value))
 }
 
 /// Writes a text whole.
@@ -250,14 +245,14 @@ impl SweepFolder {
             return Ok(());
         };
         let path = folder.join(&named.file);
-        match fs::read(&path) {
-            Ok(there) if there == text.as_bytes() => Ok(()),
-            Ok(_) => {
+        match files::found_in_folder(&path, MAX_RECORD) {
+            Some(there) if there == text.as_bytes() => Ok(()),
+            _ if path.exists() => {
                 let message = format!("{} is not the table of poses of the sweep", path.display());
                 Err(Failure::refused("sweep::other_poses", message)
                     .with_help("candidates name it: write them into another folder"))
             }
-            Err(_) => files::write_text(&path, text),
+            _ => files::write_text(&path, text),
         }
     }
 
@@ -278,7 +273,7 @@ impl SweepFolder {
         }
         let seen = match look {
             PartLook::Whole => {
-                File::open(&part).and_then(digest_of).map(|(bytes, sha256)| (bytes, Some(sha256)))
+                files::open_regular(&part).and_then(digest_of).map(|(bytes, sha256)| (bytes, Some(sha256)))
             }
             PartLook::Size => fs::metadata(&part).map(|m| (m.len(), None)),
         };
@@ -302,7 +297,7 @@ impl SweepFolder {
             Failure::refused("sweep::damaged", format!("{} cannot be read: {why}", path.display()))
                 .with_help("`equipod sweep run` computes it again")
         };
-        let file = File::open(&path).map_err(|e| unreadable(e.to_string()))?;
+        let file = files::open_regular(&path).map_err(|e| unreadable(e.to_string()))?;
         let reader = PartReader::new(file).map_err(|e| unreadable(e.to_string()))?;
         if reader.note(PLAN_NOTE).as_ref() != Some(&self.record.plan_sha256) {
             return Err(unreadable("it is of another plan".into()));
@@ -426,8 +421,8 @@ impl SweepFolder {
     fn unfinished(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let names = entries.map(|e| e.file_name().to_string_lossy().into_owned());
-        let mut names: Vec<String> =
-            names.filter(|n| n.starts_with(".part-") && n.rsplit('.').next() == Some("part")).collect();
+        let is_part = |name: &String| part_of(name.as_ref()).is_some_and(|of| of.starts_with("part-"));
+        let mut names: Vec<String> = names.filter(is_part).collect();
         names.sort();
         names
     }
@@ -446,7 +441,7 @@ pub(crate) fn open_table(path: &Path) -> Result<PartReader, Failure> {
         Failure::refused("file::not_readable", format!("{} cannot be read: {why}", path.display()))
             .with_help("name the folder of a sweep, or the file that `equipod sweep merge` wrote")
     };
-    let file = File::open(path).map_err(|e| unreadable(e.to_string()))?;
+    let file = files::open_regular(path).map_err(|e| unreadable(e.to_string()))?;
     PartReader::new(file).map_err(|e| unreadable(e.to_string()))
 }
 

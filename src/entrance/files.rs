@@ -1,9 +1,10 @@
 //! Designs read from files and written to them: beside the command line the only place of the library that does.
 
-use std::io::Write as _;
 use std::path::Path;
 
 use super::Error;
+#[cfg(not(target_family = "wasm"))]
+use super::whole::WholeFile;
 use crate::design::{Design, Format, SeriesKind, Violation, Warning, parse};
 use crate::geom::InvalidPose;
 
@@ -52,13 +53,15 @@ impl Design {
     ///
     /// # Errors
     /// A file that cannot be written.
+    #[cfg(not(target_family = "wasm"))]
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let path = path.as_ref();
         let text = match Format::of_path(path) {
             Format::Toml => self.text(),
             Format::Json => self.to_json(),
         };
-        write_whole(path, &text).map_err(|source| Error::File { path: path.to_path_buf(), source })
+        WholeFile::write(path, text.as_bytes())
+            .map_err(|source| Error::File { path: path.to_path_buf(), source })
     }
 
     /// What is allowed in the text the design was read from but often a slip.
@@ -82,19 +85,4 @@ impl std::str::FromStr for Design {
 
 fn read(path: &Path) -> Result<String, Error> {
     std::fs::read_to_string(path).map_err(|source| Error::File { path: path.to_path_buf(), source })
-}
-
-/// Writes beside the file, then renames.
-fn write_whole(path: &Path, text: &str) -> std::io::Result<()> {
-    // the file a link points to is replaced, not the link
-    let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let mut name = std::ffi::OsString::from(".");
-    name.push(target.file_name().unwrap_or_default());
-    name.push(format!(".{}.part", std::process::id()));
-    let part = target.with_file_name(name);
-    let mut file = std::fs::OpenOptions::new().write(true).create_new(true).open(&part)?;
-    let done = file.write_all(text.as_bytes()).and_then(|()| std::fs::rename(&part, &target));
-    done.inspect_err(|_| {
-        let _ = std::fs::remove_file(&part); // the error to report is the first one
-    })
 }

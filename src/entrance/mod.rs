@@ -36,6 +36,8 @@ mod reaching_space;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) mod rounding;
 mod solving;
+#[cfg(all(feature = "files", not(target_family = "wasm")))]
+pub(crate) mod whole;
 
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use comparing::{DesignFigures, FigureOptions, Separation};

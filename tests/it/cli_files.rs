@@ -88,3 +88,35 @@ fn another_design_gives_way_to_a_design_only() {
     );
     assert_eq!(contents(temp.path()).len(), 1, "no part is left");
 }
+
+/// Small files that once took gigabytes, or for ever.
+#[test]
+fn what_is_read_has_a_limit() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let step = write("assembly.step", "ISO-10303-21;\nDATA;\n#1=SPHERICAL_SURFACE('',#2,1.);\n");
+    let attributes = " a=\"x\"".repeat(200_000);
+    let xml = write("attributes.xml", &format!("<mujoco{attributes}/>"));
+    let table = write("long.csv", &"1,2,3\n".repeat(1_000_000));
+    for (path, code) in [(&step, "new::bad_step"), (&xml, "new::bad_mjcf"), (&table, "file::too_large")] {
+        refused(folder.path(), &["new", "--points", path], code);
+    }
+    let picture = format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><!--{}--></svg>", "x".repeat(13 << 20));
+    for k in 0..6 {
+        write(&format!("pictures/{k}.svg"), &picture);
+    }
+    refused(folder.path(), &["report", folder.path().join("pictures").to_str().unwrap()], "file::too_large");
+    // a pipe that nobody writes into
+    let sweep = folder.path().join("sweep");
+    std::fs::create_dir(&sweep).unwrap();
+    let made = std::process::Command::new("mkfifo").arg(sweep.join("sweep.json")).status();
+    if made.is_ok_and(|status| status.success()) {
+        let out = equipod(&["sweep", "status", sweep.to_str().unwrap(), "--json"]);
+        assert_eq!(out.status.code(), Some(2), "{}", String::from_utf8_lossy(&out.stdout));
+    }
+}

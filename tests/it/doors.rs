@@ -1,5 +1,7 @@
 //! Every command that answers a question gives the answer of the others: designs of all kinds are drawn, and each is put to all of them.
 
+use std::fmt::Write as _;
+
 use equipod::methods::bench::{Class, LengthsFrom, problem};
 use equipod::methods::num::Rng;
 use equipod::prelude::*;
@@ -12,14 +14,18 @@ const EDGES: &str = "legs = [[\"B1\",\"T1\"],[\"B2\",\"T1\"],[\"B2\",\"T2\"],[\"
 const HEXAGONS: &str = "legs = [[\"B1\",\"T1\"],[\"B2\",\"T2\"],[\"B3\",\"T3\"],[\"B4\",\"T4\"],[\"B5\",\"T5\"],[\"B6\",\"T6\"]]\n";
 
 fn whole(rng: &mut Rng, least: i64, most: i64) -> i64 {
-    least + (rng.next_u64() % (most - least + 1) as u64).cast_signed()
+    least + (rng.next_u64() % (most - least + 1).cast_unsigned()).cast_signed()
+}
+
+fn one_of<'a, T>(rng: &mut Rng, list: &'a [T]) -> &'a T {
+    &list[usize::try_from(rng.next_u64() % list.len() as u64).unwrap()]
 }
 
 /// A fraction, a whole number or a quotient over a root, of about ten.
 fn number(rng: &mut Rng) -> String {
     match whole(rng, 0, 3) {
         0 => format!("{}", whole(rng, -12, 12)),
-        1 => format!("\"{}*sqrt({})\"", whole(rng, 1, 5), [2, 3, 5][whole(rng, 0, 2) as usize]),
+        1 => format!("\"{}*sqrt({})\"", whole(rng, 1, 5), one_of(rng, &[2, 3, 5])),
         _ => format!("\"{}/{}\"", whole(rng, -40, 40), whole(rng, 2, 9)),
     }
 }
@@ -28,15 +34,14 @@ fn number(rng: &mut Rng) -> String {
 fn octahedral(rng: &mut Rng) -> String {
     let mut text = format!("name = \"octahedral\"\nunits = \"mm\"\n{EDGES}");
     for (body, joint) in [("base", 'B'), ("platform", 'T')] {
-        text += &format!("[{body}]\n");
+        writeln!(text, "[{body}]").unwrap();
         let turned = whole(rng, 0, 2) == 0;
         let (radius, angle) = (whole(rng, 3, 12), 15 * whole(rng, 0, 23));
-        for k in 1..=3 {
+        // corners far apart, so that no triangle is flat
+        for (k, far) in (0..).zip([(0, 0), (20, 0), (0, 20)]) {
             let place = if turned {
-                format!("{{ radius = {radius}, angle_deg = {} }}", angle + 120 * (k - 1))
+                format!("{{ radius = {radius}, angle_deg = {} }}", angle + 120 * k)
             } else {
-                // corners far apart, so that no triangle is flat
-                let far = [(0, 0), (20, 0), (0, 20)][k as usize - 1];
                 format!(
                     "[\"{} + {}/7\", \"{} + {}/5\", {}]",
                     far.0,
@@ -46,7 +51,7 @@ fn octahedral(rng: &mut Rng) -> String {
                     number(rng)
                 )
             };
-            text += &format!("{joint}{k} = {place}\n");
+            writeln!(text, "{joint}{} = {place}", k + 1).unwrap();
         }
     }
     text
@@ -59,15 +64,15 @@ fn hexagons(rng: &mut Rng) -> String {
     let kind = whole(rng, 0, 2);
     let turn = 15 * whole(rng, 0, 23);
     for (body, joint, radius) in [("base", 'B', whole(rng, 8, 12)), ("platform", 'T', whole(rng, 3, 7))] {
-        text += &format!("[{body}]\n");
-        for k in 0..6 {
+        writeln!(text, "[{body}]").unwrap();
+        for (k, of_base) in (0..).zip(&angles) {
             let angle = match (joint, kind) {
-                ('B', _) => angles[k],
-                (_, 0) => angles[k] + turn,
-                (_, 1) => turn - angles[k],
-                _ => 60 * k as i64 + 15 * whole(rng, 0, 3),
+                ('B', _) => *of_base,
+                (_, 0) => of_base + turn,
+                (_, 1) => turn - of_base,
+                _ => 60 * k + 15 * whole(rng, 0, 3),
             };
-            text += &format!("{joint}{} = {{ radius = {radius}, angle_deg = {angle} }}\n", k + 1);
+            writeln!(text, "{joint}{} = {{ radius = {radius}, angle_deg = {angle} }}", k + 1).unwrap();
         }
     }
     text
@@ -82,27 +87,23 @@ struct Drawn {
 }
 
 /// A platform on the edges of an octahedral one, singular on request; as exact joints, as their doubles, or to so many decimals.
-fn moved(rng: &mut Rng, singular: bool, digits: Option<usize>) -> Option<Drawn> {
+fn moved(rng: &mut Rng, singular: bool, digits: Option<i32>) -> Option<Drawn> {
     let from = octahedral(rng);
     let original: Design = from.parse().unwrap();
     let class = original.equivalents().ok()?;
     let family = Family::octahedral();
     let members = family.members();
-    let pattern = if singular {
-        "S123456".parse().ok()?
-    } else {
-        members[whole(rng, 0, members.len() as i64 - 1) as usize].pattern.clone()
-    };
+    let pattern = if singular { "S123456".parse().ok()? } else { one_of(rng, members).pattern.clone() };
     let mut shares: Vec<f64> = pattern.offsets().iter().map(|_| whole(rng, 1, 19) as f64 / 20.0).collect();
     if singular {
         for k in [1, 3, 5] {
-            shares[k] = 1.0 - shares[k as usize - 1];
+            shares[k] = 1.0 - shares[k - 1];
         }
     }
     let (design, _) = class.build(&pattern, &shares).ok()?;
     let kind = format!("{pattern} {shares:?}, {digits:?} digits");
     let Some(digits) = digits else { return Some(Drawn { kind, text: design.to_toml(), from: Some(from) }) };
-    let scale = 10f64.powi(digits as i32);
+    let scale = 10f64.powi(digits);
     let round = |x: f64| if digits > 15 { x } else { (x * scale).round() / scale };
     let legs = design
         .manipulator()
@@ -118,13 +119,16 @@ fn drawn(n: u64) -> Option<Drawn> {
     match n % 6 {
         0 | 3 => {
             let classes: Vec<Class> = Class::ALL.iter().copied().chain(Class::topologies()).collect();
-            let class = classes[(n / 3) as usize % classes.len()];
+            let class = *classes.iter().cycle().nth(usize::try_from(n / 3).ok()?)?;
             let m = problem(class, LengthsFrom::Pose, 40, n).ok()?.manipulator;
             Some(Drawn { kind: class.to_string(), text: Design::new("drawn", "mm", m).to_toml(), from: None })
         }
-        1 => moved(&mut rng, n / 6 % 2 == 0, None),
+        1 => moved(&mut rng, (n / 6).is_multiple_of(2), None),
         2 => Some(Drawn { kind: "hexagons".to_owned(), text: hexagons(&mut rng), from: None }),
-        4 => moved(&mut rng, n / 6 % 2 == 0, Some(if n % 4 == 0 { 16 } else { 3 })),
+        4 => {
+            let digits = if (n / 12).is_multiple_of(2) { 16 } else { 3 };
+            moved(&mut rng, (n / 6).is_multiple_of(2), Some(digits))
+        }
         _ => {
             let text = octahedral(&mut rng);
             Some(Drawn { kind: "octahedral".to_owned(), from: Some(text.clone()), text })
@@ -152,7 +156,7 @@ impl Answers {
         Self { question, words: Vec::new() }
     }
 
-    fn says(&mut self, who: &'static str, what: impl ToString) {
+    fn says(&mut self, who: &'static str, what: &impl ToString) {
         self.words.push((who, what.to_string()));
     }
 
@@ -199,20 +203,20 @@ fn singular(path: &str) -> Vec<Answers> {
         None => "undecided",
     };
     let level = check["level"].as_str().unwrap_or("no level");
-    singular.says("check", format!("{word}, {level}"));
-    exit.says("what check says", if check["singular_home"].is_null() { exit_of(word) } else { 1 });
-    exit.says("check", code);
+    singular.says("check", &format!("{word}, {level}"));
+    exit.says("what check says", &if check["singular_home"].is_null() { exit_of(word) } else { 1 });
+    exit.says("check", &code);
     let of_relation = exit_of(word);
     let mut exit_of_relations = Answers::to("exit code of the relation to itself?");
-    exit_of_relations.says("what check says", of_relation);
+    exit_of_relations.says("what check says", &of_relation);
     for (who, said, code) in relations(path, path) {
-        singular.says(who, said);
-        exit_of_relations.says(who, code);
+        singular.says(who, &said);
+        exit_of_relations.says(who, &code);
     }
     let (code, family) = asked(&["equivalents", "family", path]);
     match family["error"]["code"].as_str() {
-        Some("family::singular") => singular.says("family", format!("singular, {level}")),
-        None if code == 0 => singular.says("family", format!("equivalent, {level}")),
+        Some("family::singular") => singular.says("family", &format!("singular, {level}")),
+        None if code == 0 => singular.says("family", &format!("equivalent, {level}")),
         _ => {}
     }
     rank.says("check", &check["leg_rank"]);
@@ -221,8 +225,8 @@ fn singular(path: &str) -> Vec<Answers> {
         rank.says("components", &components["leg_rank"]);
     }
     if word != "undecided" {
-        poses.says("what check says", word == "equivalent");
-        poses.says("pose count of check", check["pose_count"]["finite"] != 0);
+        poses.says("what check says", &(word == "equivalent"));
+        poses.says("pose count of check", &(check["pose_count"]["finite"] != 0));
     }
     vec![singular, exit, exit_of_relations, rank, poses]
 }
@@ -233,12 +237,20 @@ fn equivalent(a: &str, b: &str) -> Vec<Answers> {
     for (from, to, there) in [(a, b, true), (b, a, false)] {
         for (who, said, code) in relations(from, to) {
             let who = if there { who } else { ["map back", "verify back"][usize::from(who == "verify")] };
-            exit.says("the relation", exit_of(&said));
-            exit.says(who, code);
-            words.says(who, said);
+            exit.says("the relation", &exit_of(&said));
+            exit.says(who, &code);
+            words.says(who, &said);
         }
     }
     vec![words, exit]
+}
+
+/// What was found so far, for whoever runs this alone.
+fn note(text: &str) {
+    #[allow(clippy::print_stderr, reason = "a test of an hour says what it has found before it ends")]
+    {
+        eprintln!("{text}");
+    }
 }
 
 /// `EVIDENCE=full` puts 1,000 designs to all commands.
@@ -266,12 +278,12 @@ fn no_two_commands_contradict_each_other() {
             if answers.differ() {
                 let Answers { question, words } = answers;
                 let found = format!("{n} ({}): {question} {words:?}\n{}", drawn.kind, drawn.text);
-                println!("{found}");
+                note(&found);
                 contradictions.push(found);
             }
         }
     }
-    println!("{seen} designs: {words:?}");
+    note(&format!("{seen} designs: {words:?}"));
     assert!(contradictions.is_empty(), "{} of {seen}:\n{}", contradictions.len(), contradictions.join("\n"));
     let of = |word: &str| words.iter().filter(|(w, _)| w.starts_with(word)).map(|(_, n)| n).sum::<usize>();
     assert!(seen * 10 >= count * 9, "{seen} of {count}");

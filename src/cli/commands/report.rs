@@ -21,7 +21,7 @@ use crate::synthesis::Pattern;
 
 /// The page in its folder.
 pub(super) const PAGE: &str = "report.html";
-/// Files larger than this are refused: a result has at most some megabytes.
+/// Bytes of all files together: a result has at most some megabytes, and a page of more opens in no browser.
 const MOST_BYTES: u64 = 64 << 20;
 /// Arguments of `report`.
 #[derive(Debug, clap::Args)]
@@ -116,7 +116,9 @@ fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
     let mut paths = Vec::new();
     for entry in entries {
         let path = entry.map_err(|e| unreadable(folder, &e))?.path();
-        if path.is_file() && (own.is_none() || path.canonicalize().ok() != own) {
+        // what a program keeps for itself is no result
+        let hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
+        if path.is_file() && !hidden && (own.is_none() || path.canonicalize().ok() != own) {
             paths.push(path);
         }
     }
@@ -135,15 +137,28 @@ pub(in crate::cli::commands) fn read(
     folder: &Path,
     paths: impl IntoIterator<Item = PathBuf>,
 ) -> Result<Vec<ReportFile>, Failure> {
-    let mut out = Vec::new();
+    let (mut out, mut left) = (Vec::new(), MOST_BYTES);
     for path in paths {
-        let bytes = files::read_bytes(&path, MOST_BYTES)?;
+        let bytes = files::read_bytes(&path, left).map_err(|failure| match failure.code.as_str() {
+            "file::too_large" => {
+                let message =
+                    format!("the files of {} have more than {} MiB", folder.display(), MOST_BYTES >> 20);
+                Failure::refused("file::too_large", message).with_help("take large files out of the folder")
+            }
+            _ => failure,
+        })?;
+        left -= bytes.len() as u64;
         let within = path.strip_prefix(folder).unwrap_or(&path);
         let parts: Vec<_> = within.iter().map(|part| part.to_string_lossy().into_owned()).collect();
         let name = parts.join("/");
         out.push(ReportFile { name, bytes });
     }
+    Ok(in_order(out))
+}
+
+/// Those that `explore` names first, then the others by name.
+pub(in crate::cli::commands) fn in_order(mut files: Vec<ReportFile>) -> Vec<ReportFile> {
     let rank = |name: &str| FIRST.iter().position(|known| *known == name).unwrap_or(FIRST.len());
-    out.sort_by(|a, b| (rank(&a.name), &a.name).cmp(&(rank(&b.name), &b.name)));
-    Ok(out)
+    files.sort_by(|a, b| (rank(&a.name), &a.name).cmp(&(rank(&b.name), &b.name)));
+    files
 }

@@ -168,15 +168,3 @@ fn two_outputs_are_two_files() {
     let matches = Cli::command().try_get_matches_from(line).unwrap();
     assert_eq!(check_arguments(&matches, false).unwrap_err().code, "file::written_twice");
 }
-
-#[test]
-fn parts_are_told_from_files_of_the_user() {
-    let part = |name: &str| is_part(OsStr::new(name), "fk.json");
-    assert!(part(".fk.json.123.part"));
-    assert!(
-        !part("fk.json.part")
-            && !part(".fk.json.part")
-            && !part(".fk.json.mine.part")
-            && !part(".a.json.1.part")
-    );
-}

@@ -1,4 +1,4 @@
-//! Tables of numbers as people have them: exports of spreadsheets, of CAD programs and of scripts; and legs in models of machines, of `MuJoCo` and of CAD programs.
+//! Tables of numbers as people have them: exports of spreadsheets, of CAD programs and of scripts; and legs in models of `MuJoCo`.
 //!
 //! Nothing says how such a table is written, so that its form is guessed from its text, and every guess is a sentence that the reader of the answer sees.
 //! What cannot be read is refused; no cell is passed over without a word.
@@ -13,7 +13,6 @@ mod points;
 mod rig_sheet;
 mod series;
 mod sheet;
-mod step;
 mod text;
 
 pub(crate) use drives::{DesignUnits, Drive, DriveTable, InvalidDriveTable};

@@ -46,12 +46,6 @@ pub(super) fn within(outer: &Pose, inner: &Pose) -> Pose {
     Pose { rotation: outer.rotation * inner.rotation, position }
 }
 
-/// The outside seen from `pose`.
-pub(super) fn inverse(pose: &Pose) -> Pose {
-    let rotation = pose.rotation.inverse();
-    Pose { rotation, position: -(rotation * pose.position) }
-}
-
 /// Legs at home.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PlacedLegs {

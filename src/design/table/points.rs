@@ -5,9 +5,9 @@ use thiserror::Error;
 
 use super::hal::{HOME_OF_COMMENT, HexapodPins, home_of};
 use super::header::{UNITS, plain};
+use super::mjcf;
 use super::sheet::{InvalidSheet, Sheet, SheetRow};
 use super::text::decode;
-use super::{mjcf, step};
 use crate::design::{Design, NameCount};
 use crate::geom::Pose;
 use crate::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
@@ -42,9 +42,9 @@ pub(crate) enum InvalidPointTable {
     /// It is a model of `MuJoCo`, or other XML, without six legs in it.
     #[error("{0}")]
     Mjcf(String),
-    /// It is a STEP file without six legs in it.
-    #[error("{0}")]
-    Step(String),
+    /// It is an exchange file of a CAD program (ISO 10303-21), which is not read.
+    #[error("this is a STEP file, and assemblies are not read")]
+    Step,
     /// The points make no manipulator.
     #[error(transparent)]
     Manipulator(#[from] InvalidManipulator),
@@ -54,14 +54,14 @@ impl PointTable {
     /// Reads six rows of two points, base end first, or twelve rows of one point, in whatever notation.
     ///
     /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one point belong to the body that a cell, a title above them
-    /// or their name says, else the first six to the base. Settings of `genhexkins`, models of `MuJoCo` and STEP files are read too.
+    /// or their name says, else the first six to the base. Settings of `genhexkins` and models of `MuJoCo` are read too.
     ///
     /// # Errors
     /// [`InvalidPointTable`].
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, InvalidPointTable> {
         let text = decode(bytes).map(|decoded| decoded.text).unwrap_or_default();
-        if step::is_step(&text) {
-            return step::read(&text).map_err(InvalidPointTable::Step);
+        if text.trim_start().starts_with("ISO-10303-21") {
+            return Err(InvalidPointTable::Step);
         }
         if mjcf::is_xml(&text) {
             return mjcf::read(&text).map_err(InvalidPointTable::Mjcf);
@@ -97,16 +97,6 @@ impl PointTable {
             table.part_frames();
         }
         Ok(table)
-    }
-
-    /// With names of the base and platform ends, where they can stand in a design.
-    pub(super) fn named(mut self, given: &[[String; 6]; 2]) -> Self {
-        let ends = Body::BOTH.map(|body| {
-            let named = given[body.index()].iter().zip(&self.legs);
-            named.map(|(name, leg)| NamedPoint { at: leg.end(body), name: Some(name.clone()) }).collect()
-        });
-        self.names = names(&ends);
-        self
     }
 
     /// When one body is all above the other the table has both in one frame, as a drawing has them: the platform frame is then put at the mean height of the platform joints.

@@ -675,7 +675,7 @@ class Design:
         Parameters
         ----------
         output : path
-            The folder. It is made where it does not exist; the files of an earlier run are replaced.
+            The folder. It is made where it does not exist; the results of an earlier run are replaced, and a file of yours that a result would replace is refused.
         seed : int
         extension : float, optional
             How far a joint may lie out on the extension of its edge, in edge lengths.

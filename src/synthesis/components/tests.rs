@@ -372,7 +372,11 @@ fn dependent_legs_are_said_to_be_dependent() {
     legs[2].platform.x += 1e-15;
     let c = found(&legs);
     assert_eq!((c.leg_rank.value, c.leg_rank.numerical, c.leg_rank.exact), (6, 5, Some(6)));
-    assert!(c.doubts.iter().any(|doubt| doubt.contains("rank 6, of rank 5 within the tolerance")), "{:?}", c.doubts);
+    assert!(
+        c.doubts.iter().any(|doubt| doubt.contains("rank 6, of rank 5 within the tolerance")),
+        "{:?}",
+        c.doubts
+    );
     let kinds: Vec<_> = c.components.iter().map(|x| (x.type_name(), x.exact)).collect();
     assert!(kinds.contains(&("point-plane".to_string(), Some(true))), "{kinds:?}");
 }

@@ -1,13 +1,18 @@
-//! The folder `explore` fills: each file appears whole or not at all.
+//! The folder `explore` fills: each file appears whole or not at all, all of them at the end of the run, and none in the place of a file of the user.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
 
 use crate::cli::commands::optimize::dimensional;
 use crate::cli::commands::report;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::entrance::freedoms::ConflictFreedom;
+use crate::entrance::whole::{WholeFile, part_of};
 use crate::export::ExportedFile;
+use crate::records::sha256;
 use crate::report::ReportFile;
 
 /// Files of a finished run, in the order they appear.
@@ -84,11 +89,32 @@ pub(in crate::cli::commands) const FIRST: [&str; 19] = [
     MODES,
 ];
 
-/// The folder and what has been written into it.
+/// What `explore` wrote into a folder, by which it knows its own files again.
+const MANIFEST: &str = ".explore.json";
+
+/// Bytes of a result at most: a larger file is not one of ours.
+const MAX_RESULT: u64 = 64 << 20;
+
+/// A file of an earlier run: its name in the folder and the hash of its bytes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+struct KnownFile {
+    name: String,
+    sha256: String,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct Manifest {
+    written_by: String,
+    files: Vec<KnownFile>,
+}
+
+/// A folder of results: they are kept here until the run has ended, and then replace those of an earlier run.
 #[derive(Debug)]
 pub(super) struct Folder {
     path: PathBuf,
-    written: Vec<String>,
+    /// What an earlier run has left.
+    earlier: Vec<KnownFile>,
+    results: Vec<(String, String)>,
 }
 
 fn not_writable(path: &Path, error: &std::io::Error) -> Failure {
@@ -97,70 +123,126 @@ fn not_writable(path: &Path, error: &std::io::Error) -> Failure {
 }
 
 impl Folder {
-    /// Makes the folder and removes the files of an earlier run, so that an interrupted run leaves no mixture.
+    /// Makes the folder, and refuses one in which results would stand in the place of files of the user: such as `explore` didn't write, or as were
+    /// changed since. Nothing else in the folder is looked at or touched.
     ///
     /// # Errors
-    /// Exit 2: the folder cannot be made, or an input of the run is one of the files to be written.
+    /// Exit 2: the folder cannot be made or written, `explore::not_ours`, or an input of the run is one of the files to be written.
     pub(super) fn prepare(path: &Path) -> Result<Self, Failure> {
         files::make_folder(path)?;
-        let entries = std::fs::read_dir(path).map_err(|e| not_writable(path, &e))?;
-        let left = entries.filter_map(|entry| Some(entry.ok()?.path()));
-        let left = left.filter(|file| {
-            let name = file.file_name().unwrap_or_default();
-            let opened = ConflictFreedom::ALL.map(dimensional::opened_file);
-            let own = ALL.iter().copied().chain(opened.iter().map(String::as_str));
-            own.into_iter().any(|own| name == own || files::is_part(name, own))
-        });
-        let left: Vec<PathBuf> = left.collect();
-        left.iter().try_for_each(|file| files::check_input(file))?; // before anything is removed
-        for file in left {
-            std::fs::remove_file(&file).map_err(|e| not_writable(&file, &e))?;
+        let manifest: Option<Manifest> = files::found_in_folder(&path.join(MANIFEST), MAX_RESULT)
+            .and_then(|bytes| serde_json::from_slice(&bytes).ok());
+        let folder = Self {
+            path: path.to_path_buf(),
+            earlier: manifest.unwrap_or_default().files,
+            results: Vec::new(),
+        };
+        let opened = ConflictFreedom::ALL.map(dimensional::opened_file);
+        let own = ALL.iter().copied().chain(opened.iter().map(String::as_str));
+        let mut names: Vec<String> = own.map(str::to_owned).collect();
+        if let Ok(entries) = std::fs::read_dir(path.join(MACHINE)) {
+            let inside = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+            names.extend(inside.map(|name| format!("{MACHINE}/{name}")));
         }
-        Ok(Self { path: path.to_path_buf(), written: Vec::new() })
+        names.iter().try_for_each(|name| folder.refuse_foreign(name))?;
+        // now, and not after minutes, it shows whether the folder can be written
+        folder.write_manifest(folder.earlier.clone())?;
+        Ok(folder)
     }
 
-    /// Writes a file of the folder.
+    /// Refuses a file that is there and is not as an earlier run wrote it.
+    fn refuse_foreign(&self, name: &str) -> Result<(), Failure> {
+        let path = self.path.join(name);
+        files::check_input(&path)?;
+        let known = || self.earlier.iter().any(|file| file.name == name);
+        if path.symlink_metadata().is_err() || (path.is_dir() && !known()) {
+            return Ok(());
+        }
+        let is_ours = files::found_in_folder(&path, MAX_RESULT).is_some_and(|bytes| {
+            let found = KnownFile { name: name.to_owned(), sha256: sha256(&bytes) };
+            self.earlier.contains(&found)
+        });
+        if is_ours {
+            return Ok(());
+        }
+        let why =
+            if known() { "was changed since `explore` wrote it" } else { "is not a result of `explore`" };
+        let message = format!("{} {why}, and a result would replace it", path.display());
+        Err(Failure::refused("explore::not_ours", message)
+            .with_help("move that file, or name another folder"))
+    }
+
+    fn write_manifest(&self, files: Vec<KnownFile>) -> Result<(), Failure> {
+        let manifest = Manifest { written_by: format!("equipod {}", env!("CARGO_PKG_VERSION")), files };
+        let text =
+            serde_json::to_string_pretty(&manifest).map_err(|e| Failure::internal(e.to_string()))? + "\n";
+        let path = self.path.join(MANIFEST);
+        WholeFile::write(&path, text.as_bytes())
+            .map_err(|e| files::not_written(&path.display().to_string(), &e))
+    }
+
+    /// Keeps a result, and gives the path that it will have.
+    pub(super) fn keep(&mut self, name: &str, text: String) -> String {
+        self.results.push((name.to_owned(), text));
+        self.path.join(name).display().to_string()
+    }
+
+    /// Keeps files for other programs, in a folder of their own.
+    pub(super) fn keep_machine(&mut self, list: Vec<ExportedFile>) {
+        for file in list {
+            self.keep(&format!("{MACHINE}/{}", file.name), file.text);
+        }
+    }
+
+    /// Puts the results in the place of those of the earlier run. Each file is whole at any time, and the manifest knows the old ones and the new ones until all are there.
     ///
     /// # Errors
-    /// As [`files::write_into`].
-    pub(super) fn write(&mut self, name: &str, text: &str) -> Result<(), Failure> {
-        files::write_into(&self.path, name, text)?;
-        self.written.push(name.to_owned());
-        Ok(())
+    /// As [`files::write_into`]; `explore::not_ours` for a file that has come since the run began.
+    pub(super) fn finish(&self) -> Result<(), Failure> {
+        let named = |(name, text): &(String, String)| KnownFile {
+            name: name.clone(),
+            sha256: sha256(text.as_bytes()),
+        };
+        let new: Vec<KnownFile> = self.results.iter().map(named).collect();
+        self.results.iter().try_for_each(|(name, _)| self.refuse_foreign(name))?;
+        self.write_manifest([&self.earlier[..], &new].concat())?;
+        for (name, text) in &self.results {
+            files::write_into(&self.path, name, text)?;
+        }
+        let stale = self.earlier.iter().filter(|old| !new.iter().any(|file| file.name == old.name));
+        for old in stale.filter(|old| self.refuse_foreign(&old.name).is_ok()) {
+            let path = self.path.join(&old.name);
+            match std::fs::remove_file(&path) {
+                Err(error) if error.kind() != ErrorKind::NotFound => return Err(not_writable(&path, &error)),
+                _ => {}
+            }
+        }
+        // what runs that were killed have left
+        let parts = std::fs::read_dir(&self.path).into_iter().flatten().flatten();
+        for part in parts.filter(|entry| part_of(&entry.file_name()).is_some_and(|of| ALL.contains(&of))) {
+            let _ = std::fs::remove_file(part.path()); // it is in nobody's way
+        }
+        self.write_manifest(new)
     }
 
-    /// The folder.
-    pub(super) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Counts a file as written that somebody else has written into the folder.
-    pub(super) fn note(&mut self, name: String) {
-        self.written.push(name);
-    }
-
-    /// Writes files for other programs into a folder of their own.
-    ///
-    /// # Errors
-    /// As [`files::write_into`].
-    pub(super) fn write_machine(&mut self, list: &[ExportedFile]) -> Result<(), Failure> {
-        list.iter().try_for_each(|file| self.write(&format!("{MACHINE}/{}", file.name), &file.text))
-    }
-
-    /// What has been written, for the page: other files in the folder are none of its business.
-    ///
-    /// # Errors
-    /// Exit 2: a file cannot be read again.
-    pub(super) fn results(&self) -> Result<Vec<ReportFile>, Failure> {
+    /// The results for the page: other files in the folder are none of its business.
+    pub(super) fn results(&self) -> Vec<ReportFile> {
         let picture = |name: &str| {
             Path::new(name).extension().is_some_and(|end| end == "svg") || name.ends_with("/parts.csv")
         };
-        let shown = |name: &&String| *name != DRIVES && (!name.starts_with(MACHINE) || picture(name));
-        report::read(&self.path, self.written.iter().filter(shown).map(|name| self.path.join(name)))
+        let shown = self
+            .results
+            .iter()
+            .filter(|(name, _)| name != DRIVES && (!name.starts_with(MACHINE) || picture(name)));
+        let file = |(name, text): &(String, String)| ReportFile {
+            name: name.clone(),
+            bytes: text.clone().into_bytes(),
+        };
+        report::in_order(shown.map(file).collect())
     }
 
-    /// What has been written, in order.
-    pub(super) fn written(&self) -> impl Iterator<Item = String> {
-        self.written.iter().map(|name| self.path.join(name).display().to_string())
+    /// The paths of the results, in order.
+    pub(super) fn paths(&self) -> impl Iterator<Item = String> {
+        self.results.iter().map(|(name, _)| self.path.join(name).display().to_string())
     }
 }

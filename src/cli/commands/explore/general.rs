@@ -51,7 +51,7 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
         seed,
         stages: Vec::new(),
     };
-    run.folder.write(folder::ORIGINAL, &original(design, seed).to_toml())?;
+    run.folder.keep(folder::ORIGINAL, original(design, seed).to_toml());
 
     progress.stage(1, "replaceable legs");
     let families = replaceable(&mut run)?;
@@ -69,8 +69,8 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
     progress.stage(6, "forward kinematics");
     let poses = solve(design, &options)?;
     let document_of_poses = document(fk_record(&poses), run.provenance.clone(), &[])?;
-    run.folder.write(folder::FK, &document_of_poses)?;
-    run.folder.write(folder::MODES, &super::figures::modes(design, &poses))?;
+    run.folder.keep(folder::FK, document_of_poses);
+    run.folder.keep(folder::MODES, super::figures::modes(design, &poses));
     let totals = PoseTotalsRecord::new(poses.from, &poses.solutions);
     run.done(
         StageWord::Fk,
@@ -105,10 +105,11 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
         args.samples,
         extension
     );
-    folder.write(folder::REPORT, &markdown(&answer, design, &repeat))?;
-    let files = folder.results()?;
-    folder.write(folder::PAGE, &page(files, None))?;
-    answer.paths = folder.written().collect();
+    folder.keep(folder::REPORT, markdown(&answer, design, &repeat));
+    let files = folder.results();
+    folder.keep(folder::PAGE, page(files, None));
+    folder.finish()?;
+    answer.paths = folder.paths().collect();
     let text = text(&answer.name, answer.verdict, &answer.explanation, &answer.paths, None);
     Ok(Answer::new(exit, ExploreAnswer::General(Box::new(answer)), text))
 }
@@ -121,7 +122,7 @@ fn replaceable(run: &mut Run<'_>) -> Result<Components, Failure> {
     let list =
         found.components.iter().enumerate().map(|(k, family)| ComponentRecord::new(k, family, &[])).collect();
     let answer = ComponentsAnswer::new(&run.design.name, options.tolerance, &found, list);
-    run.folder.write(folder::COMPONENTS, &document(answer, run.provenance.clone(), &[])?)?;
+    run.folder.keep(folder::COMPONENTS, document(answer, run.provenance.clone(), &[])?);
     let count = found.components.len();
     let all = if found.doubts.is_empty() { "there are no others" } else { "there may be others" };
     let text = match count {
@@ -173,10 +174,10 @@ fn moves(run: &mut Run<'_>, families: &Components) -> Result<Option<Moves>, Fail
     let fits =
         |k: &usize| candidates[*k].fulfilled && !found.moved[*k].is_empty() && found.designs[*k].is_some();
     let chosen = (0..candidates.len()).find(fits);
-    run.folder.write(folder::MOVES, &document(found.record.clone(), run.provenance.clone(), &[])?)?;
+    run.folder.keep(folder::MOVES, document(found.record.clone(), run.provenance.clone(), &[])?);
     let moves = Moves { found, chosen };
     if let Some(design) = moves.design() {
-        run.folder.write(folder::EQUIVALENT, &design.to_toml())?;
+        run.folder.keep(folder::EQUIVALENT, design.to_toml());
     }
     let explanation = match &moves.record().moved_legs {
         Some(legs) => {
@@ -199,10 +200,10 @@ fn nearest_platform(
     let answer = NearestAnswer::new(run.design, &options, near.as_ref());
     let error = answer.nearest.as_ref().map(NearestErrorRecord::from);
     run.done(StageWord::Nearest, answer.explanation.clone());
-    run.folder.write(folder::NEAREST, &document(answer, run.provenance.clone(), &[])?)?;
+    run.folder.keep(folder::NEAREST, document(answer, run.provenance.clone(), &[])?);
     let Some(found) = near.zip(error) else { return Ok(None) };
-    run.folder.write(folder::NEAREST_OCTAHEDRAL, &found.0.octahedral.to_toml())?;
-    run.folder.write(folder::BESIDE, &found.0.beside.to_toml())?;
+    run.folder.keep(folder::NEAREST_OCTAHEDRAL, found.0.octahedral.to_toml());
+    run.folder.keep(folder::BESIDE, found.0.beside.to_toml());
     Ok(Some(found))
 }
 
@@ -216,7 +217,7 @@ fn requirements(run: &mut Run<'_>, near: Option<&NearestDesigns>) -> Result<Opti
     let answer = answer.with_role(DesignRoleWord::NearestEquivalent);
     let met = answer.met;
     let text = format!("the equivalent of the nearest octahedral platform {}", answer.explanation);
-    run.folder.write(folder::ASSESS, &document(answer, run.provenance.clone(), &[])?)?;
+    run.folder.keep(folder::ASSESS, document(answer, run.provenance.clone(), &[])?);
     run.done(StageWord::Assess, text);
     Ok(met)
 }

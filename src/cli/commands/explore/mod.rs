@@ -51,7 +51,7 @@ use crate::synthesis::{Family, FamilyMember};
 pub(crate) struct Args {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Folder for the results; it is made where it does not exist, and the files of an earlier run are replaced
+    /// Folder for the results; it is made where it does not exist, the results of an earlier run are replaced, and a file of yours that a result would replace is refused
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
     /// Number of sets of leg lengths at which two designs are solved and compared: an octahedral design with the optimised one, another with the equivalent found, or its nearest octahedral platform with that one's equivalent
@@ -264,7 +264,7 @@ fn machine(design: &Design, folder: &mut Folder) -> Result<Machine, Failure> {
     let mut refused = Vec::new();
     for format in ExportFormat::ALL {
         match format.writer().files(&export) {
-            Ok(list) => folder.write_machine(&list)?,
+            Ok(list) => folder.keep_machine(list),
             Err(why) => refused.push((format.name(), why.to_string())),
         }
     }
@@ -322,14 +322,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let provenance = context.provenance();
     let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
     let copy = with_table_beside(&design, args, &mut folder, seed)?;
-    folder.write(folder::ORIGINAL, &copy.to_toml())?;
+    folder.keep(folder::ORIGINAL, copy.to_toml());
 
     progress.stage(1, "equivalence class");
     let family = Family::octahedral();
     let members: Vec<&FamilyMember> = family.members().iter().collect();
-    folder.write(
+    folder.keep(
         folder::FAMILY,
-        &document(
+        document(
             FamilyAnswer::new(
                 &design.name,
                 &Original::octahedral(&design, octahedral.clone()),
@@ -339,7 +339,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             provenance.clone(),
             &[],
         )?,
-    )?;
+    );
 
     progress.stage(2, "the best platform");
     let interrupt = Interrupt::watch_for(args.time_limit);
@@ -359,13 +359,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     found.open_freedoms(&asked, &mut progress, &mut folder)?;
     found.write(&held, provenance.clone(), &mut folder)?;
     if let Some(new) = found.optimised() {
-        folder.write(folder::OPTIMISED, &new.to_toml())?;
+        folder.keep(folder::OPTIMISED, new.to_toml());
     }
     if let (None, Some(closest)) = (found.optimised(), found.closest()) {
-        folder.write(folder::CLOSEST, &closest.to_toml())?;
+        folder.keep(folder::CLOSEST, closest.to_toml());
     }
     if let Some(picture) = figures::determinant(&design, &octahedral, &found) {
-        folder.write(folder::DETERMINANT, &picture)?;
+        folder.keep(folder::DETERMINANT, picture);
     }
 
     progress.stage(3, "verification");
@@ -377,8 +377,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 
     progress.stage(4, "forward kinematics");
     let poses = solve(&design, &options)?;
-    folder.write(folder::FK, &document(fk_record(&poses), provenance, &[])?)?;
-    folder.write(folder::MODES, &figures::modes(&design, &poses))?;
+    folder.keep(folder::FK, document(fk_record(&poses), provenance, &[])?);
+    folder.keep(folder::MODES, figures::modes(&design, &poses));
 
     let mut assessment = found.assessment();
     let mut built = None;
@@ -388,12 +388,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             .zip(on.assessed.as_ref())
             .map(|(d, a)| AssessAnswer::new(d, a).with_role(DesignRoleWord::OnHoles));
         let answer = round_record(on, assessment.clone());
-        folder.write(folder::ROUND, &document(answer, context.provenance(), &[])?)?;
+        folder.keep(folder::ROUND, document(answer, context.provenance(), &[])?);
         if let Some(new) = new {
-            folder.write(folder::ROUNDED, &new.to_toml())?;
+            folder.keep(folder::ROUNDED, new.to_toml());
             if let Some(found) = &assessment {
                 let text = document(found.clone(), context.provenance(), &[])?;
-                folder.write(folder::ROUNDED_ASSESS, &text)?;
+                folder.keep(folder::ROUNDED_ASSESS, text);
             }
             built = Some(machine(new, &mut folder)?);
         }
@@ -416,9 +416,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         extension,
     };
     let short = headline(&record(&results, &folder));
-    folder.write(folder::REPORT, &report::markdown(&results, &short))?;
-    let files = folder.results()?;
-    folder.write(folder::PAGE, &page(files, None))?;
+    folder.keep(folder::REPORT, report::markdown(&results, &short));
+    let files = folder.results();
+    folder.keep(folder::PAGE, page(files, None));
+    folder.finish()?;
     let record = record(&results, &folder);
     let lead = results.built().zip(record.assessment.as_ref());
     let lead = lead.map(|(design, a)| requirements::lead(&design.name, Some(a)));
@@ -545,7 +546,7 @@ fn with_table_beside(
     let mut copy = original(design, seed);
     if let Some(name) = &design.drive_table {
         let path = args.design.parent().unwrap_or(Path::new("")).join(name);
-        folder.write(folder::DRIVES, &files::read_text(&path)?)?;
+        folder.keep(folder::DRIVES, files::read_text(&path)?);
         copy.drive_table = Some(folder::DRIVES.to_owned());
     }
     Ok(copy)
@@ -575,7 +576,7 @@ fn verification(
         .map_err(|e| verify_command::failure_of(&e))?;
     let record = VerifyAnswer::new(&found, &plan, FramesRecord::default());
     let explanation = record.explanation.clone();
-    folder.write(folder::VERIFY, &document(record, provenance.clone(), &[])?)?;
+    folder.keep(folder::VERIFY, document(record, provenance.clone(), &[])?);
     Ok(Verified { found, plan, explanation })
 }
 
@@ -611,7 +612,7 @@ fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
         explanation: r.explanation(),
         assessment: r.assessment.clone(),
         name: r.design.name.clone(),
-        paths: folder.written().collect(),
+        paths: folder.paths().collect(),
         family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
         optimize: r.search.key_figures(&r.held),
         price: r.price(),

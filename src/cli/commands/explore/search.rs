@@ -114,14 +114,11 @@ impl Search {
         let Self::Dimensions(done) = self else { return Ok(()) };
         let Asked { design, extension, interrupt, .. } = *asked;
         let options = options(asked.context.seed());
-        let path = folder.path().to_path_buf();
-        dimensional::open_freedoms(done, design, extension, options, Some(&path), &mut |_, p| {
+        let mut keep = |name: &str, design: &Design| Ok(Some(folder.keep(name, design.to_toml())));
+        dimensional::open_freedoms(done, design, extension, options, &mut keep, &mut |_, p| {
             part(progress, &p);
             interrupt.flow()
-        })?;
-        let opened = done.freedoms(design).into_iter().flatten();
-        opened.filter(|f| f.output.is_some()).for_each(|f| folder.note(dimensional::opened_file(f.freedom)));
-        Ok(())
+        })
     }
 
     /// Whether the answer has a symmetry that the design has and does not ask for.
@@ -287,6 +284,7 @@ impl Search {
         folder: &mut Folder,
     ) -> Result<(), Failure> {
         let text = document(self.answer(design), provenance, &[])?;
-        folder.write(super::folder::OPTIMIZE, &text)
+        folder.keep(super::folder::OPTIMIZE, text);
+        Ok(())
     }
 }

@@ -48,7 +48,7 @@ pub(crate) struct Args {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "points"]
     )]
     corners: Option<Vec<String>>,
-    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any usual notation, the pins of `genhexkins`, a model of `MuJoCo` or a STEP file
+    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any usual notation, the pins of `genhexkins`, or a model of `MuJoCo`
     #[arg(
         long,
         value_name = "FILE",
@@ -165,7 +165,7 @@ fn from_sheet(args: &Args) -> Result<Made, Failure> {
         return Err(Failure::refused("new::no_dialect", message).with_help(help));
     };
     let shown = files::shown(path);
-    let toml = RigSheet::read(&files::read_points(path)?, dialect)
+    let toml = RigSheet::read(&files::read_table(path)?, dialect)
         .and_then(|sheet| sheet.to_toml(&args.name, args.units.as_deref().unwrap_or(UNIT)))
         .map_err(|why| Failure::refused("new::bad_sheet", format!("{shown}: {why}")).with_help(why.help()))?;
     read_back(toml)
@@ -205,9 +205,9 @@ fn bad_points(shown: &str, why: &InvalidPointTable) -> Failure {
             "new::bad_mjcf",
             "legs are slide joints between a joint of the base and one of the platform, or spatial tendons from a site of the base to one of the platform",
         ),
-        InvalidPointTable::Step(_) => (
+        InvalidPointTable::Step => (
             "new::bad_step",
-            "a leg is a cylinder on the line between the centres of two balls: export the assembly with exact solids and with its ball joints, or list the centres in a table",
+            "measure the twelve joint centres in the CAD program and write them as a table: a row for each leg, x, y, z of its base end and of its platform end",
         ),
         _ => (
             "new::bad_table",
@@ -219,7 +219,7 @@ fn bad_points(shown: &str, why: &InvalidPointTable) -> Failure {
 
 fn from_table(args: &Args, path: &std::path::Path, context: &Context) -> Result<Made, Failure> {
     let shown = files::shown(path);
-    let mut table = PointTable::read(&files::read_points(path)?).map_err(|why| bad_points(&shown, &why))?;
+    let mut table = PointTable::read(&files::read_table(path)?).map_err(|why| bad_points(&shown, &why))?;
     if let (Some(asked), Some(said)) = (&args.units, &table.units)
         && asked != said
     {

@@ -180,7 +180,7 @@ pub(in crate::cli::commands) fn open_freedoms(
     design: &Design,
     extension: f64,
     options: ShapeSearchOptions,
-    folder: Option<&Path>,
+    keep: KeepOpened<'_>,
     progress: &mut dyn FnMut(ConflictFreedom, Progress) -> ControlFlow<()>,
 ) -> Result<(), Failure> {
     if done.checked.is_some() || done.status() == OptimizeWord::Interrupted {
@@ -189,7 +189,7 @@ pub(in crate::cli::commands) fn open_freedoms(
     let design = done.asked(design);
     let search = FreedomSearch { design, extension, report: &done.report, options, progress };
     let opened = search.run().map_err(|e| failure_of(&e))?;
-    done.freedoms = Some(write_opened(opened, folder)?);
+    done.freedoms = Some(keep_opened(opened, keep)?);
     Ok(())
 }
 
@@ -223,24 +223,24 @@ pub(in crate::cli::commands) fn opened_file(freedom: ConflictFreedom) -> String 
     format!("with-{}.toml", freedom.name())
 }
 
-/// Writes the platforms that other freedoms led to into a folder, where one is given; each with its path.
-fn write_opened(
+/// Keeps a design under the name of a file, and gives its path where it does.
+pub(in crate::cli::commands) type KeepOpened<'a> =
+    &'a mut dyn FnMut(&str, &Design) -> Result<Option<String>, Failure>;
+
+/// Keeps the platforms that other freedoms led to, each with its path.
+fn keep_opened(
     opened: Vec<OpenedFreedom>,
-    folder: Option<&Path>,
+    keep: KeepOpened<'_>,
 ) -> Result<Vec<(OpenedFreedom, Option<String>)>, Failure> {
-    let write = |f: OpenedFreedom| -> Result<(OpenedFreedom, Option<String>), Failure> {
+    let kept = |f: OpenedFreedom| -> Result<(OpenedFreedom, Option<String>), Failure> {
         let found = match &f.outcome {
             FreedomOutcome::Resolved(c) | FreedomOutcome::Undecided(c) => Some(&c.design),
             FreedomOutcome::Unresolved | FreedomOutcome::NotTried => None,
         };
-        let (Some(folder), Some(design)) = (folder, found) else { return Ok((f, None)) };
-        files::make_folder(folder)?;
-        let path = folder.join(opened_file(f.freedom));
-        files::write_design(&path, design)?;
-        let shown = path.display().to_string();
-        Ok((f, Some(shown)))
+        let path = found.map(|design| keep(&opened_file(f.freedom), design)).transpose()?.flatten();
+        Ok((f, path))
     };
-    opened.into_iter().map(write).collect()
+    opened.into_iter().map(kept).collect()
 }
 
 /// The search with the options of the command.
@@ -254,8 +254,14 @@ pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Res
         progress.note(&format!("{with}{p}"));
         interrupt.flow()
     })?;
-    let folder = args.candidates.as_deref();
-    open_freedoms(&mut done, design, args.extension, options, folder, &mut |freedom, p| {
+    let mut write = |name: &str, design: &Design| -> Result<Option<String>, Failure> {
+        let Some(folder) = args.candidates.as_deref() else { return Ok(None) };
+        files::make_folder(folder)?;
+        let path = folder.join(name);
+        files::write_design(&path, design)?;
+        Ok(Some(path.display().to_string()))
+    };
+    open_freedoms(&mut done, design, args.extension, options, &mut write, &mut |freedom, p| {
         progress.note(&format!("with {} open: {p}", freedom.name()));
         interrupt.flow()
     })?;

@@ -29,6 +29,7 @@ pub(super) fn is_xml(text: &str) -> bool {
 /// # Errors
 /// A sentence: broken XML, another kind of XML, elements that are not read, no six legs.
 pub(super) fn read(text: &str) -> Result<PointTable, String> {
+    few_attributes(text)?;
     let document = Document::parse(text).map_err(|why| format!("the XML is broken: {why}"))?;
     let root = document.root_element();
     if root.tag_name().name() != "mujoco" {
@@ -59,6 +60,42 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
     guesses.extend(model.guesses);
     let placed = PlacedLegs { ends: found.ends, home, tolerance: SAME_POINT };
     placed.table(&unit, guesses).ok_or_else(|| "the coordinates of the joints overflow".to_string())
+}
+
+/// Attributes of an element: whether two have one name is looked up in a time that grows with the square of their number.
+const MAX_ATTRIBUTES: usize = 200;
+
+/// Refuses an element with too many attributes before the text is parsed.
+fn few_attributes(text: &str) -> Result<(), String> {
+    let mut rest = text;
+    while let Some(begin) = rest.find('<') {
+        rest = &rest[begin..];
+        let other = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
+        if let Some((_, end)) = other.iter().find(|(begin, _)| rest.starts_with(begin)) {
+            rest = rest.find(end).map_or("", |at| &rest[at + end.len()..]);
+            continue;
+        }
+        let (mut values, mut quote, mut length) = (0, None, rest.len());
+        for (at, c) in rest.char_indices() {
+            match (c, quote) {
+                ('"' | '\'', None) => (values, quote) = (values + 1, Some(c)),
+                ('>', None) => {
+                    length = at;
+                    break;
+                }
+                (_, Some(open)) if c == open => quote = None,
+                _ => {}
+            }
+        }
+        if values > MAX_ATTRIBUTES {
+            let line = 1 + text[..text.len() - rest.len()].matches('\n').count();
+            return Err(format!(
+                "line {line}: an element has {values} attributes, more than {MAX_ATTRIBUTES}"
+            ));
+        }
+        rest = &rest[length..];
+    }
+    Ok(())
 }
 
 /// Refuses elements too deep in each other: what reads them goes down with them.

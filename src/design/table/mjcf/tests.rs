@@ -258,3 +258,19 @@ fn what_is_no_hexapod_is_told() {
     );
     assert!(refusal(&cranks).contains("2 of its hinges are driven"), "{}", refusal(&cranks));
 }
+
+/// An element with very many attributes is refused before it costs anything; apostrophes of comments are no quotes.
+#[test]
+fn too_many_attributes_are_refused_with_their_line() {
+    let many: String = (0..200_000).fold(String::new(), |mut out, k| {
+        let _ = write!(out, " a{k}=\"x\"");
+        out
+    });
+    for before in ["<mujoco>", "<!-- it isn't -->\n<?xml-model it's?>\n<mujoco><![CDATA[it's >]]>"] {
+        let said = refusal(&format!("{before}\n<body{many}/></mujoco>"));
+        let line = before.matches('\n').count() + 2;
+        assert!(said.starts_with(&format!("line {line}: an element has 200000 attributes")), "{said}");
+    }
+    let few = "<mujoco><!-- it isn't --><body a='>' b=\"it's\"/></mujoco>";
+    assert!(!refusal(few).contains("attributes"), "{}", refusal(few));
+}
