@@ -57,12 +57,6 @@ fn returns(design: &Design, format: &str) {
         Body::BOTH.map(|b| pairs.map(|leg| pairs.iter().position(|other| b.of(*other) == b.of(leg))))
     };
     assert_eq!(shared(read.manipulator()), shared(m), "{}: {format}", design.name);
-    if format == "step" {
-        let names = |d: &Design| {
-            d.manipulator().pairs().map(|(a, b)| (d.base_names()[a].clone(), d.platform_names()[b].clone()))
-        };
-        assert_eq!(names(&read), names(design));
-    }
 }
 
 #[test]
@@ -85,31 +79,20 @@ fn tables_of_legs_return() {
 }
 
 #[test]
-fn step_files_return_with_the_names_of_their_joints() {
-    for text in [SYMMETRIC, OCTAHEDRAL, MIDLINE, RUBIN, MOTION_BASE] {
-        returns(&design(text), "step");
-    }
-}
-
-#[test]
 fn inches_return_as_inches() {
     for text in [SYMMETRIC, MOTION_BASE] {
-        let inches = design(text).in_units("in").unwrap();
-        returns(&inches, "mjcf");
-        returns(&inches, "step");
+        returns(&design(text).in_units("in").unwrap(), "mjcf");
     }
 }
 
 #[test]
 fn joints_at_decimals_are_at_these_decimals_again() {
-    for format in ["mjcf", "step"] {
-        let meant = design(SYMMETRIC);
-        let table = PointTable::read(exported(&meant, format).0.as_bytes()).unwrap();
-        let first = table.legs[0].base.coords.map(f64::to_bits);
-        assert_eq!(first, nalgebra::Vector3::new(293.444, -62.374, 0.0).map(f64::to_bits), "{format}");
-        let heights: Vec<f64> = table.legs.iter().map(|l| l.platform.z).collect();
-        assert!(heights.iter().all(|z| z.to_bits() == 0.0_f64.to_bits()), "{format}: {heights:?}");
-    }
+    let meant = design(SYMMETRIC);
+    let table = PointTable::read(exported(&meant, "mjcf").0.as_bytes()).unwrap();
+    let first = table.legs[0].base.coords.map(f64::to_bits);
+    assert_eq!(first, nalgebra::Vector3::new(293.444, -62.374, 0.0).map(f64::to_bits));
+    let heights: Vec<f64> = table.legs.iter().map(|l| l.platform.z).collect();
+    assert!(heights.iter().all(|z| z.to_bits() == 0.0_f64.to_bits()), "{heights:?}");
 }
 
 #[test]
@@ -141,15 +124,13 @@ proptest! {
         how in 0..3_usize,
         instead in "[<>()#'\"/*;,=.$0-9A-Za-z \n-]{0,12}",
     ) {
-        for format in ["mjcf", "step"] {
-            let (text, _) = exported(&design(OCTAHEDRAL), format);
-            let _ = PointTable::read(damaged(&text, at, length, how, &instead).as_bytes());
-        }
+        let (text, _) = exported(&design(OCTAHEDRAL), "mjcf");
+        let _ = PointTable::read(damaged(&text, at, length, how, &instead).as_bytes());
     }
 
     #[test]
     fn no_text_stops_the_reader(text in ".{0,200}", marks in "[<>()#'\"/*;,=.$0-9A-Z \n-]{0,200}") {
-        for begin in ["", "<", "<mujoco>", "<mujoco><worldbody>", "ISO-10303-21;", "ISO-10303-21;DATA;", "ISO-10303-21;DATA;#1="] {
+        for begin in ["", "<", "<mujoco>", "<mujoco><worldbody>", "ISO-10303-21;"] {
             for rest in [&text, &marks] {
                 let _ = PointTable::read(format!("{begin}{rest}").as_bytes());
             }
