@@ -11,6 +11,8 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
 use clap::ArgMatches;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -279,7 +281,7 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
 /// Opens a file that a folder of results should hold: a pipe in its place would be waited for without end.
 ///
 /// # Errors
-/// What the system says; `InvalidInput` for a pipe or device.
+/// The error of the system; `InvalidInput` for a pipe or device.
 pub(crate) fn open_regular(path: &Path) -> std::io::Result<File> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(std::io::Error::new(ErrorKind::InvalidInput, "it is no file"));
@@ -287,11 +289,28 @@ pub(crate) fn open_regular(path: &Path) -> std::io::Result<File> {
     File::open(path)
 }
 
-/// The bytes of a file that a folder of results should hold; `None` where there is none of at most `most` bytes.
-pub(crate) fn found_in_folder(path: &Path, most: u64) -> Option<Vec<u8>> {
+/// Bytes of a file in a folder of results at most: the plan of a sweep, with its table of poses, is the largest.
+const MAX_FOUND_BYTES: u64 = 64 << 20;
+
+/// The bytes of a file that a folder of results should hold; `None` where there is none, or a larger one than this program writes.
+pub(crate) fn found_in_folder(path: &Path) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
-    open_regular(path).ok()?.take(most + 1).read_to_end(&mut bytes).ok()?;
-    (bytes.len() as u64 <= most).then_some(bytes)
+    open_regular(path).ok()?.take(MAX_FOUND_BYTES + 1).read_to_end(&mut bytes).ok()?;
+    (bytes.len() as u64 <= MAX_FOUND_BYTES).then_some(bytes)
+}
+
+/// A record in a folder of results; `None` where there is none, or another file.
+pub(crate) fn found_record<T: DeserializeOwned>(path: &Path) -> Option<T> {
+    serde_json::from_slice(&found_in_folder(path)?).ok()
+}
+
+/// A record for a folder of results, as its file has it.
+///
+/// # Errors
+/// Exit 4: it cannot be written as JSON.
+pub(crate) fn record_text(record: &impl Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(record).map_err(|e| Failure::internal(e.to_string()))?;
+    Ok(text + "\n")
 }
 
 /// The bytes of a file of at most `most` bytes.

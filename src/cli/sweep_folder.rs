@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 
 use super::context::{Context, format_of};
 use super::exit::Exit;
@@ -59,19 +58,6 @@ pub(crate) enum PartLook {
     Size,
 }
 
-fn json(value: &impl Serialize) -> Result<String, Failure> {
-    let text = serde_json::to_string_pretty(value).map_err(|e| Failure::internal(e.to_string()))?;
-    Ok(text + "\n")
-}
-
-/// Bytes of a record of the folder at most: the plan of a sweep is its largest, with the table of poses in it.
-const MAX_RECORD: u64 = 64 << 20;
-
-/// Reads a small JSON file; `None` where there is none, or another one.
-fn read_json<T: DeserializeOwned>(path: &Path) -> Option<T> {
-    serde_json::from_slice(&files::found_in_folder(path, MAX_RECORD)?).ok()
-}
-
 fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure + '_ {
     move |error| match error.kind() {
         // what a limit on the size of files says is no fault of the arguments either
@@ -105,13 +91,9 @@ pub(crate) fn write_whole<T>(
     Ok(Some(value))
 }
 
-/// Writes a text whole.
-fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
-    write_whole(path, |mut to| {
-        to.write_all(text.as_bytes()).map_err(failed(path))?;
-        Ok(Some((to, ())))
-    })
-    .map(|_| ())
+/// Writes a record whole.
+fn write_record(path: &Path, record: &impl Serialize) -> Result<(), Failure> {
+    WholeFile::write(path, files::record_text(record)?.as_bytes()).map_err(failed(path))
 }
 
 impl SweepFolder {
@@ -144,7 +126,7 @@ impl SweepFolder {
             return there.goes_on(&record);
         }
         // of two that begin at the same time both write the same
-        write_text(&path.join(SWEEP), &json(&record)?)?;
+        write_record(&path.join(SWEEP), &record)?;
         Ok(Self { path: path.to_path_buf(), record })
     }
 
@@ -169,7 +151,7 @@ impl SweepFolder {
     /// The sweep in a folder.
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
         let file = path.join(SWEEP);
-        let Some(record) = read_json::<SweepFolderRecord>(&file) else {
+        let Some(record) = files::found_record::<SweepFolderRecord>(&file) else {
             let message = format!(
                 "{} is not the folder of a sweep: {SWEEP} is missing or cannot be read",
                 path.display()
@@ -245,7 +227,7 @@ impl SweepFolder {
             return Ok(());
         };
         let path = folder.join(&named.file);
-        match files::found_in_folder(&path, MAX_RECORD) {
+        match files::found_in_folder(&path) {
             Some(there) if there == text.as_bytes() => Ok(()),
             _ if path.exists() => {
                 let message = format!("{} is not the table of poses of the sweep", path.display());
@@ -262,7 +244,7 @@ impl SweepFolder {
         if !manifest.exists() {
             return ShardState::Missing;
         }
-        let Some(record) = read_json::<SweepManifestRecord>(&manifest) else {
+        let Some(record) = files::found_record::<SweepManifestRecord>(&manifest) else {
             return ShardState::Damaged("the manifest cannot be read".into());
         };
         let r = &self.record;
@@ -367,7 +349,7 @@ impl SweepFolder {
             seconds: took.as_secs_f64().into(),
             writing_seconds: took.saturating_sub(waited).as_secs_f64().into(),
         };
-        write_text(&manifest, &json(&record)?)?;
+        write_record(&manifest, &record)?;
         Ok(Some(record))
     }
 

@@ -33,7 +33,7 @@ impl WholeFile {
         Ok(Self { part, target })
     }
 
-    /// Where to write.
+    /// The file to write to.
     pub(crate) fn file(&self) -> &File {
         self.part.as_file()
     }

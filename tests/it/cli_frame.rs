@@ -22,6 +22,12 @@ pub(crate) fn document(out: &Output) -> Value {
     serde_json::from_str(text).unwrap()
 }
 
+/// The exit code and the document of a command with `--json`.
+pub(crate) fn asked(args: &[&str]) -> (Option<i32>, Value) {
+    let out = equipod(&[args, &["--json"]].concat());
+    (out.status.code(), document(&out))
+}
+
 /// Runs `fk FILE --json` on a file that must be refused and returns the error record.
 fn refused(path: &Path) -> Value {
     let out = equipod(&["fk", path.to_str().unwrap(), "--json"]);

@@ -154,7 +154,7 @@ variables = [\"home_height\"]
     assert!(d["conflict"]["requirements"][1]["alone"].as_f64().unwrap() > 0.0);
 }
 
-/// What the design doesn't ask for takes no part in its conflicts: a least `|det A|` that nobody asked for would add 4.85 mm to the longest leg.
+/// Conflicts are about what the design asks for: a least `|det A|` that it doesn't ask for would add 4.85 mm to the longest leg.
 #[test]
 #[ignore = "evidence"]
 fn a_conflict_is_about_what_was_asked_for() {

@@ -7,6 +7,8 @@ use equipod::methods::design::{Format, parse_with_cranks};
 use equipod::prelude::*;
 use tempfile::TempDir;
 
+use super::evidence::size;
+
 /// Whether there is a C compiler; without one a test says that it did not run.
 fn compiler() -> bool {
     let there = Command::new("cc").arg("--version").output().is_ok_and(|out| out.status.success());
@@ -93,16 +95,17 @@ fn poses_of_every_worked_design_come_back_through_the_kinematics_of_linuxcnc() {
         return;
     }
     let (mut written, mut mapped) = (0, 0);
+    let cases = format!("-DCASES={}u", size(4, 8));
     for file in std::fs::read_dir("designs/worked").unwrap() {
         let path = file.unwrap().path();
         let name = path.display();
         let Some(exported) = Exported::possible(&Design::load(&path).unwrap()) else { continue };
         written += 1;
-        let (good, said) = exported.kinematics("poses.c", "linuxcnc", &["-DCASES=4u"]);
+        let (good, said) = exported.kinematics("poses.c", "linuxcnc", &[&cases]);
         assert!(good, "{name}: {said}");
         if exported.octahedral {
             mapped += 1;
-            let (good, said) = exported.mapped(60);
+            let (good, said) = exported.mapped(size(60, 300));
             assert!(good, "{name}: {said}");
         }
     }

@@ -7,7 +7,7 @@ use equipod::methods::num::Rng;
 use equipod::prelude::*;
 use serde_json::Value;
 
-use super::cli_frame::equipod;
+use super::cli_frame::asked;
 use super::evidence::size;
 
 const EDGES: &str = "legs = [[\"B1\",\"T1\"],[\"B2\",\"T1\"],[\"B2\",\"T2\"],[\"B3\",\"T2\"],[\"B3\",\"T3\"],[\"B1\",\"T3\"]]\n";
@@ -78,7 +78,7 @@ fn hexagons(rng: &mut Rng) -> String {
     text
 }
 
-/// What was drawn.
+/// A design that was drawn.
 struct Drawn {
     kind: String,
     text: String,
@@ -136,16 +136,15 @@ fn drawn(n: u64) -> Option<Drawn> {
     }
 }
 
-/// A command with `--json`: exit code and answer. Neither a panic nor an internal failure is an answer.
-fn asked(args: &[&str]) -> (i32, Value) {
-    let out = equipod(&[args, &["--json"]].concat());
-    let code = out.status.code().unwrap_or(-1);
-    let refused = code == 2 && args[1] != "family" && args[1] != "components";
-    assert!((0..=3).contains(&code) && !refused, "{args:?}: {}", String::from_utf8_lossy(&out.stderr));
-    (code, serde_json::from_slice(&out.stdout).unwrap())
+/// The exit code and the answer of a command: neither a panic, nor an internal failure, nor a refusal where the design cannot be the reason, is one.
+fn answered(args: &[&str]) -> (i32, Value) {
+    let (code, answer) = asked(args);
+    let may_refuse = ["family", "components"].contains(&args[1]);
+    let code = code.filter(|code| matches!(code, 0 | 1 | 3) || (*code == 2 && may_refuse));
+    (code.unwrap_or_else(|| panic!("{args:?}: {answer}")), answer)
 }
 
-/// What each command says to one question.
+/// The answers of all commands to one question.
 struct Answers {
     question: &'static str,
     words: Vec<(&'static str, String)>,
@@ -167,8 +166,8 @@ impl Answers {
 
 /// The relation of two designs by `map` and `verify`: word with level, and exit code.
 fn relations(from: &str, to: &str) -> [(&'static str, String, i32); 2] {
-    let (code, map) = asked(&["equivalents", "map", from, to]);
-    let (of_verify, verify) = asked(&["verify", from, to, "--samples", "1"]);
+    let (code, map) = answered(&["equivalents", "map", from, to]);
+    let (of_verify, verify) = answered(&["verify", from, to, "--samples", "1"]);
     let of_map = map["relation"].as_str().unwrap_or("undecided");
     let verdict = match verify["verdict"].as_str() {
         Some("not_equivalent") => "unrelated",
@@ -195,7 +194,7 @@ fn exit_of(relation: &str) -> i32 {
 fn singular(path: &str) -> Vec<Answers> {
     let [mut singular, mut exit] = ["architecturally singular?", "exit code?"].map(Answers::to);
     let [mut rank, mut poses] = ["rank of the leg vectors?", "are there isolated poses?"].map(Answers::to);
-    let (code, check) = asked(&["check", path]);
+    let (code, check) = answered(&["check", path]);
     // a design that is not singular is equivalent to itself
     let word = match check["architecturally_singular"].as_bool() {
         Some(true) => "singular",
@@ -213,14 +212,14 @@ fn singular(path: &str) -> Vec<Answers> {
         singular.says(who, &said);
         exit_of_relations.says(who, &code);
     }
-    let (code, family) = asked(&["equivalents", "family", path]);
+    let (code, family) = answered(&["equivalents", "family", path]);
     match family["error"]["code"].as_str() {
         Some("family::singular") => singular.says("family", &format!("singular, {level}")),
         None if code == 0 => singular.says("family", &format!("equivalent, {level}")),
         _ => {}
     }
     rank.says("check", &check["leg_rank"]);
-    let (_, components) = asked(&["equivalents", "components", path]);
+    let (_, components) = answered(&["equivalents", "components", path]);
     if components["error"].is_null() {
         rank.says("components", &components["leg_rank"]);
     }
@@ -245,7 +244,7 @@ fn equivalent(a: &str, b: &str) -> Vec<Answers> {
     vec![words, exit]
 }
 
-/// What was found so far, for whoever runs this alone.
+/// Prints the findings so far, for whoever runs this alone.
 fn note(text: &str) {
     #[allow(clippy::print_stderr, reason = "a test of an hour says what it has found before it ends")]
     {

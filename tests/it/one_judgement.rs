@@ -5,15 +5,10 @@ use equipod::methods::num::Rng;
 use equipod::prelude::*;
 use serde_json::Value;
 
-use super::cli_frame::{document, equipod};
+use super::cli_frame::{asked, equipod};
 
 fn fixture(name: &str) -> String {
     format!("tests/fixtures/verdicts/{name}.toml")
-}
-
-fn asked(args: &[&str]) -> (Option<i32>, Value) {
-    let out = equipod(&[args, &["--json"]].concat());
-    (out.status.code(), document(&out))
 }
 
 /// What `check` says of a design: the exit code, whether it is singular, the level.

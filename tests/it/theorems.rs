@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::cli_frame::{document, equipod};
+use crate::cli_frame::{asked, equipod};
 
 fn verdict(name: &str) -> String {
     format!("{}/tests/fixtures/verdicts/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -19,11 +19,6 @@ fn written(folder: &Path, name: &str, text: &str) -> String {
 }
 
 /// Exit code and answer.
-fn asked(args: &[&str]) -> (Option<i32>, Value) {
-    let out = equipod(&[args, &["--json"]].concat());
-    (out.status.code(), document(&out))
-}
-
 /// Two regular hexagons, the platform rotated by `turn`; every joint is polar, a copy rotated or a mirror image. The
 /// last joint has its own radius.
 fn hexagons(turn: &str, last: &str) -> String {

@@ -89,11 +89,8 @@ pub(in crate::cli::commands) const FIRST: [&str; 19] = [
     MODES,
 ];
 
-/// What `explore` wrote into a folder, by which it knows its own files again.
+/// The list of files that `explore` wrote, by which it knows them again.
 const MANIFEST: &str = ".explore.json";
-
-/// Bytes of a result at most: a larger file is not one of ours.
-const MAX_RESULT: u64 = 64 << 20;
 
 /// A file of an earlier run: its name in the folder and the hash of its bytes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -112,14 +109,9 @@ struct Manifest {
 #[derive(Debug)]
 pub(super) struct Folder {
     path: PathBuf,
-    /// What an earlier run has left.
+    /// The files of an earlier run.
     earlier: Vec<KnownFile>,
     results: Vec<(String, String)>,
-}
-
-fn not_writable(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::refused("file::not_writable", format!("{} cannot be written: {error}", path.display()))
-        .with_help("check the folder and its permissions")
 }
 
 impl Folder {
@@ -130,13 +122,8 @@ impl Folder {
     /// Exit 2: the folder cannot be made or written, `explore::not_ours`, or an input of the run is one of the files to be written.
     pub(super) fn prepare(path: &Path) -> Result<Self, Failure> {
         files::make_folder(path)?;
-        let manifest: Option<Manifest> = files::found_in_folder(&path.join(MANIFEST), MAX_RESULT)
-            .and_then(|bytes| serde_json::from_slice(&bytes).ok());
-        let folder = Self {
-            path: path.to_path_buf(),
-            earlier: manifest.unwrap_or_default().files,
-            results: Vec::new(),
-        };
+        let manifest: Manifest = files::found_record(&path.join(MANIFEST)).unwrap_or_default();
+        let folder = Self { path: path.to_path_buf(), earlier: manifest.files, results: Vec::new() };
         let opened = ConflictFreedom::ALL.map(dimensional::opened_file);
         let own = ALL.iter().copied().chain(opened.iter().map(String::as_str));
         let mut names: Vec<String> = own.map(str::to_owned).collect();
@@ -158,7 +145,7 @@ impl Folder {
         if path.symlink_metadata().is_err() || (path.is_dir() && !known()) {
             return Ok(());
         }
-        let is_ours = files::found_in_folder(&path, MAX_RESULT).is_some_and(|bytes| {
+        let is_ours = files::found_in_folder(&path).is_some_and(|bytes| {
             let found = KnownFile { name: name.to_owned(), sha256: sha256(&bytes) };
             self.earlier.contains(&found)
         });
@@ -174,10 +161,8 @@ impl Folder {
 
     fn write_manifest(&self, files: Vec<KnownFile>) -> Result<(), Failure> {
         let manifest = Manifest { written_by: format!("equipod {}", env!("CARGO_PKG_VERSION")), files };
-        let text =
-            serde_json::to_string_pretty(&manifest).map_err(|e| Failure::internal(e.to_string()))? + "\n";
         let path = self.path.join(MANIFEST);
-        WholeFile::write(&path, text.as_bytes())
+        WholeFile::write(&path, files::record_text(&manifest)?.as_bytes())
             .map_err(|e| files::not_written(&path.display().to_string(), &e))
     }
 
@@ -213,7 +198,9 @@ impl Folder {
         for old in stale.filter(|old| self.refuse_foreign(&old.name).is_ok()) {
             let path = self.path.join(&old.name);
             match std::fs::remove_file(&path) {
-                Err(error) if error.kind() != ErrorKind::NotFound => return Err(not_writable(&path, &error)),
+                Err(error) if error.kind() != ErrorKind::NotFound => {
+                    return Err(files::not_written(&path.display().to_string(), &error));
+                }
                 _ => {}
             }
         }
