@@ -2,6 +2,11 @@
 
 use thiserror::Error;
 
+/// Whether a character changes the direction of the text after it: embeddings, overrides and isolates. What is read is then not what is shown (Boucher and Anderson 2021).
+pub(crate) fn changes_direction(c: char) -> bool {
+    matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
 /// A name that is none of those known.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{given}` is not the name of a {what}; known are {}", .known.join(", "))]

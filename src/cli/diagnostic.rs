@@ -9,6 +9,7 @@ use anstyle::{AnsiColor, Style};
 
 use super::failure::Failure;
 use crate::design::{Violation, Warning};
+use crate::names::changes_direction;
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();
@@ -115,8 +116,7 @@ fn printable_char(c: char) -> char {
 
 /// Whether a character moves the cursor of a terminal, or changes the direction of the text after it.
 fn steers(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    c.is_control() || changes_direction(c) || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}')
 }
 
 /// A text whose characters that could steer a terminal are spelled by `spell`; ends of lines and tabulators stay.

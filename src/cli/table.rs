@@ -1,15 +1,10 @@
 //! Tables for other programs: a header with units, then numbers that read back to the same double.
 
-/// Cells on a line; those with separators or quotation marks are quoted.
+use crate::export::csv_field;
+
+/// Cells on a line, each as [`csv_field`] has it.
 pub(crate) fn csv_line(cells: &[impl AsRef<str>]) -> String {
-    let quoted = |cell: &str| {
-        if cell.contains([',', '"', '\n', '\r']) {
-            format!("\"{}\"", cell.replace('"', "\"\""))
-        } else {
-            cell.to_string()
-        }
-    };
-    cells.iter().map(|cell| quoted(cell.as_ref())).collect::<Vec<_>>().join(",") + "\n"
+    cells.iter().map(|cell| csv_field(cell.as_ref())).collect::<Vec<_>>().join(",") + "\n"
 }
 
 /// A number with the fewest digits that read back to it.
@@ -30,6 +25,7 @@ mod tests {
     #[test]
     fn a_cell_with_a_separator_is_quoted() {
         assert_eq!(csv_line(&["time, s", "a \"b\"", "c"]), "\"time, s\",\"a \"\"b\"\"\",c\n");
+        assert_eq!(csv_line(&["=1+1", "@a", "-1.5", "-a,b", "+inf"]), "'=1+1,'@a,-1.5,\"'-a,b\",+inf\n");
         assert_eq!(
             (number(-0.0), number(1e-17), column_unit("design units")),
             ("0.0".into(), "1e-17".into(), "design_units".into())

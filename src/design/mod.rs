@@ -154,10 +154,7 @@ fn read(text: &str, format: Format, takes_cranks: bool) -> Result<(Design, Vec<W
         report.refuse(Code::Empty, &(0..0), "the file is empty", help);
         return Err(report.into_violations());
     }
-    let root = match format {
-        Format::Toml => toml_text::read(text, &mut report),
-        Format::Json => json_text::read(text, &mut report),
-    };
+    let root = tree::read(text, format, &mut report);
     let design = root.and_then(|root| validate::design(&root, &mut report, takes_cranks));
     match design {
         Some(mut design) if report.is_clean() => {

@@ -106,7 +106,7 @@ fn legs_and_triangles() {
     all.push_str(&refusals(&text, Format::Toml));
     insta::assert_snapshot!(all, @r#"
         4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]
-        4:79 design::identical_legs: legs 1 and 6 both join P1 to P4 | each leg needs its own pair of joints; with two equal legs the platform is never rigid
+        4 design::coincident_legs: legs 1 and 6 join the same two points | give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid
         4:80 design::missing_joint: leg 6 names `P9`, which is not a joint of the base | add `P9 = [x, y, z]` to [base]
         4:86 design::missing_joint: leg 6 names `X`, which is not a joint of the platform | add `X = [x, y, z]` to [platform]
         4:80 design::missing_joint: leg 6 names `P6`, which is not a joint of the base | `P6` is a joint of the platform; a leg names the base joint first
@@ -257,4 +257,22 @@ fn bom_and_windows_line_ends_are_read() {
     assert!(parse(&text, Format::Toml).is_ok());
     let slip = parse(&text.replace("units", "unit"), Format::Toml).unwrap_err();
     assert!(slip.iter().any(|v| v.code == Code::UnknownKey && (v.line, v.column) == (2, 1)));
+}
+
+/// A name that is shown otherwise than it is written, plainly and by an escape.
+#[test]
+fn text_that_changes_its_direction_is_refused_where_it_stands() {
+    for (text, format, place) in [
+        (GOOD.replace("name = \"octahedral\"", "name = \"\u{202e}lardehatco\""), Format::Toml, (1, 8)),
+        (GOOD.replace("P1 = ", "\"P1\u{2066}\" = "), Format::Toml, (6, 1)),
+        ("{\"name\": \"\\u202e\"}".to_owned(), Format::Json, (1, 10)),
+    ] {
+        let violations = parse(&text, format).unwrap_err();
+        let found = violations
+            .iter()
+            .find(|v| v.code == Code::TextDirection)
+            .unwrap_or_else(|| panic!("{violations:?}"));
+        assert_eq!((found.line, found.column), place, "{found}");
+        assert!(found.message.contains("\\u{20"), "{found}");
+    }
 }

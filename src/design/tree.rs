@@ -2,6 +2,10 @@
 
 use std::ops::Range;
 
+use super::violation::Findings;
+use super::{Code, Format, json_text, toml_text};
+use crate::names::changes_direction;
+
 /// Byte range in the text.
 pub(crate) type Span = Range<usize>;
 
@@ -52,4 +56,45 @@ impl Value {
 /// The entry named `key`.
 pub(crate) fn find<'a>(entries: &'a [Entry], key: &str) -> Option<&'a Entry> {
     entries.iter().find(|e| e.key == key)
+}
+
+/// Reads a text; `None` where it is not TOML or not JSON, with the reasons in the report.
+pub(crate) fn read(text: &str, format: Format, report: &mut Findings<'_>) -> Option<Node> {
+    let root = match format {
+        Format::Toml => toml_text::read(text, report),
+        Format::Json => json_text::read(text, report),
+    };
+    if let Some(root) = &root {
+        refuse_directions(root, report);
+    }
+    root
+}
+
+/// Names and texts with characters that change the direction of text: on a drawing, in a table or on a page something else would be shown than what is written.
+fn refuse_directions(node: &Node, report: &mut Findings<'_>) {
+    let mut refuse = |text: &str, span: &Span| {
+        if let Some(c) = text.chars().find(|c| changes_direction(*c)) {
+            let message = format!(
+                "the text holds {}, which changes the direction of what follows it",
+                c.escape_unicode()
+            );
+            report.refuse(
+                Code::TextDirection,
+                span,
+                message,
+                "leave the character out: scripts that run from right to left need none",
+            );
+        }
+    };
+    match &node.value {
+        Value::Text(text) => refuse(text, &node.span),
+        Value::Array(list) => list.iter().for_each(|node| refuse_directions(node, report)),
+        Value::Table(entries) => {
+            for entry in entries {
+                refuse(&entry.key, &entry.key_span);
+            }
+            entries.iter().for_each(|entry| refuse_directions(&entry.node, report));
+        }
+        Value::Number(_) | Value::Other(_) => {}
+    }
 }

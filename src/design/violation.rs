@@ -25,6 +25,8 @@ pub enum Code {
     WrongType,
     /// A name, unit or joint name without a character.
     EmptyName,
+    /// A text with characters that change the direction of text.
+    TextDirection,
     /// A point or vector with other than three coordinates.
     CoordinateCount,
     /// NaN or infinite.
@@ -92,6 +94,7 @@ impl Code {
             Self::MissingKey => "design::missing_key",
             Self::WrongType => "design::wrong_type",
             Self::EmptyName => "design::empty_name",
+            Self::TextDirection => "design::text_direction",
             Self::CoordinateCount => "design::coordinate_count",
             Self::NonFinite => "design::non_finite",
             Self::OutOfRange => "design::out_of_range",
@@ -175,6 +178,13 @@ pub enum Warning {
         /// Line of the later one, 1-based.
         line: usize,
     },
+    /// Two legs between the same two points, under one name or two.
+    CoincidentLegs {
+        /// The legs, counted from 1.
+        legs: [usize; 2],
+        /// Line of the later one, 1-based.
+        line: usize,
+    },
     /// `legs` was written below a table header, so that TOML counts it to that table.
     LegsInsideTable {
         /// The table.
@@ -191,6 +201,7 @@ impl Warning {
         match self {
             Self::UnusedJoint { .. } => "design::unused_joint",
             Self::CoincidentJoints { .. } => "design::coincident_joints",
+            Self::CoincidentLegs { .. } => "design::coincident_legs",
             Self::LegsInsideTable { .. } => "design::legs_inside_table",
         }
     }
@@ -201,6 +212,7 @@ impl Warning {
         match self {
             Self::UnusedJoint { line, .. }
             | Self::CoincidentJoints { line, .. }
+            | Self::CoincidentLegs { line, .. }
             | Self::LegsInsideTable { line, .. } => *line,
         }
     }
@@ -213,6 +225,10 @@ impl Warning {
             Self::CoincidentJoints { first, second, .. } => format!(
                 "if the legs share one joint there, name {first} in all of them; {first} and {second} count as two joints"
             ),
+            Self::CoincidentLegs { .. } => {
+                "give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid"
+                    .into()
+            }
             Self::LegsInsideTable { .. } => {
                 "move `legs` above the first [table] of the file; it is read as a top-level key".into()
             }
@@ -226,6 +242,9 @@ impl fmt::Display for Warning {
             Self::UnusedJoint { body, name, .. } => write!(f, "{body} joint {name} carries no leg"),
             Self::CoincidentJoints { body, first, second, .. } => {
                 write!(f, "{body} joints {first} and {second} have the same coordinates")
+            }
+            Self::CoincidentLegs { legs: [a, b], .. } => {
+                write!(f, "legs {a} and {b} join the same two points")
             }
             Self::LegsInsideTable { table, .. } => write!(f, "`legs` stands inside [{table}]"),
         }

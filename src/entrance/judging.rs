@@ -7,8 +7,8 @@ use crate::fk::{Theorem, pose_bound};
 use crate::geom::{PoseSpace, Region};
 use crate::manipulator::{Level, Manipulator};
 use crate::requirements::{
-    AssessOptions, LeastConditioning, MarginBound, MarginProof, Requirements, RodRegularity, Terms,
-    least_conditioning, least_rod_conditioning, prove, regular_rods,
+    AssessOptions, AssessStage, LeastConditioning, MarginBound, MarginProof, Requirements, RodRegularity,
+    Terms, least_conditioning, least_rod_conditioning, prove_telling, regular_rods,
 };
 use crate::singularity::{
     Architecture, Assembly, BoxOptions, Conditioning, NearestSingular, Regularity, assembly, conditioning,
@@ -82,10 +82,7 @@ impl std::fmt::Display for CheckReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let (name, units) = (&self.design.name, &self.design.units);
         if let Some(n) = self.meant() {
-            return match n.within_digits {
-                Some(half) => write!(f, "{name} is singular to the digits given ({half} {units})"),
-                None => write!(f, "{name} is singular within rounding ({:.1e} {units})", n.distance),
-            };
+            return write!(f, "{name} is {}", n.words(units));
         }
         let about = self.architecture.level.map_or("", Level::words);
         match (self.is_singular(), self.reason()) {
@@ -378,7 +375,7 @@ impl Design {
     /// # Errors
     /// [`Error::NothingRequired`] where the design requires nothing.
     pub fn assess(&self) -> Result<AssessReport, Error> {
-        self.assess_by(&AssessOptions::default(), None)
+        self.assess_by(&AssessOptions::default(), None, &mut |_| {})
     }
 
     /// As [`assess_with`](Self::assess_with), where a number of cells is given; without one as [`assess`](Self::assess).
@@ -389,10 +386,12 @@ impl Design {
         &self,
         options: &AssessOptions,
         cells: Option<usize>,
+        tell: &mut dyn FnMut(AssessStage),
     ) -> Result<AssessReport, Error> {
+        let length = self.characteristic_length();
         match cells {
-            Some(cells) => self.assess_with(options, cells),
-            None => self.assess_with(&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS),
+            Some(cells) => self.judged_by((options, cells), length, tell),
+            None => self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, tell),
         }
     }
 
@@ -401,22 +400,29 @@ impl Design {
     /// # Errors
     /// [`Error::NothingRequired`] where the design requires nothing.
     pub fn assess_with(&self, options: &AssessOptions, cells: usize) -> Result<AssessReport, Error> {
-        self.judged_by(options, cells, self.characteristic_length())
+        self.judged_by((options, cells), self.characteristic_length(), &mut |_| {})
     }
 
     /// The judgement itself, with this length for the conditioning.
-    fn judged_by(&self, options: &AssessOptions, cells: usize, length: f64) -> Result<AssessReport, Error> {
+    fn judged_by(
+        &self,
+        (options, cells): (&AssessOptions, usize),
+        length: f64,
+        tell: &mut dyn FnMut(AssessStage),
+    ) -> Result<AssessReport, Error> {
         let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
         let required = self.requirements();
-        let proof = prove(m, &required, &space, options, cells);
+        let proof = prove_telling(m, &required, &space, (options, cells), tell);
         if proof.bounds.is_empty() {
             return Err(Error::NothingRequired);
         }
+        tell(AssessStage::SingularPoses);
         let of_rods = regular_rods(m, &required, &space, cells.max(options.patient_cells), options.seed);
         let (regularity, regularity_cells) = of_rods.map_or_else(
             || regular_workspace(m, &space, cells, options.seed),
             |(of_rods, cells)| (as_regularity(&of_rods), cells),
         );
+        tell(AssessStage::Conditioning);
         let conditioning = self.least_conditioning(options, length);
         Ok(AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning })
     }
@@ -449,7 +455,8 @@ impl Design {
         length: f64,
     ) -> (Option<AssessReport>, LeastConditioning) {
         let options = deciding(seed);
-        let found = self.judged_by(&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS, length).ok();
+        let found =
+            self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, &mut |_| {}).ok();
         let conditioning = found.as_ref().map(|f| f.conditioning);
         (found, conditioning.unwrap_or_else(|| self.least_conditioning(&options, length)))
     }

@@ -2,6 +2,8 @@
 
 use nalgebra::Vector3;
 
+use crate::names::changes_direction;
+
 /// The shortest decimal that reads back to the same double, never `-0.0`.
 pub(super) fn real(x: f64) -> String {
     format!("{:?}", x + 0.0)
@@ -66,8 +68,11 @@ pub(super) fn xml_comment(text: &str) -> String {
     out
 }
 
-/// A field of a CSV table (RFC 4180).
-pub(super) fn csv_field(text: &str) -> String {
-    let text = one_line(text);
+/// A field of a CSV table (RFC 4180) on one line. A text that a spreadsheet would take for a formula begins with an apostrophe, which makes it a text there.
+pub(crate) fn csv_field(text: &str) -> String {
+    let mut text: String = one_line(text).chars().filter(|c| !changes_direction(*c)).collect();
+    if text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err() {
+        text.insert(0, '\'');
+    }
     if text.contains([',', '"', '#']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }

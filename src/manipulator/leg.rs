@@ -84,7 +84,7 @@ impl Leg {
 pub struct Manipulator {
     base: Vec<Point3<f64>>,
     platform: Vec<Point3<f64>>,
-    legs: [(usize, usize); 6],
+    pub(super) legs: [(usize, usize); 6],
     size: f64,
     /// What the joints are where they are not the doubles.
     pub(super) values: Option<Arc<JointValues>>,
@@ -116,13 +116,11 @@ pub enum InvalidManipulator {
         /// How many joints the body has.
         count: usize,
     },
-    /// Two legs join the same pair of joints.
-    #[error("{first} and {second} join the same two joints")]
-    IdenticalLegs {
-        /// The earlier leg.
-        first: LegIndex,
-        /// The later leg.
-        second: LegIndex,
+    /// Some leg is missing in an order of legs.
+    #[error("{order:?} is no order of six legs, which are counted from 0")]
+    NotAnOrder {
+        /// What was given.
+        order: [usize; 6],
     },
     /// All joints of both bodies lie in one point each, so that the design has no size.
     #[error("all joints of each body coincide: the design has no size")]
@@ -180,11 +178,6 @@ impl Manipulator {
                 if index >= count {
                     return Err(InvalidManipulator::MissingJoint { leg, body, index, count });
                 }
-            }
-        }
-        for (first, j) in LegIndex::all().flat_map(|i| (0..i.get()).map(move |j| (i, j))) {
-            if let (Some(earlier), true) = (LegIndex::new(j), legs[first.get()] == legs[j]) {
-                return Err(InvalidManipulator::IdenticalLegs { first: earlier, second: first });
             }
         }
         let a: Vec<_> = legs.iter().map(|l| base[l.0]).collect();
@@ -267,6 +260,16 @@ impl Manipulator {
         nearest
     }
 
+    /// How many joints of base and platform carry more than one leg.
+    pub(crate) fn shared_joints(&self) -> usize {
+        let shared = |end: fn(&(usize, usize)) -> usize| {
+            let mut ends: Vec<usize> = self.legs.iter().map(end).collect();
+            ends.sort_unstable();
+            ends.chunk_by(PartialEq::eq).filter(|legs| legs.len() > 1).count()
+        };
+        shared(|leg| leg.0) + shared(|leg| leg.1)
+    }
+
     /// Base joints, base frame.
     #[must_use]
     pub fn base_joints(&self) -> &[Point3<f64>] {
@@ -307,15 +310,12 @@ impl Manipulator {
     /// The same manipulator with the legs in another order: new leg `i` is old leg `order[i]`.
     ///
     /// # Errors
-    /// `order` must be a permutation of `0..6`; otherwise the duplicate shows as `IdenticalLegs` or
-    /// the excess index as `MissingJoint`.
+    /// [`InvalidManipulator::NotAnOrder`].
     pub fn reordered(&self, order: [usize; 6]) -> Result<Self, InvalidManipulator> {
-        if let Some(leg) = LegIndex::all().find(|i| order[i.get()] >= 6) {
-            let index = order[leg.get()];
-            return Err(InvalidManipulator::MissingJoint { leg, body: Body::Base, index, count: 6 });
+        if (0..6).any(|leg| !order.contains(&leg)) {
+            return Err(InvalidManipulator::NotAnOrder { order });
         }
-        let same = Self::try_new(self.base.clone(), self.platform.clone(), order.map(|i| self.legs[i]))?;
-        Ok(Self { values: self.values.clone(), ..same })
+        Ok(Self { legs: order.map(|i| self.legs[i]), ..self.clone() })
     }
 }
 
@@ -337,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_missing_joint_identical_legs_nan_and_zero_size() {
+    fn refuses_missing_joint_nan_and_zero_size() {
         let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
         let ok = Manipulator::try_new(triangle(2.0), triangle(1.0), hexagon);
         assert!(ok.is_ok());
@@ -349,8 +349,11 @@ mod tests {
         ));
         let mut twice = hexagon;
         twice[5] = twice[0];
-        let err = Manipulator::try_new(triangle(2.0), triangle(1.0), twice).unwrap_err();
-        assert_eq!(err.to_string(), "leg 1 and leg 6 join the same two joints");
+        let twice = Manipulator::try_new(triangle(2.0), triangle(1.0), twice).unwrap();
+        assert_eq!(twice.pairs()[5], (0, 0), "two legs of one line can be asked about");
+        for order in [[0, 1, 2, 3, 4, 4], [0, 1, 2, 3, 4, 6]] {
+            assert_eq!(twice.reordered(order), Err(InvalidManipulator::NotAnOrder { order }));
+        }
         let mut nan = triangle(1.0);
         nan[1].y = f64::NAN;
         assert!(matches!(

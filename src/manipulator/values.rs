@@ -165,10 +165,7 @@ impl Manipulator {
 
     /// The same legs with ends that are at one place at one joint: by their doubles where these are the joints, by their exact coordinates where these are known, and
     /// not at all where joints are known between bounds only.
-    ///
-    /// # Errors
-    /// [`InvalidManipulator::IdenticalLegs`].
-    pub(crate) fn with_merged_joints(&self) -> Result<Self, InvalidManipulator> {
+    pub(crate) fn with_merged_joints(&self) -> Self {
         let first = |body: Body, joint: usize| {
             let doubles = self.joints(body);
             let same = |other: &usize| match &self.values {
@@ -181,10 +178,9 @@ impl Manipulator {
             (0..joint).find(same).unwrap_or(joint)
         };
         let pairs = self.pairs().map(|(a, b)| (first(Body::Base, a), first(Body::Platform, b)));
-        let mut merged = Self::try_new(self.base_joints().to_vec(), self.platform_joints().to_vec(), pairs)?;
-        merged.values.clone_from(&self.values);
-        merged.constructed = self.constructed;
-        Ok(merged)
+        let mut merged = self.clone();
+        merged.legs = pairs;
+        merged
     }
 
     /// How the joints are known.

@@ -12,7 +12,7 @@ pub(super) fn record(
     options: &AssessOptions,
     cells: Option<usize>,
 ) -> Result<AssessAnswer, Refusal> {
-    match design.assess_by(options, cells) {
+    match design.assess_by(options, cells, &mut |_| {}) {
         Ok(found) => Ok(AssessAnswer::new(design, &found)),
         Err(Error::NothingRequired) => {
             Err(Refusal::new("nothing_required", "the design has no requirements"))

@@ -9,7 +9,7 @@ use crate::equivalents::Original;
 use crate::manipulator::Body;
 use crate::records::PoseRecord;
 use crate::requirements::Hardware;
-use crate::singularity::Architecture;
+use crate::singularity::{Architecture, rounded_singular};
 use crate::synthesis::{
     Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,
 };
@@ -24,10 +24,12 @@ pub(super) struct OpeningRecord<'a> {
     /// `"octahedral"`, `"equivalent"`, `"general"`, or `"cranks"` where the legs are rods on cranks.
     kind: &'static str,
     size: f64,
-    /// Whether the platform shown first is: the octahedral original, or the design where there is none.
-    singular: bool,
-    /// Why it is singular.
+    /// Whether the platform shown first is: the octahedral original, or the design where there is none. `null` where it is not decided, and for cranks.
+    singular: Option<bool>,
+    /// Why it is singular, or why it is not decided.
     reason: Option<String>,
+    /// The same of the design as an equivalent, with the offsets that the page starts with; `null` also where the page starts with another one.
+    start_singular: Option<bool>,
     home: PoseRecord,
     centre: [f64; 3],
     radius: f64,
@@ -172,12 +174,32 @@ struct LegRecord {
     vertex: Option<usize>,
 }
 
+/// Whether a design is architecturally singular, as `equipod check` says it, and why it is or why that is not decided.
+fn regularity(design: &Design) -> (Option<bool>, Option<String>) {
+    let m = design.manipulator();
+    let found = Architecture::of(m);
+    match found.is_singular() {
+        Some(true) => (Some(true), found.findings.first().map(|f| f.case.sentence())),
+        None => (None, Some("not decided: joints are known between bounds only".into())),
+        Some(false) => match rounded_singular(m, 1) {
+            Ok(None) => (Some(false), None),
+            Ok(Some(near)) => (None, Some(near.words(&design.units))),
+            Err(e) => (None, Some(format!("not decided: {e}"))),
+        },
+    }
+}
+
 /// The design, the original's hexagon, and the patterns to choose from.
 pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
     let design = &session.design;
     // of cranks: what is said of the joints holds for legs that change their lengths
-    let architecture = session.cranks.is_none().then(|| Architecture::of(session.first().manipulator()));
-    let finding = architecture.as_ref().and_then(|a| a.findings.first());
+    let (singular, reason) = match session.cranks {
+        None => regularity(session.first()),
+        Some(_) => (None, None),
+    };
+    let starts_with_it = session.original.as_ref().and_then(|o| o.seen.as_ref()).zip(session.start.as_ref());
+    let starts_with_it =
+        starts_with_it.is_some_and(|(seen, start)| (&start.pattern, &start.offsets) == (&seen.0, &seen.1));
     let (centre, radius) = session.reach();
     let kind = match &session.original {
         Some(o) if o.seen.is_none() => "octahedral",
@@ -193,8 +215,9 @@ pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
         description: design.description.as_deref(),
         kind,
         size: design.manipulator().size(),
-        singular: architecture.as_ref().is_some_and(|a| a.is_singular() == Some(true)),
-        reason: finding.map(|f| f.case.sentence()),
+        singular,
+        reason,
+        start_singular: if starts_with_it { regularity(design).0 } else { None },
         home: (&session.home).into(),
         centre: centre.coords.into(),
         radius,

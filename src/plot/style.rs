@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use crate::names::changes_direction;
+
 /// Classes used by the pictures. The palette is safe for colour-blind readers and differs in lightness.
 const CSS: &str = "\
 text{font-family:Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif;font-size:12px;fill:#1a1a1a}\
@@ -80,8 +82,10 @@ pub(crate) fn escape(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            // XML 1.0 knows no other control characters
-            c if c.is_control() && !matches!(c, '\t' | '\n' | '\r') => out.push('\u{fffd}'),
+            // XML 1.0 knows no other control characters; and text is shown as it is written
+            c if c.is_control() && !matches!(c, '\t' | '\n' | '\r') || changes_direction(c) => {
+                out.push('\u{fffd}');
+            }
             c => out.push(c),
         }
     }

@@ -428,7 +428,8 @@ impl NativeDesign {
         seed: u64,
     ) -> PyResult<String> {
         let options = AssessOptions::new().points(points).steps(steps).searches(searches).seed(seed);
-        let found = py.detach(|| self.design.assess_by(&options, cells)).map_err(|e| raised(py, e))?;
+        let found =
+            py.detach(|| self.design.assess_by(&options, cells, &mut |_| {})).map_err(|e| raised(py, e))?;
         document(AssessAnswer::new(&self.design, &found), &[&self.design], Some(seed))
     }
 

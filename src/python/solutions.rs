@@ -13,7 +13,7 @@ use super::arrays::complex_matrices;
 use super::failure::raised;
 use crate::design::Design;
 use crate::entrance::Error;
-use crate::fk::{Completeness, FkRoot, FkSolutions, Reality};
+use crate::fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
 use crate::records::{FkOneAnswer, SolvedRecord};
 use crate::rotary::RotaryPlatform;
 
@@ -100,6 +100,14 @@ impl NativeSolutions {
     /// Whether all poses are listed, by proof or modulo random primes.
     fn is_complete(&self) -> bool {
         self.found.is_complete()
+    }
+
+    /// Dimension of the set that poses form, as it was seen; 0 where they are isolated.
+    fn dimension(&self) -> usize {
+        match &self.found.solution_set {
+            SolutionSet::PositiveDimensional { dimension, .. } => *dimension,
+            SolutionSet::Isolated | SolutionSet::Empty => 0,
+        }
     }
 
     /// The method that found the poses.

@@ -13,9 +13,11 @@ use crate::rotary::RotaryTracker;
 
 /// Follows one real pose, never to another assembly mode.
 #[pyclass(name = "Tracker", module = "equipod._core")]
+#[derive(Clone)]
 pub(super) struct NativeTracker(pub(super) Followed);
 
 /// What a pose is followed by.
+#[derive(Clone)]
 pub(super) enum Followed {
     /// Six lengths.
     Legs(Box<entrance::Tracker>),
@@ -58,6 +60,11 @@ fn said(outcome: &NearOutcome) -> (&'static str, f64, Option<String>) {
 
 #[pymethods]
 impl NativeTracker {
+    /// Another tracker at the same place.
+    fn __copy__(&self) -> Self {
+        self.clone()
+    }
+
     /// The pose where the platform is, float64, shape (4, 4).
     fn transform<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         matrices(&[self.0.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)

@@ -20,6 +20,12 @@ const TRUSTED: f64 = 1e-9;
 const CORRECTIONS: usize = 6;
 /// Poses tried for each further start.
 const TRIES: usize = 50;
+/// Poses that are led back to the limits where none of those tried is allowed, at most.
+const LED_BACK: usize = 8;
+/// Steps that lead a violated pose back to the limits, at most.
+const RESTORING: usize = 60;
+/// How far the first of them may go, over the size.
+const RESTORED: f64 = 0.25;
 
 /// How hard to look.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +63,7 @@ pub struct NearestPose {
 impl Reach<'_> {
     /// A pose locally nearest to `asked` among those allowed; `asked` itself where it is. `None` where no allowed pose was found to start from.
     ///
-    /// From home, and from `starts` allowed poses drawn between home and `asked`, the straight way towards `asked` is followed to its first limit. From there a sequence of steps goes to the nearest pose that the
+    /// From home, from the allowed poses to which `asked` and a violated home are led back, and from `starts` allowed poses drawn between home and `asked`, the straight way towards `asked` is followed to its first limit. From there a sequence of steps goes to the nearest pose that the
     /// margins made linear allow, corrected until all are met, each nearer than the last. The best end is the answer: not farther than where the straight way from home is first left, and nearest in its neighbourhood where it is
     /// [`stationary`](NearestPose::stationary). Deterministic for a seed.
     #[must_use]
@@ -98,13 +104,18 @@ impl Reach<'_> {
         })
     }
 
-    /// Home where it is allowed, and allowed poses drawn between home and the pose asked for.
+    /// Home, or the allowed pose to which it is led back, that of the pose asked for, and allowed poses drawn between home and the pose asked for.
     fn starts(&self, asked: &Pose, o: &NearestPoseOptions) -> Vec<Pose> {
         let mut rng = Purpose::NEAREST_POSES.rng(o.seed);
-        let mut starts: Vec<Pose> = Some(self.home).filter(|home| self.ends_at(home)).into_iter().collect();
+        let mut starts: Vec<Pose> =
+            [&self.home, asked].into_iter().filter_map(|p| self.restored(p)).collect();
         let way = StraightWay::between(&self.home, asked);
-        let far = self.distance(&self.home, asked);
+        let mut far = self.distance(&self.home, asked);
+        if starts.is_empty() {
+            far = far.max(self.size);
+        }
         let wanted = starts.len() + o.starts;
+        let mut led_back = 0;
         for _ in 0..TRIES * o.starts.max(1) {
             if starts.len() >= wanted.max(1) {
                 break;
@@ -112,9 +123,44 @@ impl Reach<'_> {
             let pose = self.drawn(&way.at(rng.unit()), 0.5 * far, &mut rng);
             if self.ends_at(&pose) {
                 starts.push(pose);
+            } else if starts.is_empty() && led_back < LED_BACK {
+                led_back += 1;
+                starts.extend(self.restored(&pose));
             }
         }
         starts
+    }
+
+    /// The greatest share by which a margin is below what it has to be; 0 or less where none is.
+    fn missing(&self, pose: &Pose) -> f64 {
+        let short = |m: &(Limit, f64)| if m.0 == Limit::Singular { REGULAR - m.1 } else { -self.share(m) };
+        self.margins(pose)
+            .iter()
+            .map(short)
+            .fold(f64::NEG_INFINITY, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
+    }
+
+    /// An allowed pose near one that may not be: the shortest steps to where all margins, made linear, are met, as long as they make the worst one better.
+    fn restored(&self, from: &Pose) -> Option<Pose> {
+        let (mut pose, mut radius) = (*from, RESTORED * self.size);
+        let mut worst = self.missing(&pose);
+        for _ in 0..RESTORING {
+            if self.ends_at(&pose) {
+                return Some(pose);
+            }
+            let step = project(&Vector6::zeros(), &self.half_spaces(&pose, f64::INFINITY), 1e-15 * self.size);
+            let next = self.stepped(&pose, &(step * (radius / step.norm().max(radius))));
+            let left = self.missing(&next);
+            if left < worst || self.ends_at(&next) {
+                (pose, worst, radius) = (next, left, (1.5 * radius).min(self.size));
+            } else {
+                radius = 0.25 * radius.min(step.norm());
+            }
+            if !(radius > TRUSTED * self.size) {
+                return None;
+            }
+        }
+        None
     }
 
     /// A pose drawn about another one, up to a distance along each direction.

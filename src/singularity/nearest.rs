@@ -49,6 +49,15 @@ impl NearestSingular {
     pub fn may_be_meant(&self) -> bool {
         self.within_rounding || self.within_digits.is_some()
     }
+
+    /// What a design near this one is called where this one may be meant; lengths in `units`.
+    #[must_use]
+    pub fn words(&self, units: &str) -> String {
+        match self.within_digits.filter(|_| !self.within_rounding) {
+            Some(half) => format!("singular to the digits given ({half} {units})"),
+            None => format!("singular within rounding ({:.1e} {units})", self.distance),
+        }
+    }
 }
 
 /// The singular design that plain doubles may be rounded values of, if any; asked of designs that are regular as written. Designs with exact joints are rounded values of none.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::OnceLock;
 
 use nalgebra::Point3;
 use serde_json::Value;
@@ -12,7 +13,7 @@ use super::column::{ColumnKind, SweepCell, SweepColumn};
 use super::measure::{least_axis_distance, length_range, worst_conditioning};
 use super::plan::{AnswerField, AnswerName, AxisValues, BasePlan, FreeQuantity, SweepPlan, SweepTask};
 use crate::design::Drive;
-use crate::entrance::{BOX_CELLS, OptimizeEvidence, OptimizeOptions, Solver};
+use crate::entrance::{BOX_CELLS, CheckReport, OptimizeEvidence, OptimizeOptions, Solver};
 use crate::fk::{FkOptions, FkRoot, Threads};
 use crate::manipulator::{Body, inverse_condition, jacobian};
 use crate::manufacture::{PoseSearch, joint_allowance};
@@ -46,6 +47,8 @@ pub(crate) struct Sweep {
     /// That of offsets without a pattern.
     pub(super) joint_free: KnownPattern,
     kinds: Vec<TermKind>,
+    /// What `check` says of the platform, where it is the same for all candidates.
+    pub(super) checked: OnceLock<Result<CheckReport, String>>,
 }
 
 impl Sweep {
@@ -70,6 +73,7 @@ impl Sweep {
             solver: None,
             patterns,
             joint_free: known(joint_free),
+            checked: OnceLock::new(),
         };
         if sweep.plan.text_is_fixed() {
             sweep.ground = Some(Ground::new(sweep.base.design.clone(), &sweep)?);
@@ -100,6 +104,9 @@ impl Sweep {
     /// Puts the row of candidate `k` behind others; `false` where the plan does not keep it, and nothing is put there.
     pub(super) fn row_onto(&self, k: u64, rows: &mut Vec<SweepCell>) -> bool {
         let values = self.plan.values(self.seed, k);
+        if self.repeats(k, &values) {
+            return false;
+        }
         // a fault of the program in one candidate is no reason to lose the others
         let found = catch_unwind(AssertUnwindSafe(|| self.computed(&values)));
         let (cells, error) = match found {
@@ -119,6 +126,16 @@ impl Sweep {
         rows.resize(first + self.columns.len() - 1, SweepCell::Empty);
         rows.push(SweepCell::text(error.as_deref()));
         true
+    }
+
+    /// Whether the pattern of a candidate leaves offsets unused, so that the same platform stands at another place: where those of a block have their first values.
+    fn repeats(&self, k: u64, values: &[SweepCell]) -> bool {
+        let pattern =
+            self.plan.quantities().zip(values).find_map(|(quantity, value)| match (quantity, value) {
+                (FreeQuantity::Pattern, SweepCell::Text(name)) => self.patterns.get(name),
+                _ => None,
+            });
+        pattern.is_some_and(|pattern| !self.plan.has_first_of_unused(k, pattern.offsets))
     }
 
     /// The text of candidate `k` as a design file.
@@ -183,6 +200,7 @@ impl Sweep {
             SweepTask::Spacing => {
                 Body::BOTH.map(|body| SweepCell::number(m.nearest_joints(body).map(|n| n.0))).to_vec()
             }
+            SweepTask::SharedJoints => vec![SweepCell::count(m.with_merged_joints().shared_joints())],
             SweepTask::Clearance => vec![SweepCell::number(self.clearance(c))],
             SweepTask::LengthRange => match length_range(&m.legs(), &c.ground.poses) {
                 Some(range) => range.map(SweepCell::Number).to_vec(),

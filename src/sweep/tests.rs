@@ -260,3 +260,42 @@ fn a_base_design_with_cranks_is_refused_at_its_place() {
     assert!(refused.message.contains("base design of a sweep"), "{refused}");
     assert!(refused.help.contains("squared leg lengths"), "{refused}");
 }
+
+/// Patterns take so many of the offsets that vary: what is left over makes no further platform.
+#[test]
+fn a_platform_whose_pattern_leaves_offsets_unused_has_one_row() {
+    let plan = |vary: &str| format!("compute = ['shared_joints', 'spacing']\n{vary}");
+    let rows = |sweep: &Sweep| (0..sweep.count()).filter_map(|k| sweep.row(k)).collect::<Vec<_>>();
+    // the corners of both triangles, which have no offset; one offset; all six
+    let family = crate::synthesis::Family::octahedral();
+    let corners = family.members().iter().find(|m| m.pattern.offsets().is_empty()).unwrap();
+    let patterns = format!("pattern = ['{}', 'S123456']", corners.pattern);
+    let grid = sweep_of(
+        OCTAHEDRAL,
+        &plan(&format!(
+            "[vary]\nby = 'grid'\nvalues = {{ {patterns}, offsets.1 = [0.2, 0.3], offsets.2 = [0.4], offsets.3 = [0.2], offsets.4 = [0.4], offsets.5 = [0.2], offsets.6 = [0.4, 0.5] }}\n"
+        )),
+    );
+    let blocks = sweep_of(
+        OCTAHEDRAL,
+        &plan(&format!(
+            "[[vary]]\nby = 'list'\nvalues = {{ {patterns} }}\n[[vary]]\nby = 'sobol'\ncount = 4\nvalues = {{ offsets = {{ from = 0.1, to = 0.9 }} }}\n"
+        )),
+    );
+    for sweep in [grid, blocks] {
+        let shared: Vec<SweepCell> =
+            rows(&sweep).iter().map(|row| cell(&sweep, row, "shared_joints").clone()).collect();
+        let of = |n: i64| shared.iter().filter(|c| **c == SweepCell::Integer(n)).count();
+        // the octahedral platform shares six joints, the platform without shared joints none
+        assert_eq!((shared.len(), of(6), of(0)), (5, 1, 4), "{shared:?}");
+    }
+}
+
+#[test]
+fn all_slips_of_a_plan_are_said_at_once() {
+    let base = BasePlan::new(PlanText { text: OCTAHEDRAL, format: Format::Toml }).unwrap();
+    let text = "name = 5\ndesign = 'd.toml'\ncompute = ['det_b']\nkeep = ['x']\nbogus = 1\n[[vary]]\nby = 'sobl'\ncount = -4\n[vary.values]\noffsets = { from = 0.1, tu = 0.9 }\n[[vary]]\nby = 'grid'\n[vary.values]\npatern = 'all'\n";
+    let violations = read(PlanText { text, format: Format::Toml }, &base).unwrap_err();
+    let lines: Vec<usize> = violations.iter().map(|v| v.line).collect();
+    assert_eq!(lines, [1, 3, 4, 5, 7, 8, 10, 10, 14], "{violations:#?}");
+}

@@ -92,6 +92,17 @@ fn the_straight_way_to_another_pose_ends_where_something_binds() {
     assert_eq!((code, &doc["error"]["code"]), (Some(2), &Value::from("usage::no_effect")));
 }
 
+/// Home is three millimetres too high: the nearest allowed pose is below it, where all six legs are as long as they may be.
+#[test]
+fn a_home_out_of_reach_is_led_back_to_an_allowed_pose() {
+    let (code, doc) = asked(&["tests/fixtures/home-too-high.toml"]);
+    assert_eq!((code, &doc["allowed"]), (Some(1), &false.into()));
+    let found = &doc["nearest_allowed"];
+    let height = number(&found["pose"]["p"][2]);
+    assert!((height - 96.5926).abs() < 1e-3 && number(&found["distance"]) < 3.5, "{found}");
+    assert_eq!(found["stationary"], true, "{found}");
+}
+
 /// A desk hexapod: every size is one that `assess` meets with the region asked for, and misses with a larger one.
 #[test]
 #[ignore = "evidence"]

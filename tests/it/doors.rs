@@ -190,10 +190,42 @@ fn exit_of(relation: &str) -> i32 {
     }
 }
 
+/// `singular` of a sweep over this one design: the condition that keeps its row.
+fn swept(design: &str) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let [plan, out] = ["plan.toml", "out"].map(|name| folder.path().join(name).to_str().unwrap().to_owned());
+    for singular in [true, false] {
+        let text = format!(
+            "name = \"one\"\ndesign = '{design}'\ncompute = [\"check\", \"lengths\"]\nkeep = [\"singular == {singular}\"]\n[[vary]]\nby = \"list\"\n[vary.values]\n\"pose.yaw_deg\" = [1]\n"
+        );
+        std::fs::write(&plan, text).unwrap();
+        let (_, found) =
+            answered(&["sweep", "run", &plan, "--shards", "1", "-o", &format!("{out}-{singular}")]);
+        if found["rows"] == 1 {
+            return singular.into();
+        }
+        assert_eq!(found["rows"], 0, "{found}");
+    }
+    Value::Null
+}
+
+/// What the page records of the design: that it is singular, as the platform shown first or as the equivalent that the page starts with.
+fn on_the_page(design: &str) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("page.html");
+    answered(&["view", design, "-o", page.to_str().unwrap(), "--core", "none"]);
+    let page = std::fs::read_to_string(page).unwrap();
+    let (_, data) = page.split_once("id=\"data\"").unwrap();
+    let (data, _) = data.split_once('>').unwrap().1.split_once("</script>").unwrap();
+    let open = serde_json::from_str::<Value>(data).unwrap()["recorded"]["open"].take();
+    open[if open["kind"] == "equivalent" { "start_singular" } else { "singular" }].clone()
+}
+
 /// Is the design architecturally singular, what is that proved about, and what follows from it?
-fn singular(path: &str) -> Vec<Answers> {
+fn singular(path: &str, with_page: bool) -> Vec<Answers> {
     let [mut singular, mut exit] = ["architecturally singular?", "exit code?"].map(Answers::to);
     let [mut rank, mut poses] = ["rank of the leg vectors?", "are there isolated poses?"].map(Answers::to);
+    let mut of_all = Answers::to("architecturally singular, by what shows or keeps it?");
     let (code, check) = answered(&["check", path]);
     // a design that is not singular is equivalent to itself
     let word = match check["architecturally_singular"].as_bool() {
@@ -223,11 +255,16 @@ fn singular(path: &str) -> Vec<Answers> {
     if components["error"].is_null() {
         rank.says("components", &components["leg_rank"]);
     }
+    of_all.says("check", &check["architecturally_singular"]);
+    of_all.says("sweep", &swept(path));
+    if with_page {
+        of_all.says("page", &on_the_page(path));
+    }
     if word != "undecided" {
         poses.says("what check says", &(word == "equivalent"));
         poses.says("pose count of check", &(check["pose_count"]["finite"] != 0));
     }
-    vec![singular, exit, exit_of_relations, rank, poses]
+    vec![singular, exit, exit_of_relations, rank, poses, of_all]
 }
 
 /// Are the designs equivalent?
@@ -267,7 +304,7 @@ fn no_two_commands_contradict_each_other() {
     for n in 0..count {
         let Some(drawn) = drawn(n) else { continue };
         let design = path("design.toml", &drawn.text);
-        let mut all = singular(&design);
+        let mut all = singular(&design, n % 3 == 2);
         if let Some(from) = &drawn.from {
             all.extend(equivalent(&path("from.toml", from), &design));
         }

@@ -91,6 +91,36 @@ fn a_joint_off_its_edge_is_refuted_by_all_commands_alike() {
     assert_eq!((code, word.as_str()), (Some(0), "equivalent"));
 }
 
+/// Two legs between the same two points are a platform that can be asked about, whether the points have one name or two.
+#[test]
+fn coincident_legs_are_singular_under_one_name_and_under_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let octahedral = std::fs::read_to_string("designs/rbt-octahedral.toml").unwrap();
+    let legs = octahedral.lines().find(|l| l.starts_with("legs")).unwrap();
+    let one = octahedral.replace(legs, "legs = [[\"P1\",\"P4\"],[\"P1\",\"P4\"],[\"P2\",\"P5\"],[\"P3\",\"P5\"],[\"P3\",\"P6\"],[\"P2\",\"P6\"]]");
+    let at = octahedral.lines().find(|l| l.starts_with("P1 = ")).unwrap();
+    let two = one
+        .replacen("[\"P1\",\"P4\"],[\"P1\"", "[\"P1\",\"P4\"],[\"P0\"", 1)
+        .replace(at, &format!("{at}\n{}", at.replace("P1 = ", "P0 = ")));
+    for (name, text) in [("one", one), ("two", two)] {
+        let path = folder.path().join(format!("{name}.toml"));
+        std::fs::write(&path, &text).unwrap();
+        let path = path.to_str().unwrap();
+        let (code, check) = asked(&["check", path]);
+        assert_eq!(
+            (code, &check["reason"], &check["leg_rank"]),
+            (Some(1), &"coincident_legs".into(), &5.into()),
+            "{name}: {check}"
+        );
+        let codes: Vec<&Value> = check["warnings"].as_array().unwrap().iter().map(|w| &w["code"]).collect();
+        assert!(codes.contains(&&"design::coincident_legs".into()), "{name}: {codes:?}");
+        let (code, map) = asked(&["equivalents", "map", path, path]);
+        assert_eq!((code, &map["relation"]), (Some(1), &"singular".into()), "{name}");
+        let (code, fk) = asked(&["fk", path, "--lengths", "18,18,17,16,18,17"]);
+        assert!(code == Some(0) || code == Some(3), "{name}: {fk}");
+    }
+}
+
 #[test]
 fn joints_1e_40_apart_are_four() {
     let (code, is_singular, level, doc) = checked("four-apart");

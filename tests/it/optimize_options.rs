@@ -120,7 +120,7 @@ fn every_option_of_optimize_changes_the_answer_or_is_refused() {
 #[ignore = "evidence"]
 fn every_option_of_explore_changes_the_answer_or_is_refused() {
     let named: BTreeSet<String> =
-        ["output", "samples", "extension", "drives", "seed"].map(str::to_owned).into();
+        ["output", "samples", "extension", "drives", "seed", "time-limit"].map(str::to_owned).into();
     assert_eq!(options("explore"), named, "an option without a case, or a case without an option");
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("drives.csv"), DRIVES).unwrap();
@@ -149,6 +149,7 @@ fn every_option_of_explore_changes_the_answer_or_is_refused() {
         &["--extension", "0", "--samples", "2"][..],
         &["--extension", "0", "--samples", "1", "--seed", "5"],
         &["--extension", "0", "--samples", "1", "--drives", "drives.csv"],
+        &["--extension", "0", "--samples", "1", "--time-limit", "0.01"],
     ] {
         let found = explored(&at_home(), more);
         assert!(found["error"].is_null() && found != base, "{more:?}: {}", found["error"]);

@@ -124,7 +124,7 @@ def rods(chromium, program, folder, pictures):
         picture(shown, pictures, "rods")
         shown.quiet()
     for width, dark in ((360, False), (390, True), (1360, True)):
-        with Opened(chromium, path, width=width, height=780, dark=dark, touch=width < 1000, judged=False) as shown:
+        with Opened(chromium, path, width=width, height=780, dark=dark, touch=width < 1000) as shown:
             if width < 1000:
                 access.narrow(shown)
             access.contrast(shown)
@@ -136,6 +136,7 @@ def required(chromium, program, folder, pictures):
     """A worked design: requirements with margins, a workspace of its own."""
     path = program.page(DESIGNS / "worked" / "positioner-joint-free.toml", folder / "worked.html")
     with Opened(chromium, path) as shown:
+        shown.judged()
         assert shown.page.locator("#margins tbody tr").count() > 0
         picture(shown, pictures, "worked")
         shown.quiet()
@@ -237,7 +238,7 @@ def hidden(chromium, program, folder, pictures):
     """The first view hides no leg."""
     for name in ("rbt-octahedral", "rbt-griffis-duffy", "general-6-6", "symmetric-hexapod", "presets/bench-l16", "presets/linuxcnc-hexapod"):
         path = program.page(DESIGNS / f"{name}.toml", folder / "hidden.html")
-        with Opened(chromium, path, judged=False) as shown:
+        with Opened(chromium, path) as shown:
             pair = shown.page.is_visible("#figure-second")
             poses.no_leg_hidden(shown, ["view-first", "view-second"][: 1 + pair])
 
@@ -358,13 +359,12 @@ def faults(chromium, program, folder, pictures):
         "a workspace that is not looked at": ("limits.regular.met === false", "true", lambda s: limits.as_assess(s, program, folder)),
         "pale text": ("--soft:#555c66", "--soft:#b5bcc6", access.contrast),
     }
-    judged = {"a shade that says nothing", "a workspace that is not looked at"}
     for name, (good, bad, check) in planted.items():
         assert good in whole, f"{name}: the place to plant it is gone"
         path = folder / "fault.html"
         path.write_text(unguarded(whole.replace(good, bad, 1)))
         try:
-            with Opened(chromium, path, judged=name in judged) as shown:
+            with Opened(chromium, path) as shown:
                 shown.page.wait_for_timeout(350)
                 check(shown)
         except AssertionError:

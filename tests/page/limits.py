@@ -11,7 +11,7 @@ BADGES = {True: "meets all requirements", None: "no violation found, not all pro
 def as_assess(shown, program, folder, which="equivalent"):
     """Badge, status and least margins are those of `equipod assess` for the design that the page saves."""
     page = shown.page
-    page.wait_for_function("!document.documentElement.dataset.busy", timeout=300000)
+    shown.judged()
     design = shown.download(f"{which}, TOML", folder / "assessed.toml")
     answer = program.json("assess", design, exits=(0, 1, 3))
     badge = page.text_content("#badge")
@@ -71,7 +71,6 @@ def at_its_worst(shown):
     row = page.locator("#margins tbody tr", has=page.locator("td:nth-child(2) .bad")).first
     assert "violated" not in row.locator("td").last.text_content()
     row.get_by_role("button", name="show pose").click()
-    shown.settle()
-    page.wait_for_function("!document.documentElement.dataset.busy", timeout=300000)
+    shown.judged()
     row = page.locator("#margins tbody tr", has=page.locator("td:nth-child(2) .bad")).first
     assert "violated" in row.locator("td").last.text_content(), row.text_content()

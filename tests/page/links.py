@@ -41,7 +41,7 @@ def refused(chromium, path):
         packed({"design": f"name = \"{evil}\""}), packed({"design": evil, "start": evil}), packed([1, 2]),
     ]
     for bomb in bombs:
-        with Opened(chromium, path, fragment=bomb, judged=False) as shown:
+        with Opened(chromium, path, fragment=bomb) as shown:
             note = shown.page.text_content("#note")
             assert "holds no design that can be opened" in note, (bomb[:60], note)
             assert shown.page.text_content("#name") == "octahedral 12-6"

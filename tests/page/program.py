@@ -52,7 +52,7 @@ def browser(playwright):
 class Opened:
     """A page in the browser with everything it complained about."""
 
-    def __init__(self, chromium, path, width=1360, height=900, dark=False, script=None, touch=False, fragment="", judged=True):
+    def __init__(self, chromium, path, width=1360, height=900, dark=False, script=None, touch=False, fragment=""):
         self.context = chromium.new_context(
             viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light",
             has_touch=touch, accept_downloads=True, reduced_motion="reduce",
@@ -67,13 +67,18 @@ class Opened:
         self.url = Path(path).resolve().as_uri()
         self.page.goto(self.url + fragment)
         self.page.wait_for_selector("html[data-ready]", timeout=30000)
-        # the judgement of the whole workspace comes last, and takes longest
-        self.settle() if judged else self.drawn()
+        self.settle()
 
     def settle(self):
-        """Waits until bursts of changes are answered and drawn."""
+        """Waits until bursts of changes are answered and drawn; not for the judgement of the workspace, which takes longest."""
         self.page.wait_for_timeout(350)
         self.page.wait_for_selector("html:not([data-busy])", state="attached", timeout=120000)
+        self.drawn()
+
+    def judged(self):
+        """Waits until the workspace is judged as well."""
+        self.settle()
+        self.page.wait_for_selector("html:not([data-busy]):not([data-judging])", state="attached", timeout=300000)
         self.drawn()
 
     def drawn(self):

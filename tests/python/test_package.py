@@ -1,5 +1,6 @@
 """The installed package: arrays in and out, evidence, errors, long work."""
 
+import copy
 import json
 import pathlib
 import pickle
@@ -160,6 +161,32 @@ def test_a_tracker_keeps_its_mode_and_stops_at_singularities(octahedral):
     lost = tracker.step([1.0, 100.0, 1.0, 100.0, 1.0, 100.0])
     assert lost.status != "tracked" and 0 <= lost.fraction < 1
     assert np.array_equal(tracker.T, track.T[-1])
+
+
+def test_equal_designs_hash_equally(octahedral):
+    again = equipod.Design.loads(octahedral.dumps())
+    assert again == octahedral and hash(again) == hash(octahedral) and len({again, octahedral}) == 1
+    other = equipod.Design.load(DESIGNS / "general-6-6.toml")
+    assert other != octahedral and len({other, octahedral}) == 2
+
+
+def test_trackers_and_solutions_are_copied_and_pickled(octahedral):
+    tracker = octahedral.tracker()
+    start, lengths = tracker.T, octahedral.ik(octahedral.home)
+    for twin in (copy.copy(tracker), copy.deepcopy(tracker), pickle.loads(pickle.dumps(tracker))):
+        assert np.allclose(twin.T, start, atol=1e-12)
+        assert twin.step(lengths * 1.01).status == "tracked"
+        assert np.array_equal(tracker.T, start) and not np.allclose(twin.T, start)
+    found = octahedral.fk(lengths, seed=3)
+    again = pickle.loads(pickle.dumps(found))
+    assert np.array_equal(again.T, found.T) and again.record == found.record
+
+
+def test_a_self_motion_is_seen_in_the_solutions(octahedral):
+    assert octahedral.fk(octahedral.ik(octahedral.home)).self_motion == 0
+    moving = equipod.Design.load(FIXTURES / "verdicts" / "shares-30-70.toml")
+    found = moving.fk(moving.ik(moving.home))
+    assert found.self_motion == 1 and found.record.solution_set == "positive_dimensional"
 
 
 def test_forms_of_poses_agree_with_scipy():

@@ -7,6 +7,7 @@ use super::build::drives;
 use crate::cli::context::Context;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
+use crate::cli::progress::ProgressLine;
 use crate::cli::requirements;
 use crate::entrance::Error;
 use crate::records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
@@ -51,7 +52,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         .steps(args.steps as usize)
         .searches(args.searches as usize)
         .seed(context.seed());
-    let found = design.assess_by(&options, args.cells.map(|n| n as usize)).map_err(|e| match e {
+    let mut progress = ProgressLine::new(context.quiet());
+    let cells = args.cells.map(|n| n as usize);
+    let found = design.assess_by(&options, cells, &mut |stage| progress.note(&stage.to_string()));
+    progress.end();
+    let found = found.map_err(|e| match e {
         Error::NothingRequired => {
             let help =
                 "add [hardware] with lengths, swing, diameters or greatest forces; see docs/design-files.md";

@@ -38,10 +38,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 fn headline(found: &CheckReport) -> String {
     let name = &found.design.name;
     match (found.meant(), found.is_singular()) {
-        (Some(n), _) => match n.within_digits.filter(|_| !n.within_rounding) {
-            Some(half) => format!("{name}: singular to the digits given ({half} {})", found.design.units),
-            None => format!("{name}: singular within rounding ({:.1e} {})", n.distance, found.design.units),
-        },
+        (Some(n), _) => format!("{name}: {}", n.words(&found.design.units)),
         (None, Some(true)) => format!("{name}: architecturally singular"),
         (None, Some(false)) => format!("{name}: regular"),
         (None, None) => format!("{name}: not decided"),

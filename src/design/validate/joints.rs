@@ -167,7 +167,7 @@ pub(super) fn legs(
     }
     let pairs: Vec<Option<(usize, usize)>> =
         list.iter().enumerate().map(|(i, node)| pair(report, i, node, base, platform)).collect();
-    refuse_identical(report, list, &pairs, base, platform);
+    warn_coincident_legs(report, list, &pairs, base, platform);
     let pairs: Vec<(usize, usize)> = pairs.into_iter().collect::<Option<_>>()?;
     let pairs: [(usize, usize); 6] = pairs.try_into().ok()?;
     for (body, used) in [(base, pairs.map(|p| p.0)), (platform, pairs.map(|p| p.1))] {
@@ -226,7 +226,8 @@ fn lookup(
     None
 }
 
-fn refuse_identical(
+/// Two legs between the same two points: an architecturally singular platform, which can be asked about all the same.
+fn warn_coincident_legs(
     report: &mut Findings<'_>,
     list: &[Node],
     pairs: &[Option<(usize, usize)>],
@@ -235,15 +236,11 @@ fn refuse_identical(
 ) {
     let mut seen: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (i, pair) in pairs.iter().enumerate() {
-        let Some(pair) = pair else { continue };
-        if let Some(first) = seen.get(pair) {
-            let (a, b) = (shown(&base.joints[pair.0].name), shown(&platform.joints[pair.1].name));
-            let message = format!("legs {} and {} both join {a} to {b}", first + 1, i + 1);
-            let help =
-                "each leg needs its own pair of joints; with two equal legs the platform is never rigid";
-            report.refuse(Code::IdenticalLegs, &list[i].span, message, help);
-        } else {
-            seen.insert(*pair, i);
+        let Some((a, b)) = *pair else { continue };
+        let first = *seen.entry((base.first_there[a], platform.first_there[b])).or_insert(i);
+        if first != i {
+            let line = report.line(list[i].span.start);
+            report.warn(Warning::CoincidentLegs { legs: [first + 1, i + 1], line });
         }
     }
 }

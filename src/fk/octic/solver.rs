@@ -117,8 +117,7 @@ impl OcticSolver {
     /// [`FkError::NotApplicable`] when it is not octahedral.
     pub fn new(m: &Manipulator) -> Result<Self, FkError> {
         let refuse = |reason: String| FkError::NotApplicable { method: Method::Octic, reason };
-        let merged = m.with_merged_joints().map_err(|e| refuse(e.to_string()))?;
-        let octahedral = Octahedral::recognise(&merged).map_err(|e| refuse(e.to_string()))?;
+        let octahedral = Octahedral::recognise(&m.with_merged_joints()).map_err(|e| refuse(e.to_string()))?;
         let size = m.size();
         let base_corners = octahedral.base().map(|p| p.coords / size);
         let platform_corners = octahedral.platform().map(|p| p.coords / size);

@@ -20,7 +20,7 @@ class App {
       confirm: new Task(say("modes-words", "Solving for both platforms …")),
       motion: new Task(say("motion-words", "Looking for a self-motion through this pose …")),
       worst: new Task(() => { this.worst = null; this.soon(); }),
-      limits: new Task(() => this.soon()),
+      limits: new Task(() => this.soon(), "judging"),
       feasible: new Task(() => this.soon()),
       locus: new Task(say("locus-words", "Looking for the singular positions …")),
     };
@@ -246,7 +246,7 @@ class App {
     const locus = this.singularPositions(state);
     this.views[0].draw(first, { ghost: ghosts[0], names, hardware, locus });
     // those of a regular equivalent are the same
-    const same = state.map && !Limits.nearlyZero(state.map.det);
+    const same = state.map && !Limits.singular(this, state);
     if (second) this.views[1].draw(second, { original: first, ghost: ghosts[1], names, hardware, locus: same ? locus : null });
     const what = (p) => (this.cranks ? `crank angles ${Cranks.angles(p)?.map((x) => show(x, 4)).join(", ") || "none"} degrees` : `leg lengths ${p.lengths.map((x) => show(x, 4)).join(", ")}${unit(this.open.units)}`);
     const place = (p) => `3D view of ${p.name}: ${what(p)}. Arrow keys turn it.`;
@@ -316,7 +316,7 @@ class App {
     if (state.map) {
       const singular = Math.abs(state.map.det) < open.limits.det;
       list.push({ name: "det A of the leg map", id: "det", exact: state.map.det, wide: true, value: show(state.map.det), tone: singular ? "bad" : "good",
-        unit: Math.abs(state.map.det) < 1e-12 ? "singular: this platform cannot be held at any pose" : singular ? `below ${show(open.limits.det)}: too close to a singular platform` : "regular: same poses as the original" });
+        unit: Limits.singular(this, state) ? "singular: this platform cannot be held at any pose" : singular ? `below ${show(open.limits.det)}: too close to a singular platform` : "regular: same poses as the original" });
     }
     const both = (a, b) => (second ? `${a} · ${b}` : a);
     const pair = second ? "original · equivalent" : "";

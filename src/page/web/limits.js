@@ -12,7 +12,9 @@ const Limits = {
   verdict({ app, state }) {
     const { open, limits } = app;
     const second = state.platforms.length > 1;
-    if (second ? Limits.nearlyZero(state.map.det) : open.singular) return ["bad", "architecturally singular"];
+    const singular = second ? Limits.singular(app, state) : open.singular;
+    if (singular) return ["bad", "architecturally singular"];
+    if (!second && open.singular === null && open.reason) return ["", open.reason];
     if (!limits) return ["", app.core.live ? "workspace: being looked at" : "workspace: not looked at"];
     if (limits.error) return limits.error.code === "nothing_required" ? ["", "no requirements"] : ["", "workspace: not looked at"];
     if (limits.regular.met === false) return ["bad", "singular pose in the workspace"];
@@ -21,16 +23,21 @@ const Limits = {
     return ["", limits.whole ? "no violation found, not all proved" : "no violation found so far"];
   },
 
-  nearlyZero: (det) => Math.abs(det) < 1e-12,
+  /** Whether the equivalent shown is singular: proved about the joints of the file where it is the design itself, else by det A. */
+  singular(app, state) {
+    const { start, start_singular: proved } = app.open;
+    const own = proved !== null && app.pattern.id === start.pattern && app.offsets.every((t, k) => t === start.offsets[k]);
+    return own ? proved : Math.abs(state.map.det) < 1e-12;
+  },
 
   /** What the figures say of each platform by itself. */
   regularity({ app, state, k }) {
     const { open } = app;
     if (app.cranks) return Cranks.reached(state.platforms[0].cranks);
+    if (k === 0 && open.singular === null) return ["", open.reason];
     if (k === 0) return open.singular ? ["bad", "architecturally singular"] : ["good", "architecturally regular"];
-    const { det } = state.map;
-    if (open.singular || Limits.nearlyZero(det)) return ["bad", "architecturally singular"];
-    return Math.abs(det) < open.limits.det ? ["bad", "close to singular"] : ["good", "architecturally regular"];
+    if (open.singular || Limits.singular(app, state)) return ["bad", "architecturally singular"];
+    return Math.abs(state.map.det) < open.limits.det ? ["bad", "close to singular"] : ["good", "architecturally regular"];
   },
 
   /** The sentence above the table. */

@@ -13,9 +13,10 @@ function serve() {
 }
 
 class Task {
-  /** `wait()` is called when an answer takes long enough to be told of. */
-  constructor(wait) {
+  /** `wait()` is called when an answer takes long enough to be told of; `word` is what is said on the root element meanwhile. */
+  constructor(wait, word = "busy") {
     this.wait = wait;
+    this.word = word;
     this.number = 0;
     this.job = null;
     this.worker = null;
@@ -101,11 +102,14 @@ class Task {
     if (this.job?.sent) this.send();
   }
 
-  /** Says on the root element whether something is being computed, and where. */
+  /** Says on the root element whether something is being computed, and where: the judgement of the workspace, which takes longest, apart. */
   static mark() {
     const { dataset } = document.documentElement;
-    if (Task.working.size) dataset.busy = Task.possible ? "worker" : "page";
-    else delete dataset.busy;
+    const at_work = new Set([...Task.working].map((task) => task.word));
+    for (const word of ["busy", "judging"]) {
+      if (at_work.has(word)) dataset[word] = Task.possible ? "worker" : "page";
+      else delete dataset[word];
+    }
   }
 }
 

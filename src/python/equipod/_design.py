@@ -244,14 +244,29 @@ class Track(NamedTuple):
     reason: str | None
 
 
+def _tracking(design: Design, at: Floats) -> Tracker:
+    return design.tracker(at)
+
+
 class Tracker:
     """Follows one real pose from lengths to lengths, never to another assembly mode; where a singularity is in the way it stays where it was.
 
     Of a design whose drive is rotary it takes angles of the cranks where it says lengths.
     """
 
-    def __init__(self, native: _core.Tracker) -> None:
+    def __init__(self, native: _core.Tracker, design: Design) -> None:
         self._native = native
+        self._design = design
+
+    def __copy__(self) -> Tracker:
+        """A tracker at the same place, which moves by itself."""
+        return Tracker(self._native.__copy__(), self._design)
+
+    def __deepcopy__(self, memo: object) -> Tracker:
+        return self.__copy__()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_tracking, (self._design, self.T))
 
     @property
     def T(self) -> Floats:
@@ -487,7 +502,8 @@ class Design:
         array = _lengths(lengths)
         if array.shape != (6,):
             raise DesignError(f"fk takes six lengths, not {array.shape}: use fk_batch for many", code="shape")
-        return Solutions(self._native.fk(array.tolist(), seed, method))
+        six: list[float] = array.tolist()
+        return Solutions(self._native.fk(six, seed, method), (self, six, seed, method))
 
     def fk_batch(self, lengths: npt.ArrayLike, *, threads: int | None = None) -> BatchSolutions:
         """Forward kinematics of many sets of lengths; the design is prepared once.
@@ -512,7 +528,7 @@ class Design:
     def tracker(self, start: PoseLike | None = None) -> Tracker:
         """Follows one real pose from lengths to lengths, from `start` (home when absent); where the drive is rotary from angles to angles."""
         pose = self.home if start is None else as_matrices(start)
-        return Tracker(self._native.tracker(np.ascontiguousarray(pose).reshape(1, 4, 4)))
+        return Tracker(self._native.tracker(np.ascontiguousarray(pose).reshape(1, 4, 4)), self)
 
     def margins(self, poses: PoseLike) -> Margins:
         """By how much the requirements are met at poses; for the whole workspace, with proof, there is `assess`.
@@ -899,7 +915,11 @@ class Design:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Design) and self._native == other._native
 
-    __hash__ = object.__hash__
+    def __hash__(self) -> int:
+        joints = self.joints
+        # -0.0 and 0.0 are equal and have other bytes
+        places = [(side + 0.0).tobytes() for side in (joints.base, joints.platform)]
+        return hash((self.name, self.units, *places, joints.base_names, joints.platform_names))
 
     def __repr__(self) -> str:
         joints = self.joints

@@ -17,6 +17,7 @@ from ._poses import Floats, PoseLike, as_matrices
 if TYPE_CHECKING:
     import pyarrow  # type: ignore[import-untyped]
 
+    from ._design import Design
     from .records import CertificateRecord, FkAnswer
 
 COMPLETENESS = {2: "proved", 1: "modular", 0: "unproved", -1: "failed"}
@@ -60,6 +61,10 @@ class Solution:
         return f"Solution({kind}, {'certified' if self.certified else 'no certificate'}, p=({position}))"
 
 
+def _solved(design: Design, lengths: list[float], seed: int, method: str | None) -> Solutions:
+    return design.fk(lengths, seed=seed, method=method)
+
+
 class Solutions(Sequence[Solution]):
     """All finite poses, real and complex, with one set of leg lengths; real ones first.
 
@@ -81,8 +86,14 @@ class Solutions(Sequence[Solution]):
 
     # the arrays are made when they are first asked for: a control loop reads one or two of them
 
-    def __init__(self, native: _core.Solutions) -> None:
+    def __init__(self, native: _core.Solutions, question: tuple[Design, list[float], int, str | None]) -> None:
         self._native = native
+        self._question = question
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # computed again where it is read: the same question has the same answer
+        design, lengths, seed, method = self._question
+        return (_solved, (design, lengths, seed, method))
 
     @cached_property
     def T(self) -> npt.NDArray[np.complex128]:
@@ -129,6 +140,11 @@ class Solutions(Sequence[Solution]):
     def reason(self) -> str:
         """One sentence on what is known of completeness."""
         return self._native.reason()
+
+    @property
+    def self_motion(self) -> int:
+        """Dimension of the curve or surface of poses that the platform has with these lengths, as it was seen: at least so many; 0 where poses are isolated. Points of it are ``record.witness_points``."""
+        return self._native.dimension()
 
     @property
     def method(self) -> str:

@@ -37,7 +37,7 @@ use self::joint_offsets::JointOffsets;
 use self::verdict::ReserveBound;
 use super::Requirements;
 use super::assess::{AssessOptions, Assessment, Margin, assess};
-use super::term::Terms;
+use super::term::{TermKind, Terms};
 use crate::geom::enclosed::{IntervalVector, dot};
 use crate::geom::{Chart, PoseSpace};
 use crate::manipulator::{Body, Manipulator};
@@ -57,6 +57,51 @@ pub fn prove(
     o: &AssessOptions,
     cells: usize,
 ) -> MarginProof {
+    prove_telling(m, required, space, (o, cells), &mut |_| {})
+}
+
+/// What a judgement is about to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AssessStage {
+    /// Looks for the worst pose of each requirement.
+    Searches,
+    /// Bounds the margins of a requirement over the whole workspace.
+    Bounds {
+        /// The requirement.
+        kind: TermKind,
+        /// Its number, from 1.
+        number: usize,
+        /// How many there are.
+        of: usize,
+    },
+    /// Bounds `det J`, or what rods have in its place.
+    SingularPoses,
+    /// Looks for the worst conditioning.
+    Conditioning,
+}
+
+impl std::fmt::Display for AssessStage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Searches => f.write_str("looking for the worst poses"),
+            Self::Bounds { kind, number, of } => {
+                write!(f, "bounding {} over the workspace, requirement {number} of {of}", kind.code())
+            }
+            Self::SingularPoses => f.write_str("looking for singular poses in the workspace"),
+            Self::Conditioning => f.write_str("looking for the worst conditioning"),
+        }
+    }
+}
+
+/// As [`prove`], with `(options, cells)`, and says what it is about to do.
+pub(crate) fn prove_telling(
+    m: &Manipulator,
+    required: &Requirements,
+    space: &PoseSpace,
+    (o, cells): (&AssessOptions, usize),
+    tell: &mut dyn FnMut(AssessStage),
+) -> MarginProof {
+    tell(AssessStage::Searches);
     let Assessment { margins, poses } = assess(m, required, space, o);
     let terms = Terms::new(m, required, &space.home);
     let charts = Chart::all(space);
@@ -81,12 +126,21 @@ pub fn prove(
         close: false,
     };
     let judge = CellJudge { charts, close: o.close, ..patient };
-    let mut bounds: Vec<MarginBound> =
-        margins.iter().map(|margin| judge.proved(*margin, cells, o.seed)).collect();
+    let of = margins.len();
+    let mut bounds: Vec<MarginBound> = Vec::with_capacity(of);
+    for (number, margin) in (1..).zip(&margins) {
+        tell(AssessStage::Bounds { kind: margin.term.kind, number, of });
+        bounds.push(judge.proved(*margin, cells, o.seed));
+    }
     // of a design that misses something no more has to be known
     let missed = |b: &MarginBound| b.verdict == MarginVerdict::Violated || b.keeps_reserve() == Some(false);
     if o.patient_cells > cells && !bounds.iter().any(missed) {
-        for bound in bounds.iter_mut().filter(|b| !b.is_decided() && !b.found.term.kind.is_fixed()) {
+        for (number, bound) in (1..).zip(&mut bounds) {
+            let kind = bound.found.term.kind;
+            if bound.is_decided() || kind.is_fixed() {
+                continue;
+            }
+            tell(AssessStage::Bounds { kind, number, of });
             let more = patient.proved(bound.found, o.patient_cells, o.seed);
             *bound =
                 MarginBound { below: more.below.max(bound.below), cells: bound.cells + more.cells, ..more };

@@ -15,7 +15,7 @@
 use nalgebra::{DMatrix, Matrix6, Quaternion, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3, Vector6};
 
 use crate::geom::Pose;
-use crate::manipulator::{JointKnowledge, Manipulator};
+use crate::manipulator::Manipulator;
 use crate::num::Rng;
 use crate::num::interval::Interval;
 use crate::num::small::bounded_svd;
@@ -150,18 +150,15 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
 /// Whether the leg lines are proved to have the same rank at the pose and at all poses around it, and this is below
 /// six.
 ///
-/// No pose has a greater rank than almost all poses have, and the rank does not fall near a pose. Exact joints are
-/// left to tracing: the doubles that
-/// stand for them decide nothing about them.
+/// No pose has a greater rank than almost all poses have, and the rank does not fall near a pose. The rank at the pose is proved for all joints between their bounds, that of almost all
+/// poses about the exact joints.
 fn has_generic_rank(m: &Manipulator, local: &Local, split: &Split) -> bool {
     let k = split.corank();
-    if k == 0
-        || m.joint_knowledge() != JointKnowledge::Doubles
-        || Inverted::of(&local.rows(), split, k).is_none()
-    {
+    if k == 0 || Inverted::of(&local.rows(), split, k).is_none() {
         return false;
     }
-    Architecture::of(m).jacobian.rank == 6 - k
+    let architecture = Architecture::of(m);
+    architecture.level.is_some() && architecture.jacobian.rank == 6 - k
 }
 
 type Vector = [Interval; 3];

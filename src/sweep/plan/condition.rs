@@ -4,7 +4,7 @@ use crate::sweep::column::{ColumnKind, SweepCell, SweepColumn};
 
 /// A comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum KeepComparison {
+pub(crate) enum KeepComparison {
     Less,
     AtMost,
     Equal,
@@ -32,19 +32,29 @@ pub(crate) struct KeepCondition {
     value: SweepCell,
 }
 
+/// What to write for a condition.
+const FORM: &str = "write a column, one of < <= == != >= >, and a value: \"conditioning >= 0.1\"";
+
 impl KeepCondition {
+    /// A condition as column, comparison and value.
+    ///
+    /// # Errors
+    /// That there is no comparison, and what to do.
+    pub(crate) fn parts(text: &str) -> Result<(&str, KeepComparison, &str), (String, String)> {
+        let place = SIGNS.iter().filter_map(|sign| Some((text.find(sign.0)?, sign)));
+        // of signs at one place the longer one, which stands first
+        let Some((at, (sign, comparison))) = place.min_by_key(|(at, _)| *at) else {
+            return Err((format!("`{text}` compares nothing"), FORM.into()));
+        };
+        Ok((text[..at].trim(), *comparison, text[at + sign.len()..].trim()))
+    }
+
     /// Reads a condition about one of these columns.
     ///
     /// # Errors
     /// What is wrong with it, and what to do.
     pub(crate) fn read(text: &str, columns: &[SweepColumn]) -> Result<Self, (String, String)> {
-        let form = "write a column, one of < <= == != >= >, and a value: \"conditioning >= 0.1\"";
-        let place = SIGNS.iter().filter_map(|sign| Some((text.find(sign.0)?, sign)));
-        // of signs at one place the longer one, which stands first
-        let Some((at, (sign, comparison))) = place.min_by_key(|(at, _)| *at) else {
-            return Err((format!("`{text}` compares nothing"), form.into()));
-        };
-        let (name, value) = (text[..at].trim(), text[at + sign.len()..].trim());
+        let (name, comparison, value) = Self::parts(text)?;
         let Some(column) = columns.iter().position(|c| c.name == name) else {
             let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
             let help = crate::design::spanned::nearest_help("columns of this plan", name, &names);
@@ -61,14 +71,14 @@ impl KeepCondition {
         let Some(value) = read else {
             return Err((
                 format!("`{value}` is not a {} to compare `{name}` with", kind.name()),
-                form.into(),
+                FORM.into(),
             ));
         };
         let ordered = !matches!(comparison, KeepComparison::Equal | KeepComparison::Unequal);
         if ordered && matches!(kind, ColumnKind::Truth | ColumnKind::Text) {
-            return Err((format!("`{name}` has no order: compare it with == or !="), form.into()));
+            return Err((format!("`{name}` has no order: compare it with == or !="), FORM.into()));
         }
-        Ok(Self { column, comparison: *comparison, value })
+        Ok(Self { column, comparison, value })
     }
 
     /// Whether a row satisfies it, its cells up to this column known.

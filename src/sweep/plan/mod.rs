@@ -125,6 +125,8 @@ pub(crate) enum SweepTask {
     HomeConditioning,
     /// Least distances of two joints of a body.
     Spacing,
+    /// How many joints carry more than one leg.
+    SharedJoints,
     /// The least gap of two legs over the poses.
     Clearance,
     /// Least and greatest length over legs and poses.
@@ -188,11 +190,12 @@ impl AnswerName {
 }
 
 /// The words for what is computed, with what they stand for.
-pub(crate) const TASK_WORDS: [(&str, SweepTask); 17] = [
+pub(crate) const TASK_WORDS: [(&str, SweepTask); 18] = [
     ("det_a", SweepTask::DetA),
     ("conditioning", SweepTask::Conditioning),
     ("home_conditioning", SweepTask::HomeConditioning),
     ("spacing", SweepTask::Spacing),
+    ("shared_joints", SweepTask::SharedJoints),
     ("clearance", SweepTask::Clearance),
     ("length_range", SweepTask::LengthRange),
     ("lengths", SweepTask::Lengths),
@@ -244,6 +247,12 @@ impl SweepTask {
                     "least distance of two joint centres of the platform",
                 ),
             ],
+            Self::SharedJoints => vec![SweepColumn::new(
+                "shared_joints",
+                ColumnKind::Integer,
+                None,
+                "joints of base and platform that carry more than one leg",
+            )],
             Self::Clearance => vec![number(
                 "clearance",
                 Some(units),

@@ -97,19 +97,45 @@ impl PlanBlock {
     }
 }
 
+impl PlanBlock {
+    /// Whether offsets from number `used` on have their first values in candidate `j` of the block: those of a grid each by itself, those of lists and points where nothing else varies
+    /// with them.
+    fn has_first_of_unused(&self, used: usize, mut j: u64) -> bool {
+        let unused = |axis: &PlanAxis| matches!(axis.quantity, FreeQuantity::Offset(i) if i >= used);
+        if self.spreading != Spreading::Grid {
+            return j == 0 || !self.axes.iter().all(unused);
+        }
+        self.axes.iter().rev().all(|axis| {
+            let at = j % axis.values.len();
+            j /= axis.values.len();
+            at == 0 || !unused(axis)
+        })
+    }
+}
+
 impl SweepPlan {
-    /// The values of the free quantities of candidate `k`, in the order of their columns: candidate `j` of each block, of which the last one is the fastest.
-    ///
-    /// They depend on the plan, the seed and `k` alone.
-    pub(crate) fn values(&self, seed: u64, k: u64) -> Vec<SweepCell> {
+    /// Candidate `j` of each block, the last one the fastest, that candidate `k` is made of.
+    fn of_blocks(&self, k: u64) -> Vec<u64> {
         let mut numbers = vec![0; self.blocks.len()];
         let mut rest = k;
         for (number, block) in numbers.iter_mut().zip(&self.blocks).rev() {
             *number = rest % block.count;
             rest /= block.count;
         }
+        numbers
+    }
+
+    /// Whether candidate `k` is the first of those that differ only in offsets from number `used` on, as far as blocks tell: of points that mix them with other quantities all are.
+    pub(crate) fn has_first_of_unused(&self, k: u64, used: usize) -> bool {
+        self.blocks.iter().zip(self.of_blocks(k)).all(|(block, j)| block.has_first_of_unused(used, j))
+    }
+
+    /// The values of the free quantities of candidate `k`, in the order of their columns: candidate `j` of each block, of which the last one is the fastest.
+    ///
+    /// They depend on the plan, the seed and `k` alone.
+    pub(crate) fn values(&self, seed: u64, k: u64) -> Vec<SweepCell> {
         let mut out = Vec::new();
-        for (b, (block, j)) in self.blocks.iter().zip(numbers).enumerate() {
+        for (b, (block, j)) in self.blocks.iter().zip(self.of_blocks(k)).enumerate() {
             block.values((seed, b), j, &mut out);
         }
         out

@@ -18,6 +18,8 @@ use crate::sweep::SweepCell;
 const PAGE: &str = "report.html";
 /// Designs written, at most: the page compares all of them.
 const MOST: u64 = 50;
+/// Candidates looked at for each design that is asked for: several may be one design.
+const SPARE: usize = 20;
 
 /// Arguments of `sweep best`.
 #[derive(Debug, clap::Args)]
@@ -65,25 +67,35 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         }
         ranked.push((value, k.cast_unsigned()));
         // what is kept does not grow with the table
-        if ranked.len() >= 2 * count {
+        if ranked.len() >= 2 * SPARE * count {
             ranked.sort_by(better);
-            ranked.truncate(count);
+            ranked.truncate(SPARE * count);
         }
     })?;
     ranked.sort_by(better);
-    ranked.truncate(count);
+    ranked.truncate(SPARE * count);
     let (mut candidates, mut paths, mut lines) = (Vec::new(), Vec::new(), Vec::new());
     if !ranked.is_empty() {
         files::make_folder(&args.output)?;
         folder.write_poses(&sweep, &args.output)?;
     }
-    for (place, (value, k)) in (1..).zip(ranked) {
+    let mut texts: Vec<String> = Vec::new();
+    for (value, k) in ranked {
+        if texts.len() == count {
+            break;
+        }
         let text = sweep.design_text(k).map_err(|why| {
             Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} makes no design: {why}"))
         })?;
+        // candidates may differ in lengths and poses alone, which are not those of the design
+        if texts.contains(&text) {
+            continue;
+        }
+        let place = texts.len() + 1;
         // the page has files in the order of their names
         let path = args.output.join(format!("{place:02}-candidate-{k}.toml"));
         files::write_text(&path, &text)?;
+        texts.push(text);
         let output = path.display().to_string();
         lines.push(format!("{output}  {} {}\n", args.by, significant(value)));
         candidates.push(SweepBestRecord { candidate: k, value: value.into(), output });

@@ -88,11 +88,21 @@ impl Reader<'_, '_> {
             );
             return None;
         }
-        let by = by?;
-        let grid = by == Spreading::Grid;
+        // where nobody knows how the quantities vary, ranges are taken as they are written
+        let counted =
+            |e: &Entry| matches!(&e.node.value, Value::Table(keys) if find(keys, "count").is_some());
+        let grid = by.map_or_else(|| leaves.iter().any(|(_, e)| counted(e)), |by| by == Spreading::Grid);
         let axes: Vec<Option<Vec<PlanAxis>>> =
             leaves.iter().map(|(path, entry)| self.axes(path, entry, grid)).collect();
-        let axes: Vec<PlanAxis> = axes.into_iter().collect::<Option<Vec<_>>>()?.concat();
+        let axes = axes.into_iter().collect::<Option<Vec<_>>>();
+        let (Some(by), Some(axes)) = (by, axes) else {
+            let of_points = by.is_none_or(|by| matches!(by, Spreading::Points(_)));
+            if let Some(entry) = find(entries, "count").filter(|_| of_points) {
+                self.whole(entry, MOST);
+            }
+            return None;
+        };
+        let axes: Vec<PlanAxis> = axes.concat();
         let count = self.block_count(node, entries, by, &axes)?;
         if by == Spreading::Points(PointSpread::Sobol) && axes.len() > DIMENSIONS {
             let message = format!("{} quantities of one Sobol sequence", axes.len());

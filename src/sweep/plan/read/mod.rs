@@ -6,7 +6,7 @@ mod quantities;
 mod settings;
 mod tasks;
 
-use super::{BaseName, BasePlan, PlanFiles, PlanText, SweepPlan};
+use super::{BaseName, BasePlan, PlanFiles, PlanText, PoseChoice, SweepPlan};
 use crate::design::spanned::{
     Entry, Findings, Node, Span, Value, check_keys, find, nearest_help, number, read as read_tree, shown,
     text,
@@ -164,18 +164,23 @@ impl Reader<'_, '_> {
         let steps = find(entries, "steps").map_or(Some(STEPS), |e| self.whole(e, 1_000_000));
         let blocks = self.blocks(root, find(entries, "vary"));
         let tasks = self.tasks(root, find(entries, "compute"));
-        if !self.report.is_clean() {
+        let keep = find(entries, "keep");
+        let (Some(blocks), Some(tasks)) = (blocks, tasks) else {
+            if let Some(keep) = keep {
+                self.keep(keep, None);
+            }
             return None;
-        }
+        };
+        // where one of these is missing the plan is refused, and the rest is looked at all the same
         let mut plan = SweepPlan {
-            name: name?,
+            name: name.unwrap_or_default(),
             description,
-            blocks: blocks?,
-            poses: poses?,
-            assess: assess?,
-            accuracy: accuracy?,
-            steps: steps? as usize,
-            tasks: tasks?,
+            blocks,
+            poses: poses.unwrap_or(PoseChoice::Home),
+            assess: assess.unwrap_or_default(),
+            accuracy: accuracy.unwrap_or_default(),
+            steps: steps.unwrap_or(STEPS) as usize,
+            tasks,
             keep: Vec::new(),
         };
         let place = find(entries, "vary").map_or(root.span.clone(), |e| e.key_span.clone());
@@ -184,8 +189,8 @@ impl Reader<'_, '_> {
         self.quantities(&plan, &place);
         self.computable(&plan, &computed);
         let columns = self.columns(&plan, &computed);
-        if let Some(keep) = find(entries, "keep") {
-            plan.keep = self.keep(keep, &columns)?;
+        if let Some(keep) = keep {
+            plan.keep = self.keep(keep, Some(&columns))?;
         }
         Some(plan)
     }

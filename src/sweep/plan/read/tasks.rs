@@ -88,7 +88,12 @@ impl Reader<'_, '_> {
         Some(AnswerField { column, answer, path: path.collect(), kind, unit })
     }
 
-    pub(super) fn keep(&mut self, entry: &Entry, columns: &[SweepColumn]) -> Option<Vec<KeepCondition>> {
+    /// The conditions; where the columns are not known, because the plan is refused, only their form is looked at.
+    pub(super) fn keep(
+        &mut self,
+        entry: &Entry,
+        columns: Option<&[SweepColumn]>,
+    ) -> Option<Vec<KeepCondition>> {
         let form = "write keep = [\"conditioning >= 0.1\"]";
         let list = self.list(&entry.node, "`keep`", form)?;
         let mut keep = Vec::new();
@@ -102,8 +107,12 @@ impl Reader<'_, '_> {
                 );
                 continue;
             };
-            match KeepCondition::read(condition, columns) {
-                Ok(condition) => keep.push(condition),
+            let read = match columns {
+                Some(columns) => KeepCondition::read(condition, columns).map(Some),
+                None => KeepCondition::parts(condition).map(|_| None),
+            };
+            match read {
+                Ok(condition) => keep.extend(condition),
                 Err((message, help)) => self.refuse(Code::Expression, &node.span, message, help),
             }
         }
