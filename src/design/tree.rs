@@ -88,12 +88,18 @@ fn refuse_directions(node: &Node, report: &mut Findings<'_>) {
     };
     match &node.value {
         Value::Text(text) => refuse(text, &node.span),
-        Value::Array(list) => list.iter().for_each(|node| refuse_directions(node, report)),
+        Value::Array(list) => {
+            for node in list {
+                refuse_directions(node, report);
+            }
+        }
         Value::Table(entries) => {
             for entry in entries {
                 refuse(&entry.key, &entry.key_span);
             }
-            entries.iter().for_each(|entry| refuse_directions(&entry.node, report));
+            for entry in entries {
+                refuse_directions(&entry.node, report);
+            }
         }
         Value::Number(_) | Value::Other(_) => {}
     }

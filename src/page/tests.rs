@@ -556,3 +556,28 @@ fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths()
         assert_eq!(ask(&session, &asked)["error"]["code"], json!("rotary"), "{op}");
     }
 }
+
+/// What the page calls singular is what `check` calls so, about the joints of the file, for the platform shown first and for the equivalent that it starts with.
+#[test]
+fn the_page_says_of_the_joints_of_the_file_what_check_says() {
+    let opened = |name: &str| {
+        let text = std::fs::read_to_string(format!("tests/fixtures/verdicts/{name}.toml")).unwrap();
+        let session = Session::open(&json!({"design": text, "start": null}).to_string()).unwrap();
+        ask(&session, &json!({"op": "open"}))
+    };
+    for (name, kind, first, start) in [
+        ("exact-regular-rounds-to-singular", "equivalent", json!(false), json!(false)),
+        ("gd-exact-singular", "equivalent", json!(false), json!(true)),
+        ("oct-sqrt3", "octahedral", json!(false), json!(null)),
+        ("cyclic-hexagons", "general", json!(true), json!(null)),
+        ("griffis-duffy-rounded", "general", json!(null), json!(null)),
+    ] {
+        let open = opened(name);
+        assert_eq!(
+            (&open["kind"], &open["singular"], &open["start_singular"]),
+            (&json!(kind), &first, &start),
+            "{name}"
+        );
+    }
+    assert_eq!(opened("griffis-duffy-rounded")["reason"], "singular to the digits given (0.0005 mm)");
+}

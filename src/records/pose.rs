@@ -58,7 +58,8 @@ impl PoseQuaternionRecord {
     /// `x,y,z,qw,qx,qy,qz` with four decimals, for people.
     pub(crate) fn short(&self) -> String {
         let values = self.position.iter().chain(&self.quaternion);
-        values.map(|x| format!("{:.4}", x.0)).collect::<Vec<_>>().join(",")
+        // no number says `-0.0000`
+        values.map(|x| format!("{:.4}", (x.0 * 1e4).round() / 1e4 + 0.0)).collect::<Vec<_>>().join(",")
     }
 }
 

@@ -282,9 +282,9 @@ fn a_platform_whose_pattern_leaves_offsets_unused_has_one_row() {
             "[[vary]]\nby = 'list'\nvalues = {{ {patterns} }}\n[[vary]]\nby = 'sobol'\ncount = 4\nvalues = {{ offsets = {{ from = 0.1, to = 0.9 }} }}\n"
         )),
     );
-    for sweep in [grid, blocks] {
+    for sweep in [&grid, &blocks] {
         let shared: Vec<SweepCell> =
-            rows(&sweep).iter().map(|row| cell(&sweep, row, "shared_joints").clone()).collect();
+            rows(sweep).iter().map(|row| cell(sweep, row, "shared_joints").clone()).collect();
         let of = |n: i64| shared.iter().filter(|c| **c == SweepCell::Integer(n)).count();
         // the octahedral platform shares six joints, the platform without shared joints none
         assert_eq!((shared.len(), of(6), of(0)), (5, 1, 4), "{shared:?}");

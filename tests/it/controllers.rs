@@ -94,22 +94,36 @@ fn poses_of_every_worked_design_come_back_through_the_kinematics_of_linuxcnc() {
     if !compiler() {
         return;
     }
-    let (mut written, mut mapped) = (0, 0);
     let cases = format!("-DCASES={}u", size(2, 8));
-    for file in std::fs::read_dir("designs/worked").unwrap() {
-        let path = file.unwrap().path();
-        let name = path.display();
-        let Some(exported) = Exported::possible(&Design::load(&path).unwrap()) else { continue };
+    let mut written = 0;
+    for (name, exported) in worked() {
         written += 1;
         let (good, said) = exported.kinematics("poses.c", "linuxcnc", &[&cases]);
         assert!(good, "{name}: {said}");
-        if exported.octahedral {
-            mapped += 1;
-            let (good, said) = exported.mapped(size(20, 300));
-            assert!(good, "{name}: {said}");
-        }
     }
-    assert!(written > 10 && mapped > 2, "{written} {mapped}");
+    assert!(written > 10, "{written}");
+}
+
+#[test]
+fn poses_of_every_worked_design_come_back_through_its_octahedral_platform() {
+    if !compiler() {
+        return;
+    }
+    let mut mapped = 0;
+    for (name, exported) in worked().filter(|(_, exported)| exported.octahedral) {
+        mapped += 1;
+        let (good, said) = exported.mapped(size(20, 300));
+        assert!(good, "{name}: {said}");
+    }
+    assert!(mapped > 2, "{mapped}");
+}
+
+/// The worked designs that C holds, with their names.
+fn worked() -> impl Iterator<Item = (String, Exported)> {
+    std::fs::read_dir("designs/worked").unwrap().filter_map(|file| {
+        let path = file.unwrap().path();
+        Some((path.display().to_string(), Exported::possible(&Design::load(&path).unwrap())?))
+    })
 }
 
 #[test]

@@ -184,7 +184,7 @@ fn nearest(out: &mut String, answer: &LimitsAnswer, found: &NearestAllowedRecord
         short(found.characteristic_length),
         answer.length_unit
     );
-    if !found.straight_from_home {
+    if answer.allowed && !found.straight_from_home {
         out.push_str("The straight way from home to it violates a limit.\n");
     }
 }

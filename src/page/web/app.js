@@ -21,7 +21,7 @@ class App {
       motion: new Task(say("motion-words", "Looking for a self-motion through this pose …")),
       worst: new Task(() => { this.worst = null; this.soon(); }),
       limits: new Task(() => this.soon(), "judging"),
-      feasible: new Task(() => this.soon()),
+      feasible: new Task(() => this.soon(), "judging"),
       locus: new Task(say("locus-words", "Looking for the singular positions …")),
     };
     this.listen();

@@ -102,7 +102,7 @@ class Task {
     if (this.job?.sent) this.send();
   }
 
-  /** Says on the root element whether something is being computed, and where: the judgement of the workspace, which takes longest, apart. */
+  /** Says on the root element whether something is being computed, and where: judgements over the workspace, which take longest, apart. */
   static mark() {
     const { dataset } = document.documentElement;
     const at_work = new Set([...Task.working].map((task) => task.word));
