@@ -1,5 +1,7 @@
 //! The octahedral platform behind a design, and its equivalents as designs with names.
 
+use std::sync::OnceLock;
+
 use crate::design::{Design, Origin};
 use crate::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
 use crate::singularity::GriffisDuffy;
@@ -199,7 +201,8 @@ fn free_name(design: &Design, side: usize, second: bool) -> String {
 #[derive(Debug, Clone)]
 pub struct Equivalents {
     original: Original,
-    family: Family,
+    /// Enumerated when it is first asked for.
+    family: OnceLock<Family>,
 }
 
 impl Equivalents {
@@ -209,7 +212,7 @@ impl Equivalents {
     /// Why the design is not octahedral, where it is not made from an octahedral one either.
     pub(crate) fn of(design: &Design) -> Result<Self, NotOctahedral> {
         match Original::of(design) {
-            Some(original) => Ok(Self { original, family: Family::octahedral() }),
+            Some(original) => Ok(Self { original, family: OnceLock::new() }),
             None => Err(Octahedral::recognise(design.manipulator())
                 .err()
                 .unwrap_or_else(|| unreachable!("an octahedral design is its own original"))),
@@ -225,7 +228,7 @@ impl Equivalents {
     /// All patterns with their topologies and counts.
     #[must_use]
     pub fn family(&self) -> &Family {
-        &self.family
+        self.family.get_or_init(Family::octahedral)
     }
 
     /// The platform of a pattern as a design, and the leg map from the octahedral platform to it; one offset for each inner point, as a fraction of its side.

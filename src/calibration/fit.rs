@@ -12,6 +12,8 @@ use super::spectrum::Spectrum;
 const ROUNDS: usize = 100;
 /// Rounds with a convex loss before one that is not.
 const CONVEX_ROUNDS: usize = 8;
+/// Where the median distance is this many times what the noise lets expect, the model is wrong still, and gross errors are those beyond the usual distance.
+const FAR: f64 = 2.0;
 /// Steps in a round at most.
 const STEPS: usize = 100;
 /// A step this small, as a share of the size of the machine, is none.
@@ -99,10 +101,10 @@ impl FitProblem<'_> {
 
     /// The least sum of squares with fixed weights near `start` (Levenberg 1944, Marquardt 1963): a step is damped the more, the less the last one kept what it
     /// promised. Unknown directions are left as they are. The model, steps, and whether they ended where they must.
-    fn minimise(&self, start: &LegModel, lower: &[Matrix6<f64>]) -> (LegModel, usize, bool) {
+    fn minimise(&self, start: &LegModel, lower: &[Matrix6<f64>], most: usize) -> (LegModel, usize, bool) {
         let (mut model, mut cost) = (start.clone(), self.cost(start, lower));
         let mut damping = 0.0;
-        for steps in 1..=STEPS {
+        for steps in 1..=most {
             let Some(spectrum) = self.spectrum(&model, lower) else { return (model, steps, false) };
             let top = spectrum.values.iter().copied().fold(0.0, f64::max);
             let full = spectrum.step(0.0).amax();
@@ -136,7 +138,7 @@ impl FitProblem<'_> {
                 (model, cost) = (next, after);
             }
         }
-        (model, STEPS, false)
+        (model, most, false)
     }
 
     /// Rounds of [`minimise`](Self::minimise), each with the covariances, the noise and the weights of the end of the last one.
@@ -151,11 +153,18 @@ impl FitProblem<'_> {
             steps: 0,
             merit: f64::INFINITY,
         };
+        // gross errors must not draw the first steps to where no later one finds back from
+        if self.loss != Loss::Squares {
+            out.weights = self.weights(&out, &out.noise, 1);
+        }
         for round in 1..=ROUNDS {
             out.rounds = round;
             let lower = self.whitening(&out.model, &out.noise, &out.weights);
             let before = out.model.values(self.unknowns);
-            let (model, steps, ended) = self.minimise(&out.model, &lower);
+            // a step with the weights of a wrong model is looked at before the next one is made with them
+            let far =
+                self.loss != Loss::Squares && usual_distance(&self.distances(&out.model, &out.noise)) > FAR;
+            let (model, steps, ended) = self.minimise(&out.model, &lower, if far { 1 } else { STEPS });
             out.steps += steps;
             out.model = model;
             let moved = (out.model.values(self.unknowns) - before).amax();
@@ -202,24 +211,26 @@ impl FitProblem<'_> {
         let scale = if self.loss == Loss::Squares {
             (distances.iter().map(|d| d.pose * d.pose).sum::<f64>() / freedoms).sqrt()
         } else {
-            let mut squares: Vec<f64> = distances.iter().map(|d| d.pose * d.pose).collect();
-            squares.sort_by(f64::total_cmp);
-            let median = squares[squares.len() / 2];
-            (median / chi_square_quantile(0.5, 6) * (numbers as f64 / freedoms)).sqrt()
+            usual_distance(&distances) * (numbers as f64 / freedoms).sqrt()
         };
         let noise = fit.noise.scaled(scale);
         let least = NOISE_OF_ROUNDING * self.size;
         (MeasurementNoise { length: noise.length.max(least), ..noise }, NoiseSource::Estimated)
     }
 
+    /// The weights of the loss, graduated: as long as most distances are far beyond the noise they are counted in the usual distance, by a convex loss.
     fn weights(&self, fit: &Fit, noise: &MeasurementNoise, round: usize) -> Vec<PoseWeight> {
+        let distances = self.distances(&fit.model, noise);
+        let usual = usual_distance(&distances);
+        let far = self.loss != Loss::Squares && usual > FAR;
         let loss = match self.loss {
             Loss::Tukey if round <= CONVEX_ROUNDS => Loss::Huber,
+            Loss::Cauchy | Loss::Tukey if far => Loss::Huber,
             loss => loss,
         };
         let scaled = ScaledLoss::new(loss, self.unit);
-        let of = |d: &Distances| PoseWeight::new(&scaled, self.unit, d);
-        self.distances(&fit.model, noise).iter().map(of).collect()
+        let of = |d: &Distances| PoseWeight::new(&scaled, self.unit, &d.over(if far { usual } else { 1.0 }));
+        distances.iter().map(of).collect()
     }
 
     fn merit(&self, fit: &Fit) -> f64 {
@@ -233,4 +244,11 @@ impl FitProblem<'_> {
         };
         self.distances(&fit.model, &fit.noise).iter().map(of).sum()
     }
+}
+
+/// The median distance over that of normal errors: gross errors of less than half of the poses hardly change it.
+fn usual_distance(distances: &[Distances]) -> f64 {
+    let mut squares: Vec<f64> = distances.iter().map(|d| d.pose * d.pose).collect();
+    squares.sort_by(f64::total_cmp);
+    (squares[squares.len() / 2] / chi_square_quantile(0.5, 6)).sqrt()
 }

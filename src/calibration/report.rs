@@ -425,10 +425,11 @@ fn fit_from_starts(
 }
 
 fn status(fit: &Fit, spectrum: &Spectrum, chi: &ChiSquare, unknowns: usize) -> CalibrationStatus {
-    if spectrum.rank < unknowns {
-        CalibrationStatus::NotIdentifiable
-    } else if chi.probability.is_some_and(|p| p < REFUTED) {
+    // of a model that the measurements refute it says nothing what they see of it
+    if chi.probability.is_some_and(|p| p < REFUTED) {
         CalibrationStatus::Refuted
+    } else if spectrum.rank < unknowns {
+        CalibrationStatus::NotIdentifiable
     } else if !fit.converged || chi.freedoms == 0 {
         CalibrationStatus::Undecided
     } else {

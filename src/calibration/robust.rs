@@ -151,6 +151,11 @@ pub(super) struct Distances {
 }
 
 impl Distances {
+    /// Counted in another unit.
+    pub(super) fn over(&self, unit: f64) -> Self {
+        Self { pose: self.pose / unit, legs: self.legs.map(|x| x / unit) }
+    }
+
     /// Of residuals with this lower factor of their covariance.
     pub(super) fn new(residual: &Vector6<f64>, lower: &Matrix6<f64>) -> Self {
         let inverse = lower.solve_lower_triangular(&Matrix6::identity()).unwrap_or_else(Matrix6::zeros);

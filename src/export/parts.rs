@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::plate::ClearanceHole;
 use super::text::{commented, csv_field, real, rounded};
 use super::{Export, ExportBody, Plate};
 use crate::manipulator::Body;
@@ -269,8 +270,10 @@ fn bolts(body: &ExportBody, mm: f64) -> Option<PartLine> {
     let each = plate.holes.first().map_or(0, |h| h.bolts.len());
     let line = |count| {
         let name = format!("bolt of a {}", JOINTS[body.body.index()]);
-        let remark = format!("{each} a joint, through holes of {} mm", rounded(plate.bolt_diameter * mm));
-        PartLine { thickness: Some(plate.bolt_diameter * mm), ..PartLine::new(name, count, remark) }
+        let thread = ClearanceHole::of(plate.bolt_diameter * mm);
+        let of = thread.map_or_else(String::new, |thread| format!(" ({thread})"));
+        let remark = format!("{each} a joint, through holes of {} mm{of}", rounded(plate.bolt_diameter * mm));
+        PartLine { thickness: thread.map(|thread| thread.thread), ..PartLine::new(name, count, remark) }
     };
     (plate.bolt_count() > 0).then(|| line(plate.bolt_count()))
 }

@@ -54,6 +54,48 @@ pub struct Plate {
     pub outline: Outline,
 }
 
+/// Diameters of clearance holes for metric threads, millimetres: nominal diameter, then the fine, the medium and the coarse series (ISO 273:1979).
+const CLEARANCE_HOLES: [(f64, [f64; 3]); 14] = [
+    (1.6, [1.7, 1.8, 2.0]),
+    (2.0, [2.2, 2.4, 2.6]),
+    (2.5, [2.7, 2.9, 3.1]),
+    (3.0, [3.2, 3.4, 3.6]),
+    (4.0, [4.3, 4.5, 4.8]),
+    (5.0, [5.3, 5.5, 5.8]),
+    (6.0, [6.4, 6.6, 7.0]),
+    (8.0, [8.4, 9.0, 10.0]),
+    (10.0, [10.5, 11.0, 12.0]),
+    (12.0, [13.0, 13.5, 14.5]),
+    (14.0, [15.0, 15.5, 16.5]),
+    (16.0, [17.0, 17.5, 18.5]),
+    (20.0, [21.0, 22.0, 24.0]),
+    (24.0, [25.0, 26.0, 28.0]),
+];
+
+/// A metric thread whose clearance hole a hole is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ClearanceHole {
+    /// Nominal diameter of the thread, millimetres.
+    pub(super) thread: f64,
+    series: &'static str,
+}
+
+impl ClearanceHole {
+    /// That of a hole of this diameter, millimetres; `None` where no series has it.
+    pub(super) fn of(diameter: f64) -> Option<Self> {
+        CLEARANCE_HOLES.iter().find_map(|(thread, holes)| {
+            let series = holes.iter().position(|hole| (hole - diameter).abs() < 1e-6)?;
+            Some(Self { thread: *thread, series: ["fine", "medium", "coarse"][series] })
+        })
+    }
+}
+
+impl std::fmt::Display for ClearanceHole {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "M{}, ISO 273 {}", self.thread, self.series)
+    }
+}
+
 impl Plate {
     /// The plate of a body with these joints across `normal`; `towards_legs` is the mean direction of the legs from the body, in its frame.
     pub(super) fn under(

@@ -206,7 +206,7 @@ fn hole_plans_have_a_circle_at_every_joint() {
         assert_eq!(circle[..2], [joint.at.x, joint.at.y], "the plate lies in the x-y plane");
         assert_eq!(circle[2..], [0.5 * body.plate().unwrap().hole_diameter]);
     }
-    let block = ["base plate", "material not stated", "general tolerances ISO 2768-m", "datum: "];
+    let block = ["base plate", "material not stated", "ISO 2768-m for sizes", "datum: the cross"];
     assert!(block.iter().all(|part| text.contains(part)), "{text}");
 }
 
@@ -634,7 +634,11 @@ fn stated_plates_are_what_is_drawn_weighed_and_listed() {
     // DXF: a circle for each hole, none for the others
     let dxf = text_of(&export, "dxf", "base-plate.dxf");
     assert_eq!(dxf.matches("CIRCLE").count(), 30);
-    assert!(dxf.contains("24 bolt holes, diameter 5.5000") && dxf.contains("material aluminium"));
+    assert!(
+        dxf.contains("24 bolt holes, diameter 5.5000 (M5, ISO 273 medium)")
+            && !dxf.contains("-0.0000")
+            && dxf.contains("material aluminium")
+    );
     assert_eq!(text_of(&export, "dxf", "platform-plate.dxf").matches("CIRCLE").count(), 6);
     // STEP: each hole is a cylinder of its own
     let step = text_of(&export, "step", "platform.step");
@@ -643,7 +647,7 @@ fn stated_plates_are_what_is_drawn_weighed_and_listed() {
     // parts
     let parts = export.parts();
     let find = |name: &str| parts.iter().find(|p| p.part == name).unwrap();
-    assert_eq!(find("bolt of a base joint").count, 24);
+    assert_eq!((find("bolt of a base joint").count, find("bolt of a base joint").thickness), (24, Some(5.0)));
     assert!(parts.iter().all(|p| p.part != "bolt of a platform joint"));
     assert!((find("platform plate").mass.unwrap() - steel).abs() < 1e-12);
     assert!((find("payload").mass.unwrap() - 60.0).abs() < 1e-9, "the plate is not counted twice");

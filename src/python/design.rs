@@ -21,7 +21,11 @@ use crate::num::Cancel;
 use crate::records::{AssessAnswer, CheckAnswer};
 use crate::requirements::{AssessOptions, Terms};
 use crate::rotary::{InvalidRotary, RotaryPlatform, RotaryTracker};
+use crate::singularity::Architecture;
 use crate::synthesis::InstantiateError;
+
+/// Above this `abs(det A)` is not zero whatever rounding did to it.
+const CLEARLY_REGULAR: f64 = 1e-6;
 
 /// A platform with names, units, home pose and requirements.
 #[pyclass(frozen, name = "Design", module = "equipod._core")]
@@ -433,14 +437,14 @@ impl NativeDesign {
         document(AssessAnswer::new(&self.design, &found), &[&self.design], Some(seed))
     }
 
-    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets; the design, `A` and `c`.
+    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets; the design, `A`, `c`, and whether it is singular.
     #[allow(clippy::type_complexity)]
     fn equivalent<'py>(
         &self,
         py: Python<'py>,
         pattern: Option<&str>,
         offsets: Vec<f64>,
-    ) -> PyResult<(Self, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)> {
+    ) -> PyResult<(Self, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Option<bool>)> {
         self.only_of_legs(py, OF_LEG_MAPS)?;
         let built = || -> Result<_, Error> {
             let class = self.design.equivalents()?;
@@ -453,10 +457,15 @@ impl NativeDesign {
                 .map_err(|_| InstantiateError::OffsetCount { expected: 6, given: offsets.len() })?;
             Ok(class.joint_free(six)?)
         };
-        let (design, map) = built().map_err(|e| raised(py, e))?;
+        let (design, map) = py.detach(built).map_err(|e| raised(py, e))?;
+        // a determinant that is far from zero needs no exact arithmetic
+        let singular = match map.a.determinant().abs() {
+            det if det > CLEARLY_REGULAR => Some(false),
+            _ => py.detach(|| Architecture::of(design.manipulator()).is_singular()),
+        };
         let a = Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]).into_pyarray(py);
         let c = ndarray::Array1::from_iter(map.c.iter().copied()).into_pyarray(py);
-        Ok((Self::of(design), a, c))
+        Ok((Self::of(design), a, c, singular))
     }
 
     /// The files of a format: names and texts.

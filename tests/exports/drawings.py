@@ -13,14 +13,17 @@ def near(a, b, tolerance):
 
 
 def expected_dimensions(centres, margin):
-    """Distances from the lowest hole to the others and over all, along both axes."""
+    """Distances of the holes from the origin where it is on the plate, else from the lowest hole, and over all, along both axes."""
+    centres = list(centres)
+    on_it = all(min(p[k] for p in centres) - margin <= 0 <= max(p[k] for p in centres) + margin for k in (0, 1))
     out = []
     for k in (0, 1):
         places = []
         for x in sorted(p[k] for p in centres):
             if not places or x - places[-1] > 1e-6:
                 places.append(x)
-        out += [x - places[0] for x in places[1:]] + [places[-1] - places[0] + 2 * margin]
+        start = 0 if on_it else places[0]
+        out += [abs(x - start) for x in places if abs(x - start) > 1e-6] + [places[-1] - places[0] + 2 * margin]
     return sorted(out)
 
 

@@ -182,6 +182,30 @@ def test_trackers_and_solutions_are_copied_and_pickled(octahedral):
     assert np.array_equal(again.T, found.T) and again.record == found.record
 
 
+def test_numbers_that_cannot_be_are_refused_by_name(octahedral):
+    lengths = octahedral.ik(octahedral.home)
+    for wrong, code in [
+        (lambda: octahedral.fk(lengths, seed=-1), "seed"),
+        (lambda: octahedral.check(seed=1.5), "seed"),
+        (lambda: octahedral.assess(points=-1), "points"),
+        (lambda: octahedral.fk_batch(lengths[None], threads=-1), "threads"),
+        (lambda: octahedral.fk_batch(lengths[None], threads=0), "threads"),
+        (lambda: octahedral.fk(lengths + 1j), "lengths"),
+        (lambda: octahedral.fk(["long"] * 6), "lengths"),
+        (lambda: equipod.verify(octahedral, octahedral, seed=2**64), "seed"),
+    ]:
+        with pytest.raises(equipod.DesignError) as refused:
+            wrong()
+        assert refused.value.code == code, refused.value
+
+
+def test_an_equivalent_says_whether_it_is_singular(octahedral):
+    assert octahedral.equivalent([0.2, 0.3, 0.2, 0.3, 0.2, 0.3]).singular is False
+    assert octahedral.equivalent([0.5] * 6).singular is True
+    # decimals are taken as they are written: 0.7 is 1 - 0.3
+    assert octahedral.equivalent([0.3, 0.7] * 3).singular is True
+
+
 def test_a_self_motion_is_seen_in_the_solutions(octahedral):
     assert octahedral.fk(octahedral.ik(octahedral.home)).self_motion == 0
     moving = equipod.Design.load(FIXTURES / "verdicts" / "shares-30-70.toml")

@@ -1,4 +1,4 @@
-//! Dimensions: from the lowest hole to every other one along both axes, and the edges of the plate.
+//! Dimensions: from the datum to every hole along both axes, and the edges of the plate.
 
 use nalgebra::{Point2, Vector2};
 
@@ -54,8 +54,13 @@ fn dimension(page: &mut Page, number: usize, axis: &Axis, level: f64, [from, to]
     page.reaches(end + axis.out * h);
 }
 
-/// All dimensions of a plate: `holes` and the corners of its extent.
-pub(super) fn dimensions(page: &mut Page, holes: &[Point2<f64>], extent: [Point2<f64>; 2]) {
+/// All dimensions of a plate: `holes` and the corners of its extent. They start at the datum, or where there is none at the lowest hole.
+pub(super) fn dimensions(
+    page: &mut Page,
+    holes: &[Point2<f64>],
+    extent: [Point2<f64>; 2],
+    datum: Option<Point2<f64>>,
+) {
     let tolerance = 1e-9 * (extent[1] - extent[0]).norm();
     let mut number = 0;
     for axis in &AXES {
@@ -64,8 +69,10 @@ pub(super) fn dimensions(page: &mut Page, holes: &[Point2<f64>], extent: [Point2
         rest.sort_by(|p, q| place(p).total_cmp(&place(q)));
         rest.dedup_by(|p, q| place(p) - place(q) <= tolerance);
         let edge = extent.iter().map(|p| axis.out.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
-        let first = rest.first().copied();
-        let spans = rest.iter().skip(1).filter_map(|p| first.map(|f| [f, *p])).chain([extent]);
+        let Some(first) = datum.or(rest.first().copied()) else { continue };
+        let from_first = |p: &Point2<f64>| if place(p) < place(&first) { [*p, first] } else { [first, *p] };
+        let apart = |p: &&Point2<f64>| (place(p) - place(&first)).abs() > tolerance;
+        let spans = rest.iter().filter(apart).map(from_first).chain([extent]);
         for (row, span) in spans.enumerate() {
             number += 1;
             let level = edge + (FIRST + NEXT * row as f64) * page.text_height;

@@ -7,7 +7,8 @@ use nalgebra::{Point2, Vector2};
 
 use self::dimension::dimensions;
 use self::page::Page;
-use super::text::one_line;
+use super::plate::ClearanceHole;
+use super::text::{four_decimals, one_line};
 use super::{Export, ExportBody, ExportedFile, OutlinePart, Plate, PlateHole, Unsupported, Writer};
 
 /// The format `dxf`.
@@ -69,7 +70,7 @@ fn plan(export: &Export, body: &ExportBody, plate: &Plate) -> String {
     holes(&mut page, plate, mm);
     origin(&mut page, extent);
     let centres: Vec<Point2<f64>> = plate.holes.iter().map(|h| h.at * mm).collect();
-    dimensions(&mut page, &centres, extent);
+    dimensions(&mut page, &centres, extent, has_origin(extent).then(Point2::origin));
     table(&mut page, export, body, plate, extent);
     page.finish()
 }
@@ -105,9 +106,14 @@ fn holes(page: &mut Page, plate: &Plate, mm: f64) {
     }
 }
 
+/// Whether the origin of the drawing is on the plate.
+fn has_origin([low, high]: [Point2<f64>; 2]) -> bool {
+    low.x <= 0.0 && low.y <= 0.0 && high.x >= 0.0 && high.y >= 0.0
+}
+
 /// A cross in the origin of the drawing, where the plate is near it.
 fn origin(page: &mut Page, [low, high]: [Point2<f64>; 2]) {
-    if low.x <= 0.0 && low.y <= 0.0 && high.x >= 0.0 && high.y >= 0.0 {
+    if has_origin([low, high]) {
         for arm in [Vector2::x(), Vector2::y()] {
             let arm = Point2::from(arm * page.text_height);
             page.entities.line("TABLE", -arm, arm);
@@ -125,11 +131,17 @@ fn title_block(
 ) {
     let h = page.text_height;
     let material = plate.material.as_ref().map_or_else(|| "not stated".to_string(), |name| one_line(name));
+    let datum = if has_origin(extent(plate, mm)) {
+        "datum: the cross, which is the origin of the frame; dimensions start there"
+    } else {
+        "datum: the lowest holes; the table counts from the origin of the frame"
+    };
     let lines = [
         format!("{}: {} plate", one_line(&export.name), body.body),
-        format!("material {material}, thickness {:.4}", plate.thickness * mm),
-        "mm, scale 1:1, general tolerances ISO 2768-m".to_string(),
-        "datum: the cross is the origin of the frame; dimensions from the lowest holes".to_string(),
+        format!("material {material}, thickness {}", four_decimals(plate.thickness * mm)),
+        "mm, scale 1:1; ISO 2768-m for sizes, not for the places of holes".to_string(),
+        "places of holes: within what `equipod build tolerances` says".to_string(),
+        datum.to_string(),
         export.program.clone(),
     ];
     let (left, mut at) = (top.x, Point2::new(top.x + h, top.y - 1.8 * h));
@@ -155,9 +167,9 @@ fn table(page: &mut Page, export: &Export, body: &ExportBody, plate: &Plate, ext
     let (h, mm) = (page.text_height, export.unit.millimetres);
     let mut at = Point2::new(page.right() + 3.0 * h, extent[1].y);
     let mut lines = vec![
-        format!("{} plate, mm, thickness {:.4}", body.body, plate.thickness * mm),
-        format!("{} holes, diameter {:.4}", plate.holes.len(), plate.hole_diameter * mm),
-        format!("corner radius {:.4}", plate.outline.margin * mm),
+        format!("{} plate, mm, thickness {}", body.body, four_decimals(plate.thickness * mm)),
+        format!("{} holes, diameter {}", plate.holes.len(), four_decimals(plate.hole_diameter * mm)),
+        format!("corner radius {}", four_decimals(plate.outline.margin * mm)),
         "hole   x   y".to_string(),
     ];
     if let Some(material) = &plate.material {
@@ -165,17 +177,19 @@ fn table(page: &mut Page, export: &Export, body: &ExportBody, plate: &Plate, ext
     }
     if plate.bolt_count() > 0 {
         let (count, diameter) = (plate.bolt_count(), plate.bolt_diameter * mm);
-        lines.insert(lines.len() - 1, format!("{count} bolt holes, diameter {diameter:.4}"));
+        let thread = ClearanceHole::of(diameter).map_or_else(String::new, |thread| format!(" ({thread})"));
+        let line = format!("{count} bolt holes, diameter {}{thread}", four_decimals(diameter));
+        lines.insert(lines.len() - 1, line);
     }
+    let place = |p: &Point2<f64>| format!("{}   {}", four_decimals(p.x * mm), four_decimals(p.y * mm));
     let row = |h: &PlateHole| {
-        let post = if h.post > 0.0 { format!("   post {:.4}", h.post * mm) } else { String::new() };
-        format!("{}   {:.4}   {:.4}{post}", h.joints.join("/"), h.at.x * mm + 0.0, h.at.y * mm + 0.0)
+        let post =
+            if h.post > 0.0 { format!("   post {}", four_decimals(h.post * mm)) } else { String::new() };
+        format!("{}   {}{post}", h.joints.join("/"), place(&h.at))
     };
     lines.extend(plate.holes.iter().map(row));
     for hole in &plate.holes {
-        let bolt = |p: &Point2<f64>| {
-            format!("bolt of {}   {:.4}   {:.4}", hole.joints.join("/"), p.x * mm + 0.0, p.y * mm + 0.0)
-        };
+        let bolt = |p: &Point2<f64>| format!("bolt of {}   {}", hole.joints.join("/"), place(p));
         lines.extend(hole.bolts.iter().map(bolt));
     }
     for line in lines {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 import pathlib
 from collections.abc import Iterable, Sequence
@@ -47,8 +48,28 @@ def presets() -> tuple[str, ...]:
     return tuple(_core.preset_names())
 
 
+def _whole(name: str, value: int, least: int = 0) -> int:
+    """A whole number that is not below `least` and fits into 64 bits."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise DesignError(f"{name} is a whole number, not {value!r}", code=name) from None
+    if not least <= number < 2**64:
+        raise DesignError(f"{name} is a whole number from {least}, not {number}", code=name)
+    return number
+
+
+def _threads(threads: int | None) -> int | None:
+    return None if threads is None else _whole("threads", threads, 1)
+
+
 def _lengths(lengths: npt.ArrayLike) -> Floats:
-    array = np.ascontiguousarray(lengths, dtype=np.float64)
+    if np.iscomplexobj(lengths):
+        raise DesignError("leg lengths, or angles of cranks, are real", code="lengths")
+    try:
+        array = np.ascontiguousarray(lengths, dtype=np.float64)
+    except (TypeError, ValueError) as fault:
+        raise DesignError(f"leg lengths, or angles of cranks, are numbers: {fault}", code="lengths") from None
     if array.ndim < 1 or array.shape[-1] != 6:
         raise DesignError(f"leg lengths, or angles of cranks, have the shape (..., 6), not {array.shape}", code="shape")
     return array
@@ -154,11 +175,14 @@ class Equivalent:
     design : Design
     A : ndarray, float64, shape (6, 6)
     c : ndarray, float64, shape (6,)
+    singular : bool or None
+        True where the platform is architecturally singular, so that it is equivalent to none: ``det A = 0``, proved about its exact joints. None where it is not decided.
     """
 
     design: Design
     A: Floats
     c: Floats
+    singular: bool | None
 
 
 @dataclass(frozen=True)
@@ -503,6 +527,7 @@ class Design:
         if array.shape != (6,):
             raise DesignError(f"fk takes six lengths, not {array.shape}: use fk_batch for many", code="shape")
         six: list[float] = array.tolist()
+        seed = _whole("seed", seed)
         return Solutions(self._native.fk(six, seed, method), (self, six, seed, method))
 
     def fk_batch(self, lengths: npt.ArrayLike, *, threads: int | None = None) -> BatchSolutions:
@@ -523,7 +548,7 @@ class Design:
         array = _lengths(lengths)
         if array.ndim != 2:
             raise DesignError(f"fk_batch takes rows of six lengths, not {array.shape}", code="shape")
-        return BatchSolutions(self._native.fk_batch(array, threads))
+        return BatchSolutions(self._native.fk_batch(array, _threads(threads)))
 
     def tracker(self, start: PoseLike | None = None) -> Tracker:
         """Follows one real pose from lengths to lengths, from `start` (home when absent); where the drive is rotary from angles to angles."""
@@ -554,7 +579,7 @@ class Design:
         """Whether the design is architecturally singular, why, and how far away a singular design is."""
         from .records import CheckAnswer
 
-        return CheckAnswer.from_json(self._native.check(seed))
+        return CheckAnswer.from_json(self._native.check(_whole("seed", seed)))
 
     def assess(
         self, *, points: int = 5000, steps: int = 10, searches: int = 3, cells: int | None = None, seed: int = 1
@@ -566,7 +591,9 @@ class Design:
         """
         from .records import AssessAnswer
 
-        return AssessAnswer.from_json(self._native.assess(points, steps, searches, cells, seed))
+        counts = [_whole(name, n) for name, n in (("points", points), ("steps", steps), ("searches", searches))]
+        most = None if cells is None else _whole("cells", cells)
+        return AssessAnswer.from_json(self._native.assess(*counts, most, _whole("seed", seed)))
 
     def limits(self, at: PoseLike | None = None, *, to: PoseLike | None = None, options: Sequence[str] = ()) -> LimitsAnswer:
         """How far the platform may move from a pose along every axis before a requirement binds, and which one.
@@ -627,8 +654,8 @@ class Design:
         -------
         Equivalent
         """
-        design, a, c = self._native.equivalent(pattern, [float(x) for x in offsets])
-        return Equivalent(Design(design), a, c)
+        design, a, c, singular = self._native.equivalent(pattern, [float(x) for x in offsets])
+        return Equivalent(Design(design), a, c, singular)
 
     def optimize(
         self,
@@ -1013,5 +1040,5 @@ def verify(a: Design, b: Design, *, samples: int = 10, seed: int = 1, threads: i
     """
     from .records import VerifyAnswer
 
-    return VerifyAnswer.from_json(_core.verify(a._native, b._native, samples, seed, threads))
+    return VerifyAnswer.from_json(_core.verify(a._native, b._native, _whole("samples", samples), _whole("seed", seed), _threads(threads)))
 

@@ -13,6 +13,7 @@ use equipod::methods::page::Session;
 use serde_json::Value;
 
 mod mutate;
+use super::evidence::size;
 use mutate::{Draw, mutated};
 
 const SLOWEST: Duration = Duration::from_secs(600);
@@ -167,6 +168,50 @@ fn tables_of_lengths_and_of_poses_are_read_or_refused() {
         place.write("path.csv", bytes);
         program(&["design", "convert", &design, "-o", out.to_str().unwrap()])
     }));
+}
+
+type Words = &'static [&'static str];
+
+/// Points of legs, sheets of motion-simulator programs, measurements, drives, plans of sweeps.
+#[test]
+fn tables_sheets_and_plans_are_read_or_refused() {
+    let place = Place::new();
+    let whole =
+        |name: &str| std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("designs").join(name)).unwrap();
+    let out = place.path("out.toml").to_str().unwrap().to_owned();
+    let sheet =
+        b"L1 = 700\nL2 = 120\nL3 = 250\nL4 = 900\ncrank = 90\nrod = 600\nmiddle_angle = 10\ncrank_angle_1 = 180\ncrank_angle_2 = 0\ncrank_angle_3 = 300\ncrank_angle_4 = 120\ncrank_angle_5 = 60\ncrank_angle_6 = 240\n".to_vec();
+    let measured: Vec<u8> =
+        whole("tables/calibration.csv").split_inclusive(|b| *b == b'\n').take(9).flatten().copied().collect();
+    let plan = String::from_utf8(whole("sweeps/offsets.toml")).unwrap();
+    let plan = plan.replace("../rbt", &format!("{}/designs/rbt", env!("CARGO_MANIFEST_DIR")));
+    // drives and measurements are computed with, which takes seconds where they can be read
+    let readers: [(Vec<u8>, &str, Words, Words, u64); 5] = [
+        (whole("tables/hexapod.csv"), "points.csv", &["new", "--points"], &["-o"], 12),
+        (sheet, "rig.txt", &["new", "--dialect", "motion4sim", "--sheet"], &["-o"], 12),
+        (measured, "measured.csv", &["calibrate", "designs/symmetric-hexapod.toml"], &["-o"], size(3, 40)),
+        (
+            whole("tables/drives.csv"),
+            "drives.csv",
+            &["build", "drives", "designs/presets/bench-l16.toml"],
+            &["-o"],
+            size(0, 20),
+        ),
+        (plan.into_bytes(), "plan.toml", &["sweep", "run"], &["--estimate"], 12),
+    ];
+    for (bytes, name, before, after, cases) in &readers {
+        sound(first_fault(&[bytes], *cases, |bytes, _| {
+            let file = place.write(name, bytes);
+            let mut args = before.to_vec();
+            args.push(&file);
+            args.extend(*after);
+            if *after == ["-o"] {
+                let _ = std::fs::remove_file(&out);
+                args.push(&out);
+            }
+            program(&args)
+        }));
+    }
 }
 
 #[test]

@@ -122,19 +122,28 @@ impl Folder {
     /// Exit 2: the folder cannot be made or written, `explore::not_ours`, or an input of the run is one of the files to be written.
     pub(super) fn prepare(path: &Path) -> Result<Self, Failure> {
         files::make_folder(path)?;
-        let manifest: Manifest = files::found_record(&path.join(MANIFEST)).unwrap_or_default();
+        let manifest = Self::manifest_in(path)?;
         let folder = Self { path: path.to_path_buf(), earlier: manifest.files, results: Vec::new() };
         let opened = ConflictFreedom::ALL.map(dimensional::opened_file);
         let own = ALL.iter().copied().chain(opened.iter().map(String::as_str));
         let mut names: Vec<String> = own.map(str::to_owned).collect();
-        if let Ok(entries) = std::fs::read_dir(path.join(MACHINE)) {
-            let inside = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-            names.extend(inside.map(|name| format!("{MACHINE}/{name}")));
-        }
+        files_below(path, MACHINE, &mut names);
         names.iter().try_for_each(|name| folder.refuse_foreign(name))?;
         // now, and not after minutes, it shows whether the folder can be written
         folder.write_manifest(folder.earlier.clone())?;
         Ok(folder)
+    }
+
+    /// The list that an earlier run left; a file of this name that is none is one of the user.
+    fn manifest_in(path: &Path) -> Result<Manifest, Failure> {
+        let path = path.join(MANIFEST);
+        let Ok(found) = path.symlink_metadata() else { return Ok(Manifest::default()) };
+        let known = if found.is_file() { files::found_record::<Manifest>(&path) } else { None };
+        known.filter(|manifest| manifest.written_by.starts_with("equipod ")).ok_or_else(|| {
+            let message =
+                format!("{} is no list that `explore` wrote, and one would replace it", path.display());
+            Failure::refused("explore::not_ours", message).with_help("move that file, or name another folder")
+        })
     }
 
     /// Refuses a file that is there and is not as an earlier run wrote it.
@@ -231,5 +240,18 @@ impl Folder {
     /// The paths of the results, in order.
     pub(super) fn paths(&self) -> impl Iterator<Item = String> {
         self.results.iter().map(|(name, _)| self.path.join(name).display().to_string())
+    }
+}
+
+/// Adds what is below a folder, as names from `root`; links are names, and are not followed.
+fn files_below(root: &Path, folder: &str, names: &mut Vec<String>) {
+    for entry in std::fs::read_dir(root.join(folder)).into_iter().flatten().flatten() {
+        let Ok(name) = entry.file_name().into_string() else { continue };
+        let name = format!("{folder}/{name}");
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            files_below(root, &name, names);
+        } else {
+            names.push(name);
+        }
     }
 }
