@@ -591,9 +591,11 @@ class Design:
         """
         from .records import AssessAnswer
 
-        counts = [_whole(name, n) for name, n in (("points", points), ("steps", steps), ("searches", searches))]
         most = None if cells is None else _whole("cells", cells)
-        return AssessAnswer.from_json(self._native.assess(*counts, most, _whole("seed", seed)))
+        found = self._native.assess(
+            _whole("points", points), _whole("steps", steps, 1), _whole("searches", searches), most, _whole("seed", seed)
+        )
+        return AssessAnswer.from_json(found)
 
     def limits(self, at: PoseLike | None = None, *, to: PoseLike | None = None, options: Sequence[str] = ()) -> LimitsAnswer:
         """How far the platform may move from a pose along every axis before a requirement binds, and which one.
