@@ -2,6 +2,7 @@
 
 use equipod::methods::manipulator::Level;
 use equipod::methods::num::Rng;
+use equipod::methods::singularity::{MotionEvidence, PoseVerdict, motion_at};
 use equipod::prelude::*;
 use serde_json::Value;
 
@@ -118,6 +119,19 @@ fn coincident_legs_are_singular_under_one_name_and_under_two() {
         assert_eq!((code, &map["relation"]), (Some(1), &"singular".into()), "{name}");
         let (code, fk) = asked(&["fk", path, "--lengths", "18,18,17,16,18,17"]);
         assert!(code == Some(0) || code == Some(3), "{name}: {fk}");
+    }
+}
+
+/// Singular with square roots in its joints: that it moves is proved about these, and not found by tracing their doubles.
+#[test]
+fn exact_joints_prove_that_a_singular_platform_moves() {
+    for name in ["exact-midline-sqrt3", "gd-exact-singular"] {
+        let design = Design::load(fixture(name)).unwrap();
+        let found = motion_at(design.manipulator(), &design.home_or_default(), 1);
+        let PoseVerdict::Moves { dimension, evidence, .. } = found.verdict else {
+            panic!("{name}: {found:?}")
+        };
+        assert_eq!((dimension, evidence), (1, MotionEvidence::ConstantRank), "{name}");
     }
 }
 

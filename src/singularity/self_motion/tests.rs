@@ -185,17 +185,3 @@ fn complex_poses_are_their_dual_quaternions() {
     let error = y.iter().zip(wanted.iter()).map(|(z, x)| (z * scale - x).norm()).fold(0.0, f64::max);
     assert!(error < 1e-14, "{error}");
 }
-
-/// Singular with square roots in its joints, of which the doubles that stand for them are no proof.
-#[test]
-fn exact_joints_prove_that_a_singular_platform_moves() {
-    for name in ["exact-midline-sqrt3", "gd-exact-singular"] {
-        let text = std::fs::read_to_string(format!("tests/fixtures/verdicts/{name}.toml")).unwrap();
-        let design: crate::design::Design = text.parse().unwrap();
-        let found = motion_at(design.manipulator(), &design.home_or_default(), 1);
-        let PoseVerdict::Moves { dimension, evidence, .. } = found.verdict else {
-            panic!("{name}: {found:?}")
-        };
-        assert_eq!((dimension, evidence), (1, MotionEvidence::ConstantRank), "{name}");
-    }
-}
