@@ -12,7 +12,7 @@ use super::spectrum::Spectrum;
 const ROUNDS: usize = 100;
 /// Rounds with a convex loss before one that is not.
 const CONVEX_ROUNDS: usize = 8;
-/// Where the median distance is this many times what the noise lets expect, the model is wrong still, and gross errors are those beyond the usual distance.
+/// A median distance of more than this many times that of the noise shows that the model is still wrong.
 const FAR: f64 = 2.0;
 /// Steps in a round at most.
 const STEPS: usize = 100;
@@ -161,9 +161,8 @@ impl FitProblem<'_> {
             out.rounds = round;
             let lower = self.whitening(&out.model, &out.noise, &out.weights);
             let before = out.model.values(self.unknowns);
-            // a step with the weights of a wrong model is looked at before the next one is made with them
-            let far =
-                self.loss != Loss::Squares && usual_distance(&self.distances(&out.model, &out.noise)) > FAR;
+            // weights of a wrong model hold for one step
+            let far = self.far(&self.distances(&out.model, &out.noise)).is_some();
             let (model, steps, ended) = self.minimise(&out.model, &lower, if far { 1 } else { STEPS });
             out.steps += steps;
             out.model = model;
@@ -218,18 +217,22 @@ impl FitProblem<'_> {
         (MeasurementNoise { length: noise.length.max(least), ..noise }, NoiseSource::Estimated)
     }
 
-    /// The weights of the loss, graduated: as long as most distances are far beyond the noise they are counted in the usual distance, by a convex loss.
+    /// The usual distance where it shows that the model is still wrong; `None` also for a loss that knows no gross errors.
+    fn far(&self, distances: &[Distances]) -> Option<f64> {
+        Some(usual_distance(distances)).filter(|usual| self.loss != Loss::Squares && *usual > FAR)
+    }
+
+    /// The weights of the loss, graduated: a convex loss counts distances in the usual one until the model is about right.
     fn weights(&self, fit: &Fit, noise: &MeasurementNoise, round: usize) -> Vec<PoseWeight> {
         let distances = self.distances(&fit.model, noise);
-        let usual = usual_distance(&distances);
-        let far = self.loss != Loss::Squares && usual > FAR;
+        let far = self.far(&distances);
         let loss = match self.loss {
             Loss::Tukey if round <= CONVEX_ROUNDS => Loss::Huber,
-            Loss::Cauchy | Loss::Tukey if far => Loss::Huber,
+            Loss::Cauchy | Loss::Tukey if far.is_some() => Loss::Huber,
             loss => loss,
         };
         let scaled = ScaledLoss::new(loss, self.unit);
-        let of = |d: &Distances| PoseWeight::new(&scaled, self.unit, &d.over(if far { usual } else { 1.0 }));
+        let of = |d: &Distances| PoseWeight::new(&scaled, self.unit, &d.over(far.unwrap_or(1.0)));
         distances.iter().map(of).collect()
     }
 

@@ -425,7 +425,7 @@ fn fit_from_starts(
 }
 
 fn status(fit: &Fit, spectrum: &Spectrum, chi: &ChiSquare, unknowns: usize) -> CalibrationStatus {
-    // of a model that the measurements refute it says nothing what they see of it
+    // measurements that refute a model say nothing by what they see of it
     if chi.probability.is_some_and(|p| p < REFUTED) {
         CalibrationStatus::Refuted
     } else if spectrum.rank < unknowns {

@@ -81,7 +81,7 @@ pub(super) struct ClearanceHole {
 }
 
 impl ClearanceHole {
-    /// That of a hole of this diameter, millimetres; `None` where no series has it.
+    /// Finds the thread for a hole of this diameter, millimetres; `None` where no series has it.
     pub(super) fn of(diameter: f64) -> Option<Self> {
         CLEARANCE_HOLES.iter().find_map(|(thread, holes)| {
             let series = holes.iter().position(|hole| (hole - diameter).abs() < 1e-6)?;

@@ -119,7 +119,7 @@ pub enum InvalidManipulator {
     /// Some leg is missing in an order of legs.
     #[error("{order:?} is no order of six legs, which are counted from 0")]
     NotAnOrder {
-        /// What was given.
+        /// The order given.
         order: [usize; 6],
     },
     /// All joints of both bodies lie in one point each, so that the design has no size.

@@ -557,7 +557,7 @@ fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths()
     }
 }
 
-/// What the page calls singular is what `check` calls so, about the joints of the file, for the platform shown first and for the equivalent that it starts with.
+/// The page and `check` call the same platforms singular: the one shown first, and the equivalent that the page starts with, by the joints of the file.
 #[test]
 fn the_page_says_of_the_joints_of_the_file_what_check_says() {
     let opened = |name: &str| {

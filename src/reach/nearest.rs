@@ -24,7 +24,7 @@ const TRIES: usize = 50;
 const LED_BACK: usize = 8;
 /// Steps that lead a violated pose back to the limits, at most.
 const RESTORING: usize = 60;
-/// How far the first of them may go, over the size.
+/// The first of them may go this far, over the size.
 const RESTORED: f64 = 0.25;
 
 /// How hard to look.

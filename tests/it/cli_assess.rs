@@ -267,7 +267,7 @@ fn limits_without_a_workspace_are_judged_at_home_by_every_command() {
     };
     for name in ["no-workspace", "servo-no-workspace"] {
         let path = fixture(folder.path(), name, |text| text);
-        // the page of cranks records both tips of every crank at many poses, which takes its time
+        // the page of cranks has a test of its own
         let view = vec!["view", &path, "-o", &page];
         let view = (name == "no-workspace").then_some(view);
         for words in [vec!["assess", &path], vec!["compare", &path]].into_iter().chain(view) {
@@ -289,6 +289,19 @@ fn limits_without_a_workspace_are_judged_at_home_by_every_command() {
     assert!(text.contains("proved for every pose of its workspace") && !text.contains("stated"), "{text}");
     let wide = equipod(&["assess", &with(40.0), "--points", "100", "--cells", "500"]);
     assert_eq!(wide.status.code(), Some(1));
+}
+
+/// It records both tips of every crank at many poses, which takes its time.
+#[test]
+fn the_page_of_cranks_without_a_workspace_says_that_none_is_stated() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("page.html").to_str().unwrap().to_owned();
+    let path = fixture(folder.path(), "servo-no-workspace", |text| text);
+    let out = equipod(&["view", &path, "-o", &page]);
+    let text = String::from_utf8(out.stdout).unwrap();
+    assert_eq!(out.status.code(), Some(0), "{text}");
+    assert!(text.contains("at home; no workspace stated"), "{text}");
+    assert!(!text.contains("pose of its workspace") && !text.contains("in the workspace"), "{text}");
 }
 
 #[test]

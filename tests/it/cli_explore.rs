@@ -574,3 +574,22 @@ fn a_run_says_what_separate_joints_cost_and_keeps_a_reserve_by_default() {
     assert!(d["reserve"].is_null() && design.contains("reserve = \"1%\""), "{d}");
     assert!((spacing(&d, 1) - 1.212).abs() < 1e-6, "{}", d["price"]);
 }
+
+/// Files of the user where results would stand are refused before anything is computed, and stay as they are.
+#[test]
+fn a_list_and_machine_files_of_the_user_are_refused_at_once() {
+    for name in [".explore.json", "machine/linuxcnc/mine.txt"] {
+        let temp = tempfile::tempdir().unwrap();
+        let mine = temp.path().join(name);
+        std::fs::create_dir_all(mine.parent().unwrap()).unwrap();
+        std::fs::write(&mine, "{\"mine\": true}").unwrap();
+        let out = explore(&shipped("rbt-octahedral"), temp.path(), &["--json"]);
+        let doc: Value = serde_json::from_slice(&out.stdout).unwrap();
+        assert_eq!(
+            (out.status.code(), &doc["error"]["code"]),
+            (Some(2), &"explore::not_ours".into()),
+            "{name}: {doc}"
+        );
+        assert_eq!(std::fs::read_to_string(&mine).unwrap(), "{\"mine\": true}");
+    }
+}

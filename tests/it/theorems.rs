@@ -18,7 +18,6 @@ fn written(folder: &Path, name: &str, text: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// Exit code and answer.
 /// Two regular hexagons, the platform rotated by `turn`; every joint is polar, a copy rotated or a mirror image. The
 /// last joint has its own radius.
 fn hexagons(turn: &str, last: &str) -> String {

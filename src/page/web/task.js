@@ -105,9 +105,9 @@ class Task {
   /** Says on the root element whether something is being computed, and where: judgements over the workspace, which take longest, apart. */
   static mark() {
     const { dataset } = document.documentElement;
-    const at_work = new Set([...Task.working].map((task) => task.word));
+    const atWork = new Set([...Task.working].map((task) => task.word));
     for (const word of ["busy", "judging"]) {
-      if (at_work.has(word)) dataset[word] = Task.possible ? "worker" : "page";
+      if (atWork.has(word)) dataset[word] = Task.possible ? "worker" : "page";
       else delete dataset[word];
     }
   }

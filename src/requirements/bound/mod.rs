@@ -60,7 +60,7 @@ pub fn prove(
     prove_telling(m, required, space, (o, cells), &mut |_| {})
 }
 
-/// What a judgement is about to do.
+/// The next stage of a judgement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AssessStage {
     /// Looks for the worst pose of each requirement.

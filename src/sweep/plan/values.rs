@@ -95,9 +95,7 @@ impl PlanBlock {
             }
         }
     }
-}
 
-impl PlanBlock {
     /// Whether offsets from number `used` on have their first values in candidate `j` of the block: those of a grid each by itself, those of lists and points where nothing else varies
     /// with them.
     fn has_first_of_unused(&self, used: usize, mut j: u64) -> bool {
