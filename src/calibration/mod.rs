@@ -18,6 +18,7 @@
 
 mod accuracy;
 mod chi_square;
+mod exchanged;
 mod fit;
 mod frames;
 mod model;

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, Matrix6, Vector6};
 use thiserror::Error;
 
 use super::chi_square::{chi_square_exceeds, chi_square_quantile};
+use super::exchanged::exchanged;
 use super::fit::{Fit, FitProblem};
 use super::model::{HeldParts, LegModel, Measurement, Unknowns};
 use super::noise::{MeasurementNoise, NoiseSource};
@@ -268,6 +269,8 @@ pub struct Calibration {
     pub chi_square: ChiSquare,
     /// The farthest first.
     pub outliers: Vec<Outlier>,
+    /// Indices of two legs whose measured lengths look exchanged: they are five times nearer to those of the nominal machine when they change places.
+    pub exchanged: Option<[usize; 2]>,
     /// Weights of the measurements.
     pub weights: Vec<PoseWeight>,
 }
@@ -353,6 +356,7 @@ pub fn calibrate(
         indispensable,
         chi_square,
         outliers,
+        exchanged: exchanged(nominal, measurements),
         weights: fit.weights,
         model: fit.model,
         unknowns,

@@ -1,8 +1,9 @@
-//! Arguments common to all commands.
+//! The command line as a whole.
 
-use clap::{Args, Parser};
+use clap::Parser;
 
 use super::commands::Command;
+use super::context::Global;
 
 const AFTER_HELP: &str = "\
 The files in designs/ come with the sources; `equipod new` and `equipod design presets` write designs without them.
@@ -26,18 +27,4 @@ pub(crate) struct Cli {
     pub(crate) licences: bool,
     #[command(subcommand)]
     pub(crate) command: Command,
-}
-
-/// Options every command takes, before or after its name.
-#[derive(Debug, Args)]
-pub(crate) struct Global {
-    /// Write exactly one JSON document to standard output, errors included
-    #[arg(long, global = true)]
-    pub(crate) json: bool,
-    /// Seed of all random numbers; the same input and seed give the same output
-    #[arg(long, global = true, value_name = "N", default_value_t = 1)]
-    pub(crate) seed: u64,
-    /// Write no warnings and no progress to standard error
-    #[arg(short, long, global = true)]
-    pub(crate) quiet: bool,
 }

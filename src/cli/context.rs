@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use clap::ArgMatches;
 use clap::parser::ValueSource;
 
-use super::args::Global;
 use super::diagnostic;
 use super::failure::Failure;
 use super::files;
@@ -15,6 +14,20 @@ use crate::coupled::CoupledLegs;
 use crate::design::{Design, Format, Violation, Warning, parse, parse_ideal, parse_with_cranks};
 use crate::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 use crate::rotary::RotaryPlatform;
+
+/// Options every command takes, before or after its name.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Global {
+    /// Write exactly one JSON document to standard output, errors included
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
+    /// Seed of all random numbers; the same input and seed give the same output
+    #[arg(long, global = true, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Write no warnings and no progress to standard error
+    #[arg(short, long, global = true)]
+    pub(crate) quiet: bool,
+}
 
 /// A warning and the file it is about.
 #[derive(Debug)]

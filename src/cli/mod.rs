@@ -92,6 +92,11 @@ fn sweep_run_in_full(mut args: Vec<OsString>) -> Vec<OsString> {
 /// What `sweep` takes beside a plan.
 const SWEEP_COMMANDS: [&str; 8] = ["run", "status", "merge", "verify", "best", "design", "script", "help"];
 
+/// What clap has to say about the arguments: help and version, or why they are refused.
+fn told(output: Output, said: &clap::Error, words: &[String]) -> Exit {
+    if said.use_stderr() { output.failure(&usage::refusal(said, words), None) } else { output.help(said) }
+}
+
 fn run(args: Vec<OsString>, json: bool) -> Exit {
     let mut args = args;
     if args.len() < 2 {
@@ -105,11 +110,11 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
     }
     let matches = match guide::program().try_get_matches_from(args) {
         Ok(matches) => matches,
-        Err(error) => return Output::new(json).usage(&error, &words),
+        Err(error) => return told(Output::new(json), &error, &words),
     };
     let cli = match Cli::from_arg_matches(&matches) {
         Ok(cli) => cli,
-        Err(error) => return Output::new(json).usage(&error.format(&mut guide::program()), &words),
+        Err(error) => return told(Output::new(json), &error.format(&mut guide::program()), &words),
     };
     let output = Output::new(cli.global.json);
     if cli.licences {

@@ -10,7 +10,6 @@ use super::diagnostic;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::files;
-use super::usage;
 use crate::records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord};
 
 /// What a command found: the record that `--json` prints, and the text that people read without it.
@@ -96,18 +95,12 @@ impl Output {
         }
     }
 
-    /// What clap has to say about `args`: help and version, or a refusal of the arguments.
-    pub(crate) fn usage(self, error: &clap::Error, args: &[String]) -> Exit {
-        if error.use_stderr() {
-            return self.failure(&usage::refusal(error, args), None);
-        }
+    /// Help and version, which clap words.
+    pub(crate) fn help(self, said: &clap::Error) -> Exit {
         if self.json {
-            return match document(HelpAnswer { help: error.to_string() }, ProvenanceRecord::default(), &[]) {
-                Ok(text) => write_out(&text, Exit::Yes),
-                Err(failure) => self.failure(&failure, None),
-            };
+            return self.notices(&said.to_string());
         }
-        let styled = error.render().ansi().to_string();
+        let styled = said.render().ansi().to_string();
         let shown = anstream::adapter::strip_str(&styled).to_string();
         let coloured = anstream::AutoStream::choice(&io::stdout()) != anstream::ColorChoice::Never;
         write_out(if coloured { &styled } else { &shown }, Exit::Yes)

@@ -29,9 +29,9 @@ pub struct LegExtremes {
 /// What the drive of a leg does along a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveExtremes {
-    /// The greatest force: the hardest push, or the weakest pull of a drive that only pulls.
+    /// The hardest push: the greatest force, 0 of a drive that only pulls.
     pub push: Extreme,
-    /// The least force: the hardest pull where it is negative.
+    /// The hardest pull, a negative force; 0 of a drive that only pushes.
     pub pull: Extreme,
     /// Power of the greatest size, negative where the drive brakes.
     pub power: Extreme,
@@ -57,8 +57,8 @@ impl LegExtremes {
         let drive = |i: &LegInstant| i.2.unwrap_or((f64::NAN, f64::NAN));
         let drive = if driven {
             Some(DriveExtremes {
-                push: most(&|i| drive(i).0, &more)?,
-                pull: most(&|i| drive(i).0, &less)?,
+                push: most(&|i| drive(i).0.max(0.0), &more)?,
+                pull: most(&|i| drive(i).0.min(0.0), &less)?,
                 power: most(&|i| drive(i).1, &larger)?,
                 rms_force: rms(instants.iter().map(|i| (i.0, drive(i).0))),
             })

@@ -49,8 +49,7 @@ impl Design {
     /// The joints with the offsets of an earlier calibration, zero where there is none.
     #[must_use]
     pub(crate) fn leg_model(&self) -> LegModel {
-        let offsets = self.calibration.as_ref().map_or([0.0; 6], |table| table.offsets);
-        LegModel::new(self.manipulator(), offsets)
+        LegModel::new(self.manipulator(), self.leg_offsets())
     }
 
     /// The design with calibrated joints and the table `[calibration]`, in the frames of the measurements or, with `frames`, in its own.

@@ -267,7 +267,7 @@ impl Design {
         (0..6).map(of).reduce(f64::max)
     }
 
-    /// The lowest natural frequency at a pose, hertz; `None` without the stiffness of the legs, and for a point mass that no inertia holds against turns.
+    /// The lowest natural frequency at a pose, hertz; `None` without the stiffness of the legs, and where no inertia is held against turns.
     pub(crate) fn lowest_frequency(&self, pose: &Pose, masses: &MotionMasses) -> Option<f64> {
         let m = self.manipulator();
         let stiffness = masses.per_second_squared(self.hardware.leg_stiffness?);

@@ -11,7 +11,7 @@ use crate::dynamics::{
 };
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, leg_determinant};
-use crate::requirements::{ForceUnit, Load, Margin, MassUnit, Term, TermKind, Terms};
+use crate::requirements::{ForceUnit, Load, Margin, Term, TermKind, Terms};
 use crate::rotary::{CrankMotion, RotaryPlatform};
 use crate::singularity::{SingularEvidence, hold_at, singular_along, straight};
 
@@ -155,7 +155,7 @@ pub(crate) struct StiffnessReport {
     pub(crate) matrix: Matrix6<f64>,
     /// `None` at a singular pose.
     pub(crate) least: Option<LeastStiffness>,
-    /// `None` where masses are not known, and for a point mass that is not held against turns.
+    /// `None` where masses are not known, or no inertia is held against turns.
     pub(crate) natural: Option<[Vibration; 6]>,
 }
 
@@ -172,10 +172,8 @@ pub(crate) struct MotionMasses {
 impl Design {
     /// What forces are computed from: [what moves with the platform](Self::moving_payload) and the masses of the legs, where one design unit is so many metres. `None` where nothing is known to.
     pub(crate) fn motion_masses(&self, metres: f64, load: Option<Load>) -> Option<MotionMasses> {
-        let mass = self.mass_units.unwrap_or(MassUnit::Kilogram);
         let newtons = self.force_units.unwrap_or(ForceUnit::Newton).newtons();
-        let bodies =
-            MovingBodies::new(&self.moving_payload()?, self.hardware.leg_masses.as_ref(), mass, metres);
+        let bodies = self.moving_bodies(metres)?;
         Some(MotionMasses { bodies, newtons, load })
     }
 

@@ -60,13 +60,14 @@ impl Manipulator {
     /// One real pose followed from lengths to lengths, for control loops.
     #[must_use]
     pub fn tracker(&self, start: Pose) -> Tracker {
-        Tracker { solver: NearSolver::new(self), pose: start }
+        Tracker { solver: NearSolver::new(self), pose: start, offsets: [0.0; 6] }
     }
 }
 
 #[cfg(feature = "files")]
 impl Design {
-    /// Forward kinematics: all finite poses, real and complex, at these leg lengths; `&LegLengths` or six numbers.
+    /// Forward kinematics: all finite poses, real and complex, at the lengths that the legs show; `&LegLengths` or six numbers.
+    /// The joints of a calibrated design are as far apart as a leg shows, less its [offset](Self::leg_offsets).
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -84,7 +85,7 @@ impl Design {
     where
         Error: From<L::Error>,
     {
-        self.manipulator().fk(lengths)
+        self.fk_with(lengths, FkOptions::new())
     }
 
     /// As [`fk`](Self::fk), with options.
@@ -99,27 +100,28 @@ impl Design {
     where
         Error: From<L::Error>,
     {
-        self.manipulator().fk_with(lengths, options)
+        let distances = lengths.try_into()?.plus(&self.leg_offsets().map(|d| -d))?;
+        self.manipulator().fk_with::<&LegLengths>(&distances, options)
     }
 
-    /// Inverse kinematics: the leg lengths at a pose.
+    /// Inverse kinematics: the lengths that the legs show at a pose, with the [offsets](Self::leg_offsets) of a calibration.
     ///
     /// # Errors
-    /// [`Error::Overflow`] for a pose so far away that lengths overflow.
+    /// [`Error::Overflow`] for a pose so far away that lengths overflow; an offset that makes a length negative.
     pub fn ik(&self, pose: &Pose) -> Result<LegLengths, Error> {
-        self.manipulator().ik(pose)
+        Ok(self.manipulator().ik(pose)?.plus(&self.leg_offsets())?)
     }
 
-    /// Forward kinematics prepared for many lengths.
+    /// Forward kinematics prepared for many lengths that the legs show.
     #[must_use]
     pub fn solver(&self, options: FkOptions) -> Solver {
-        self.manipulator().solver(options)
+        Solver { offsets: self.leg_offsets(), ..self.manipulator().solver(options) }
     }
 
-    /// One real pose followed from lengths to lengths, for control loops.
+    /// One real pose followed from shown lengths to shown lengths, for control loops.
     #[must_use]
     pub fn tracker(&self, start: Pose) -> Tracker {
-        self.manipulator().tracker(start)
+        Tracker { offsets: self.leg_offsets(), ..self.manipulator().tracker(start) }
     }
 }
 
@@ -133,6 +135,8 @@ pub struct Solver {
     options: FkOptions,
     threads: Threads,
     cancel: Cancel,
+    /// What legs show more than the distances of their joints.
+    offsets: [f64; 6],
 }
 
 impl std::fmt::Debug for Solver {
@@ -160,6 +164,7 @@ impl Solver {
             options,
             threads: Threads::All,
             cancel: Cancel::new(),
+            offsets: [0.0; 6],
         }
     }
 
@@ -185,10 +190,14 @@ impl Solver {
     where
         Error: From<L::Error>,
     {
-        self.solve_squared(&lengths.try_into()?.squared())
+        self.solve_shown(&lengths.try_into()?)
     }
 
-    /// All finite poses at these squared lengths, those that a leg map gives for instance.
+    fn solve_shown(&self, shown: &LegLengths) -> Result<FkSolutions, Error> {
+        self.solve_squared(&shown.plus(&self.offsets.map(|d| -d))?.squared())
+    }
+
+    /// All finite poses at these squared distances of joints, those that a leg map gives for instance.
     ///
     /// # Errors
     /// As [`Manipulator::fk_with`].
@@ -224,7 +233,7 @@ impl Solver {
         let workers = self.threads.count(rows.size_hint().1.unwrap_or(usize::MAX));
         let checked = rows.map(|row| row.try_into().map_err(Error::from));
         Batch(Stream::new(checked, workers, self.cancel.clone(), move |row: Result<LegLengths, Error>| {
-            solver.solve_squared(&row?.squared())
+            solver.solve_shown(&row?)
         }))
     }
 }
@@ -267,6 +276,8 @@ where
 pub struct Tracker {
     solver: NearSolver,
     pose: Pose,
+    /// What legs show more than the distances of their joints.
+    offsets: [f64; 6],
 }
 
 impl Tracker {
@@ -289,7 +300,8 @@ impl Tracker {
     where
         Error: From<L::Error>,
     {
-        let outcome = self.solver.solve(&lengths.try_into()?.squared(), &self.pose);
+        let distances = lengths.try_into()?.plus(&self.offsets.map(|d| -d))?;
+        let outcome = self.solver.solve(&distances.squared(), &self.pose);
         if let NearOutcome::Tracked { pose, .. } = &outcome {
             self.pose = *pose;
         }

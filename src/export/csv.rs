@@ -92,14 +92,17 @@ fn calibration(export: &Export, found: &ExportCalibration) -> String {
 }
 
 fn lengths(export: &Export, poses: &[Pose]) -> String {
-    let mut out = comments(
-        export,
-        "quaternion scalar first: the rotation R; position p: platform origin in the base frame",
-    );
+    let text = "quaternion scalar first: the rotation R; position p: platform origin in the base frame";
+    let shown = if export.leg_offsets.is_some() {
+        "; lengths as the legs show them: distances of the joints with the offsets of the calibration"
+    } else {
+        ""
+    };
+    let mut out = comments(export, &format!("{text}{shown}"));
     out.push_str("pose,x_mm,y_mm,z_mm,qw,qx,qy,qz,l1_mm,l2_mm,l3_mm,l4_mm,l5_mm,l6_mm\n");
     for (k, pose) in poses.iter().enumerate() {
         let mm = export.unit.millimetres;
-        let lengths = reals(export.lengths_at(pose).map(|l| l * mm), ",");
+        let lengths = reals(export.shown_at(pose).map(|l| l * mm), ",");
         let (p, q) = (scaled(&pose.position, mm, ","), reals(pose.quaternion(), ","));
         let _ = writeln!(out, "{},{p},{q},{lengths}", k + 1);
     }

@@ -216,7 +216,7 @@ fn lengths(export: &Export, poses: &[Pose]) -> Vec<LengthsRecord> {
     let mm = export.unit.millimetres;
     let record = |pose: &Pose| LengthsRecord {
         pose: ExportedPose::of(pose, mm),
-        lengths: export.lengths_at(pose).map(|l| l * mm),
+        lengths: export.shown_at(pose).map(|l| l * mm),
     };
     poses.iter().map(record).collect()
 }

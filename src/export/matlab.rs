@@ -43,7 +43,7 @@ fn calibration(out: &mut String, export: &Export) {
     let column = |values: &[f64]| values.iter().map(|x| vec![x * m]).collect::<Vec<_>>();
     if let Some(offsets) = &export.leg_offsets {
         out.push_str(
-            "% offsets: 6x1, what the length that each leg shows is longer than the distance of its joints\n",
+            "% offsets: 6x1, what the length that each leg shows is longer than the distance of its joints; l, L and lengths are shown lengths\n",
         );
         matrix(out, "offsets", &column(offsets));
     }
@@ -79,7 +79,7 @@ fn script(export: &Export) -> String {
     let r = export.home.rotation.matrix();
     matrix(&mut out, "R", &[0, 1, 2].map(|i| r.row(i).iter().copied().collect()));
     matrix(&mut out, "p", &[0, 1, 2].map(|i| vec![export.home.position[i] * m]));
-    matrix(&mut out, "l", &export.legs.map(|l| vec![l.length() * m]));
+    matrix(&mut out, "l", &export.shown_at(&export.home).map(|l| vec![l * m]));
     let poses: Vec<_> = export.workspace.iter().chain(&export.trajectory).collect();
     let row = |pose: &&crate::geom::Pose| -> Vec<f64> {
         let (r, p) = (pose.rotation.matrix(), pose.position * m);
@@ -88,12 +88,16 @@ fn script(export: &Export) -> String {
         row
     };
     matrix(&mut out, "T", &poses.iter().map(row).collect::<Vec<_>>());
-    let lengths = poses.iter().map(|p| export.lengths_at(p).iter().map(|l| l * m).collect());
+    let lengths = poses.iter().map(|p| export.shown_at(p).iter().map(|l| l * m).collect());
     matrix(&mut out, "L", &lengths.collect::<Vec<_>>());
     calibration(&mut out, export);
+    let offsets = if export.leg_offsets.is_some() { " + stewart.offsets" } else { "" };
+    let _ = writeln!(
+        out,
+        "stewart.lengths = @(R, p) sqrt(sum((R * stewart.b + repmat(p, 1, 6) - stewart.a).^2, 1))'{offsets};"
+    );
     out.push_str(
-        "stewart.lengths = @(R, p) sqrt(sum((R * stewart.b + repmat(p, 1, 6) - stewart.a).^2, 1))';\n\
-         % the lengths written are those of the formula\n\
+        "% the lengths written are those of the formula\n\
          for stewart_k = 1:size(stewart.T, 1)\n\
          \x20 stewart_T = reshape(stewart.T(stewart_k, :), 4, 4)';\n\
          \x20 stewart_d = stewart.lengths(stewart_T(1:3, 1:3), stewart_T(1:3, 4)) - stewart.L(stewart_k, :)';\n\

@@ -1,17 +1,17 @@
 //! What all formats need, worked out once.
 
-use nalgebra::{DMatrix, Matrix3, Point3, Vector3};
+use nalgebra::{DMatrix, Point3, Vector3};
 
 use super::controller::EquivalentOctahedral;
 use super::plate::Plate;
-use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, mass};
+use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, moving};
 use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
 use crate::coupled::CoupledLegs;
 use crate::design::{CalibratedNumber, Design};
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
-use crate::requirements::{ForceUnit, Hardware, KeepOutShape, LegMasses, MassUnit, plate_normal};
+use crate::requirements::{ForceUnit, Hardware, KeepOutShape, MovingBodies, plate_normal};
 use crate::rotary::RotaryPlatform;
 
 /// A joint of a body.
@@ -222,20 +222,14 @@ pub struct Export {
     pub workspace: Vec<Pose>,
     /// Poses along the trajectory; empty without one.
     pub trajectory: Vec<Pose>,
-    /// Mass of the platform with its payload, kilograms.
-    pub mass: f64,
+    /// What moves, kilograms and design units; what the design does not say is chosen by rule.
+    pub moving: MovingBodies,
     /// Whether the design says what the platform carries.
     pub payload: bool,
     /// The room that the payload takes up, platform frame, design units, where the design says it.
     pub payload_shape: Option<KeepOutShape>,
-    /// Centre of mass of the platform with its payload, platform frame, design units, where the design says it.
-    pub center_of_mass: Option<Point3<f64>>,
-    /// Inertia about the centre of mass, axes of the platform frame, kg m^2, where the design says it.
-    pub inertia: Option<Matrix3<f64>>,
     /// Gravity, base frame, m/s^2.
     pub gravity: Vector3<f64>,
-    /// Masses of a leg, kilograms and metres, where the design says them.
-    pub leg_masses: Option<LegMasses>,
     /// Greatest force of a drive, newtons, where the design limits it.
     pub greatest_force: Option<f64>,
     /// Whether simulators are told to carry the weight of all bodies.
@@ -309,15 +303,7 @@ impl Export {
         let (platform_ball, platform_plate) =
             seated(Body::Platform, &platform, &-(home.rotation.inverse() * towards))?;
         let sizes = LegSizes::of(hardware, [base_ball, platform_ball], shortest, &mut choices);
-        let in_kilograms = design.mass_units.unwrap_or(MassUnit::Kilogram).kilograms();
-        let carried = design.moving_payload();
-        let table = if design.payload.is_some() { "[payload]" } else { "[plates.platform]" };
-        let payload = carried.map(|p| p.mass * in_kilograms);
-        let mass = mass(options.mass, payload.map(|mass| (mass, table)), size * unit.metres, &mut choices)?;
-        // a body of another mass with the same shape
-        let share = payload.map_or(1.0, |own| mass / own);
-        let inertia = carried.and_then(|p| p.inertia);
-        let inertia = inertia.map(|i| i * (in_kilograms * unit.metres * unit.metres * share));
+        let moving = moving(design, options.mass, unit.metres, &mut choices)?;
         let bodies = [
             ExportBody { body: Body::Base, joints: base, ball_diameter: base_ball, plate: base_plate },
             ExportBody {
@@ -356,20 +342,10 @@ impl Export {
             leg_range: hardware.leg_length.map(|l| l.range()),
             workspace,
             trajectory,
-            mass,
+            moving,
             payload: design.payload.is_some(),
             payload_shape: design.payload.as_ref().and_then(|p| p.shape),
-            center_of_mass: carried.map(|p| p.center),
-            inertia,
-            gravity: carried.map_or_else(|| Vector3::new(0.0, 0.0, -9.81), |p| p.gravity),
-            leg_masses: hardware.leg_masses.map(|masses| {
-                let mut masses = masses.scaled(in_kilograms);
-                for part in [&mut masses.cylinder, &mut masses.rod] {
-                    part.center *= unit.metres;
-                    part.inertia *= unit.metres * unit.metres;
-                }
-                masses
-            }),
+            gravity: design.gravity(),
             greatest_force: hardware.max_leg_force.map(|f| f * newtons),
             gravity_compensation: options.gravity_compensation,
             choices,
@@ -407,6 +383,13 @@ impl Export {
     #[must_use]
     pub fn lengths_at(&self, pose: &Pose) -> [f64; 6] {
         self.legs.map(|l| (pose.transform(&self.bodies[1].joints[l.platform].at) - l.foot).norm())
+    }
+
+    /// Lengths that the legs show at a pose, design units: [`lengths_at`](Self::lengths_at) with the offsets of a calibration.
+    #[must_use]
+    pub fn shown_at(&self, pose: &Pose) -> [f64; 6] {
+        let (lengths, offsets) = (self.lengths_at(pose), self.leg_offsets.unwrap_or_default());
+        std::array::from_fn(|i| lengths[i] + offsets[i])
     }
 
     /// The heading every text file begins with: design, source, program, unit of the file, frames.

@@ -131,18 +131,18 @@ impl Export {
             out.extend(bolts(body, mm));
         }
         self.legs_by_kind(&mut out);
-        let [cylinder, rod] = [self.leg_masses.map(|m| m.cylinder.mass), self.leg_masses.map(|m| m.rod.mass)];
-        let known = |mass: Option<f64>| mass.filter(|m| *m > 0.0);
+        let leg = &self.moving.leg;
+        let known = |mass: f64| Some(mass).filter(|m| *m > 0.0);
         let (thick, thin) = self.legs[0].diameters;
         out.push(PartLine {
-            mass: known(cylinder),
+            mass: known(leg.cylinder.mass),
             length: Some(self.legs[0].cylinder * mm),
             thickness: Some(thick * mm),
             ..PartLine::new("cylinder", 6, "one a leg")
         });
         for (length, count) in self.rods() {
             out.push(PartLine {
-                mass: known(rod),
+                mass: known(leg.rod.mass),
                 length: length.map(|l| l * mm),
                 thickness: Some(thin * mm),
                 ..PartLine::new("rod", count, "one a leg")
@@ -152,7 +152,7 @@ impl Export {
             // the plate of the platform has a line and a mass of its own
             let plate = self.bodies[1].plate().ok().and_then(|plate| plate.mass(self.unit.metres));
             let what = if plate.is_some() { "payload" } else { "payload with platform" };
-            let mass = (self.mass - plate.unwrap_or(0.0)).max(0.0);
+            let mass = (self.moving.mass - plate.unwrap_or(0.0)).max(0.0);
             out.push(PartLine { mass: Some(mass), ..PartLine::new(what, 1, "carried, not bought") });
         }
         out

@@ -6,8 +6,9 @@ use thiserror::Error;
 use super::model::ExportedJoint;
 use super::telescope::has_room;
 use super::units::{LengthUnit, UnknownUnit};
+use crate::design::Design;
 use crate::manipulator::Body;
-use crate::requirements::{Hardware, PlateDesign, seat_height};
+use crate::requirements::{Hardware, MovingBodies, PlateDesign, seat_height};
 
 /// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that [`Export::choices`](super::Export::choices) states.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -288,24 +289,33 @@ impl LegSizes {
     }
 }
 
-/// Mass of the platform: as chosen, else what the design says (mass and table). Without one, Froude scaling: with masses as lengths cubed and times as their square roots, platforms of all sizes move alike.
+/// What moves: as the design says, its platform as heavy as `given` with the same shape where that is said. Without a mass, Froude scaling: with masses as lengths cubed and times as
+/// their square roots, platforms of all sizes move alike.
 ///
 /// # Errors
 /// [`NoExport::BadSize`].
-pub(super) fn mass(
+pub(super) fn moving(
+    design: &Design,
     given: Option<f64>,
-    stated: Option<(f64, &'static str)>,
     metres: f64,
     choices: &mut Vec<SizeChoice>,
-) -> Result<f64, NoExport> {
-    let value = given.or(stated.map(|s| s.0)).unwrap_or(20.0 * metres.powi(3));
-    positive("the mass", value)?;
-    let rule = stated.map_or("rule: 20 kg times the cube of the size in metres", |s| s.1);
-    choices.push(SizeChoice {
-        what: "mass of the platform with payload".to_string(),
-        value,
-        unit: "kg",
-        from: if given.is_some() { "option" } else { rule },
+) -> Result<MovingBodies, NoExport> {
+    let stated = design.moving_bodies(metres);
+    let mut moving = stated.unwrap_or_else(|| {
+        let mass = 20.0 * (design.manipulator().size() * metres).powi(3);
+        design.assumed_bodies(mass, metres)
     });
-    Ok(value)
+    let mass = given.unwrap_or(moving.mass);
+    positive("the mass", mass)?;
+    moving.inertia *= mass / moving.mass;
+    moving.mass = mass;
+    let from = match (given, stated) {
+        (Some(_), _) => "option",
+        (None, None) => "rule: 20 kg times the cube of the size in metres",
+        (None, Some(_)) if design.payload.is_some() => "[payload]",
+        (None, Some(_)) => "[plates.platform]",
+    };
+    let what = "mass of the platform with payload".to_owned();
+    choices.push(SizeChoice { what, value: mass, unit: "kg", from });
+    Ok(moving)
 }

@@ -73,6 +73,14 @@ impl LegLengths {
         self.0
     }
 
+    /// Lengths that are greater by these numbers: what legs with offsets show where the joints have these distances, and the distances with the opposite numbers.
+    ///
+    /// # Errors
+    /// The first sum that is no length.
+    pub fn plus(&self, more: &[f64; 6]) -> Result<Self, InvalidLengths> {
+        Self::try_new(std::array::from_fn(|i| self.0[i] + more[i]))
+    }
+
     /// `s_i = l_i^2`, exactly unless a square leaves the range in which two doubles hold it.
     #[must_use]
     pub fn squared(&self) -> SquaredLegLengths {

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use super::answers::document;
 use super::arrays::{as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
-use super::failure::{interrupted, raised, refused, refused_for_cranks};
+use super::failure::{interrupted, interruptible, raised, refused, refused_for_cranks};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};
 use super::tracker::{Followed, NativeTracker};
 use crate::design::{self, Format, PRESETS, parse_ideal};
@@ -233,8 +233,10 @@ impl NativeDesign {
             })?;
             return Ok(Some(shaped([before, &[6]].concat(), lengths)?.into_pyarray(py)));
         }
+        let offsets = self.design.leg_offsets();
         at_poses(py, entries, |pose| {
-            lengths.extend_from_slice(&pose.lengths_of(&legs).ok_or(Error::Overflow)?.get());
+            let distances = pose.lengths_of(&legs).ok_or(Error::Overflow)?;
+            lengths.extend_from_slice(&distances.plus(&offsets).map_err(Error::from)?.get());
             Ok(())
         })?;
         Ok(Some(shaped([before, &[6]].concat(), lengths)?.into_pyarray(py)))
@@ -417,7 +419,8 @@ impl NativeDesign {
     /// The answer of `equipod check`.
     fn check(&self, py: Python<'_>, seed: u64) -> PyResult<String> {
         self.only_of_legs(py, OF_SINGULARITY)?;
-        let found = py.detach(|| self.design.check_with(seed)).map_err(|e| raised(py, e))?;
+        let design = Arc::clone(&self.design);
+        let found = interruptible(py, move || design.check_with(seed))?;
         document(CheckAnswer::from(&found), &[&self.design], Some(seed))
     }
 
@@ -432,8 +435,8 @@ impl NativeDesign {
         seed: u64,
     ) -> PyResult<String> {
         let options = AssessOptions::new().points(points).steps(steps).searches(searches).seed(seed);
-        let found =
-            py.detach(|| self.design.assess_by(&options, cells, &mut |_| {})).map_err(|e| raised(py, e))?;
+        let design = Arc::clone(&self.design);
+        let found = interruptible(py, move || design.assess_by(&options, cells, &mut |_| {}))?;
         document(AssessAnswer::new(&self.design, &found), &[&self.design], Some(seed))
     }
 

@@ -1,4 +1,8 @@
-//! Errors of the library as Python exceptions, with code, place and help.
+//! Errors of the library as Python exceptions, with code, place and help, and interrupts.
+
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
 use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
@@ -34,6 +38,34 @@ pub(super) fn raised(py: Python<'_>, error: Error) -> PyErr {
 #[allow(clippy::redundant_closure_for_method_calls, reason = "the method itself is not general enough")]
 pub(super) fn interrupted() -> bool {
     Python::attach(|py| py.check_signals()).is_err()
+}
+
+/// How often a long computation looks for signals.
+const SIGNALS: Duration = Duration::from_millis(100);
+
+/// Computes on a thread of its own while the caller looks for signals. After an interrupt the computation goes on unheard until it ends: it has no place where it could be stopped.
+pub(super) fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, Error> + Send + 'static,
+) -> PyResult<T> {
+    let (answer, found) = mpsc::channel();
+    let found = py.detach(move || {
+        let worker = thread::spawn(move || answer.send(work()));
+        loop {
+            match found.recv_timeout(SIGNALS) {
+                Ok(found) => return found,
+                Err(RecvTimeoutError::Timeout) if interrupted() => return Err(Error::Cancelled),
+                Err(RecvTimeoutError::Timeout) => {}
+                // it ended without an answer: with a panic, which is the caller's
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+        }
+        match worker.join() {
+            Err(panic) => std::panic::resume_unwind(panic),
+            Ok(_) => Err(Error::Cancelled),
+        }
+    });
+    found.map_err(|e| raised(py, e))
 }
 
 /// Bad input that the library does not see: shapes and names of arguments.

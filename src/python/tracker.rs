@@ -4,12 +4,15 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntyp
 use pyo3::prelude::*;
 
 use super::arrays::{as_it_stands, lengths_in, matrices};
-use super::failure::raised;
+use super::failure::{interrupted, raised};
 use crate::entrance::{self, Error};
 use crate::fk::NearOutcome;
 use crate::geom::Pose;
 use crate::manipulator::LegLengths;
 use crate::rotary::RotaryTracker;
+
+/// Rows between two looks for signals: some milliseconds.
+const SIGNALS: usize = 1024;
 
 /// Follows one real pose, never to another assembly mode.
 #[pyclass(name = "Tracker", module = "equipod._core")]
@@ -70,20 +73,21 @@ impl NativeTracker {
         matrices(&[self.0.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
     }
 
-    /// Continues to six lengths: status, the pose reached, residual, fraction of the way, reason. `None`: the lengths are no array of six doubles.
+    /// Continues to six lengths: status, the pose reached, residual, Frobenius ratio, fraction of the way, reason. `None`: the lengths are no array of six doubles.
     #[allow(clippy::type_complexity)]
     fn step<'py>(
         &mut self,
         py: Python<'py>,
         lengths: &Bound<'py, PyAny>,
-    ) -> PyResult<Option<(&'static str, Bound<'py, PyArray2<f64>>, f64, f64, Option<String>)>> {
+    ) -> PyResult<Option<(&'static str, Bound<'py, PyArray2<f64>>, f64, f64, f64, Option<String>)>> {
         let Some(array) = as_it_stands(lengths) else { return Ok(None) };
         let six = array.as_slice().ok().and_then(|entries| <[f64; 6]>::try_from(entries).ok());
         let Some(six) = six.filter(|_| array.ndim() == 1) else { return Ok(None) };
         let outcome = self.0.continued(six).map_err(|e| raised(py, e))?;
         let (status, fraction, reason) = said(&outcome);
         let pose = matrices(&[*outcome.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py);
-        Ok(Some((status, pose, outcome.evidence().residual, fraction, reason)))
+        let evidence = outcome.evidence();
+        Ok(Some((status, pose, evidence.residual, evidence.frobenius_ratio, fraction, reason)))
     }
 
     /// Continues through rows of lengths until one is not reached: the poses of those that were, and what became of the next.
@@ -92,29 +96,38 @@ impl NativeTracker {
         &mut self,
         py: Python<'py>,
         lengths: PyReadonlyArray2<'py, f64>,
-    ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray1<f64>>, &'static str, f64, Option<String>)>
-    {
+    ) -> PyResult<(
+        Bound<'py, PyArray3<f64>>,
+        [Bound<'py, PyArray1<f64>>; 2],
+        &'static str,
+        f64,
+        Option<String>,
+    )> {
         let rows = lengths_in(py, &lengths.as_array())?;
         rows.iter().try_for_each(|row| self.0.check(*row)).map_err(|e| raised(py, e))?;
         let tracker = &mut self.0;
-        let (poses, residuals, end) = py.detach(move || {
-            let (mut poses, mut residuals) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
-            for row in &rows {
+        let (poses, residuals, ratios, end) = py.detach(move || {
+            let (mut poses, mut residuals, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+            for (k, row) in rows.iter().enumerate() {
+                if k % SIGNALS == 0 && interrupted() {
+                    return (poses, residuals, ratios, Err(Error::Cancelled));
+                }
                 match tracker.continued(*row) {
                     Ok(NearOutcome::Tracked { pose, evidence }) => {
                         poses.push(pose);
                         residuals.push(evidence.residual);
+                        ratios.push(evidence.frobenius_ratio);
                     }
-                    Ok(other) => return (poses, residuals, Ok(said(&other))),
-                    Err(error) => return (poses, residuals, Err(error)),
+                    Ok(other) => return (poses, residuals, ratios, Ok(said(&other))),
+                    Err(error) => return (poses, residuals, ratios, Err(error)),
                 }
             }
-            (poses, residuals, Ok(("tracked", 1.0, None)))
+            (poses, residuals, ratios, Ok(("tracked", 1.0, None)))
         });
         let (status, fraction, reason) = end.map_err(|e| raised(py, e))?;
         Ok((
             matrices(&poses).into_pyarray(py),
-            ndarray::Array1::from(residuals).into_pyarray(py),
+            [residuals, ratios].map(|column| ndarray::Array1::from(column).into_pyarray(py)),
             status,
             fraction,
             reason,

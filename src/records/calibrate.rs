@@ -105,6 +105,8 @@ pub struct CalibrationRecord {
     pub chi_square: ChiSquareRecord,
     /// Measurements that do not belong to the others, the farthest first.
     pub outliers: Vec<OutlierRecord>,
+    /// Two legs, from 1, whose measured lengths look exchanged: they are five times nearer to the design when they change places; null: none do.
+    pub exchanged_legs: Option<[usize; 2]>,
 }
 
 /// The frames of calibrated joints.
@@ -498,6 +500,7 @@ impl CalibrationRecord {
                 probability: found.chi_square.probability.map(Number),
             },
             outliers: found.outliers.iter().map(|o| OutlierRecord::new(o, lines)).collect(),
+            exchanged_legs: found.exchanged.map(|legs| legs.map(|leg| leg + 1)),
         }
     }
 }

@@ -34,7 +34,7 @@ pub struct DriveSolutionRecord {
     pub status: DriveSolutionWord,
     /// Why there is no pose.
     pub reason: Option<String>,
-    /// The lengths of the drives asked for.
+    /// The lengths that the drives show.
     pub lengths: [f64; 6],
     /// The distances of the joints at the pose, to which it was followed.
     pub distances: [f64; 6],

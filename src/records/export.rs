@@ -21,6 +21,8 @@ pub struct ExportAnswer {
     pub formats: Vec<FormatRecord>,
     /// The sizes that were chosen.
     pub sizes: Vec<SizeRecord>,
+    /// What the model of the simulator takes of masses and units because the file doesn't say it; empty where none was written.
+    pub assumptions: Vec<String>,
 }
 
 impl ExportAnswer {
@@ -39,6 +41,7 @@ impl ExportAnswer {
             design_unit: LengthUnitRecord { label: export.unit.label.into(), mm: export.unit.millimetres },
             formats,
             sizes: export.choices.iter().map(SizeRecord::from).collect(),
+            assumptions: Vec::new(),
         }
     }
 }

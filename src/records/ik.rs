@@ -44,7 +44,7 @@ pub struct IkRecord {
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
-    /// The six distances of the joints in leg order, design units.
+    /// The lengths that the legs show, in leg order, design units: the distances of their joints, and the offsets of a calibration; where joints are not ideal the distances alone.
     pub lengths: [f64; 6],
     /// The lengths of the drives, where joints are not ideal; `within_limits`, `outside`, `J` and the angles are then those of drives and real axes, and there are no margins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -122,24 +122,25 @@ impl JointAnglesRecord {
 }
 
 impl IkRecord {
-    /// What is known at a pose with these lengths; `terms` are the requirements of the design.
+    /// What is known at a pose with these distances of joints; `terms` are the requirements of the design.
     #[must_use]
-    pub(crate) fn new(design: &Design, terms: &Terms<'_>, pose: &Pose, lengths: [f64; 6]) -> Self {
+    pub(crate) fn new(design: &Design, terms: &Terms<'_>, pose: &Pose, distances: [f64; 6]) -> Self {
         let m = design.manipulator();
         let limits = design.hardware.leg_length.map(|limits| limits.range());
         let outside: Vec<usize> = match limits {
             Some((least, greatest)) => {
-                (1..=6).filter(|leg| !(least..=greatest).contains(&lengths[leg - 1])).collect()
+                (1..=6).filter(|leg| !(least..=greatest).contains(&distances[leg - 1])).collect()
             }
             None => Vec::new(),
         };
+        let offsets = design.leg_offsets();
         let rows = jacobian(m, pose, 1.0);
         let scaled = jacobian(m, pose, design.characteristic_length());
         Self {
             line: None,
             time: None,
             pose: pose.into(),
-            lengths,
+            lengths: std::array::from_fn(|i| distances[i] + offsets[i]),
             drives: None,
             within_limits: limits.map(|_| outside.is_empty()),
             outside,
@@ -174,9 +175,10 @@ impl IkRecord {
         design: &Design,
         terms: &Terms<'_>,
         pose: &Pose,
-        states: &[DriveState; 6],
+        (distances, states): (&[f64; 6], &[DriveState; 6]),
     ) -> Self {
-        let drives = DriveLengthsRecord::new(&self.lengths, states);
+        let mut drives = DriveLengthsRecord::new(distances, states);
+        self.lengths = *distances;
         if let Some((least, greatest)) = design.hardware.leg_length.map(|limits| limits.range()) {
             self.outside =
                 (1..=6).filter(|leg| !(least..=greatest).contains(&drives.lengths[leg - 1])).collect();
@@ -189,6 +191,9 @@ impl IkRecord {
         self.inverse_condition = Number(inverse_condition(&scaled));
         // they bend about centres of ideal joints
         self.flexures = None;
+        for (length, offset) in drives.lengths.iter_mut().zip(design.leg_offsets()) {
+            *length += offset;
+        }
         self.drives = Some(drives);
         self
     }

@@ -42,7 +42,7 @@ pub struct StiffnessRecord {
     pub linear: Number,
     /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
     pub angular: Number,
-    /// The natural motions, the slowest first; null: masses are not known, or a point mass is not held against turns.
+    /// The natural motions, the slowest first; null: masses are not known, or no inertia is held against turns.
     pub natural: Option<Vec<NaturalMotionRecord>>,
 }
 
@@ -233,9 +233,9 @@ pub struct LegMotionRecord {
     pub speed: ExtremeRecord,
     /// Acceleration of the greatest size.
     pub acceleration: ExtremeRecord,
-    /// Greatest force of the drive: its hardest push where it is positive; null: no masses are known, or forces are not determined.
+    /// Hardest push of the drive, 0 where it only pulls; null: no masses are known, or forces are not determined.
     pub push: Option<ExtremeRecord>,
-    /// Least force: its hardest pull where it is negative.
+    /// Hardest pull, negative, 0 where it only pushes.
     pub pull: Option<ExtremeRecord>,
     /// Root of the mean square of the force over time, force units.
     pub rms_force: Option<Number>,

@@ -5,6 +5,8 @@ that the open tree needs, and the principle of virtual work carries them over to
 """
 
 import csv
+import json
+import re
 
 from common import compare, module, run
 
@@ -149,13 +151,30 @@ class Inverse:
         return forces, speed[self.slides], acceleration[self.slides]
 
 
+# what of DESIGN is left out, and what the program says instead
+LEG_MASSES = ["cylinder_mass", "cylinder_center", "cylinder_inertia", "rod_mass", "rod_center", "reflected_mass"]
+VARIANTS = {
+    "with all masses": ([], []),
+    "legs without masses": (LEG_MASSES, ["taken as massless"]),
+    "nothing but the mass of the payload": (["inertia", *LEG_MASSES], ["taken as massless", "that of a ball"]),
+}
+
+
 def check_dynamics(program, folder):
     np, mujoco = module("numpy"), module("mujoco", "MuJoCo")
     if np is None or mujoco is None:
         return
-    folder.mkdir(exist_ok=True)
+    for number, (name, (absent, assumed)) in enumerate(VARIANTS.items()):
+        lines = [line for line in DESIGN.split("\n") if line.split(" = ")[0] not in absent]
+        check_variant(program, folder / str(number), (name, "\n".join(lines), assumed), (np, mujoco))
+
+
+def check_variant(program, folder, variant, modules):
+    """`motion` and the exported model of one design: the same masses, the same assumptions, the same forces."""
+    (name, text, assumed), (np, mujoco) = variant, modules
+    folder.mkdir(parents=True, exist_ok=True)
     design, way, out = folder / "moving.toml", folder / "way.csv", folder / "motion.csv"
-    design.write_text(DESIGN)
+    design.write_text(text)
     lines = ["t,x,y,z,qw,qx,qy,qz"]
     for k in range(ROWS):
         p, r, _, _ = state(np, k / RATE, COMBINED)
@@ -165,8 +184,11 @@ def check_dynamics(program, folder):
     way.write_text("\n".join(lines) + "\n")
     sines = {"x:60:1": 0, "z:40:2": 2, "roll:9:1.5": 3, "yaw:12:1": 5}
     options = [x for sine in sines for x in ("--sine", sine)]
-    run(program, "motion", design, way, "--steps", 1, *options, "--samples", 40, "--csv", out, "-q")
-    run(program, "export", design, "--to", "mjcf", "-o", folder)
+    moved = json.loads(run(program, "motion", design, way, "--steps", 1, *options, "--samples", 40, "--csv", out, "--json"))
+    exported = json.loads(run(program, "export", design, "--to", "mjcf", "-o", folder, "--json"))
+    assert moved["assumptions"] == exported["assumptions"], exported["assumptions"]
+    assert len(assumed) == len(moved["assumptions"]), moved["assumptions"]
+    assert all(any(words in line for line in moved["assumptions"]) for words in assumed), moved["assumptions"]
     rows = list(csv.DictReader(out.open()))
     def chosen():
         """Rows with what the platform does there."""
@@ -194,6 +216,7 @@ def check_dynamics(program, folder):
         return "" if seen > 70 and worst < 1e-6 else f"{seen} instants, off by {worst:.1e}"
     wrong = folder / "wrong.xml"
     def heavier(text):
-        at = text.index('<body name="rod2"')
-        return text[:at] + text[at:].replace('mass="4.25"', 'mass="4.26"', 1)
-    compare("motion (MuJoCo): forces, speeds, accelerations and powers of the legs to 1e-6; a rod 10 g heavier", good, folder / "platform.xml", wrong, heavier)
+        before, after = text.split('<body name="rod2"')
+        return before + '<body name="rod2"' + re.sub('mass="([^"]*)"', lambda m: f'mass="{float(m[1]) + 0.01!r}"', after, count=1)
+    what = f"motion (MuJoCo), {name}: forces, speeds, accelerations and powers of the legs to 1e-6; a rod 10 g heavier"
+    compare(what, good, folder / "platform.xml", wrong, heavier)

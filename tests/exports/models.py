@@ -112,7 +112,7 @@ class MuJoCo(Mechanism):
 
 class Drake(Mechanism):
     PACKAGE = "pydrake"
-    REST = 1e-8  # its solver gives up on slower motion
+    REST = 1e-7  # its solver gives up on slower motion
 
     def load(self, path):
         import logging

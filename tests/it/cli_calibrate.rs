@@ -421,3 +421,73 @@ fn gross_lengths_are_named_and_the_machine_is_found_all_the_same() {
         }
     }
 }
+
+/// A calibrated design speaks of the lengths that its legs show: from `ik` through `fk` back to the pose, and in the tables of `export`.
+#[test]
+fn lengths_of_a_calibrated_machine_are_those_that_its_legs_show() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let out = path("calibrated.toml");
+    assert_eq!(asked(&[&[DESIGN, TABLE, "-o", &out], SIGMAS.as_slice()].concat()).0, Some(0));
+    let design = equipod::Design::load(&out).unwrap();
+    let offsets = design.leg_offsets();
+    assert!(offsets.iter().all(|d| d.abs() > 0.01), "{offsets:?}");
+    let pose = equipod::Pose::new(
+        nalgebra::Vector3::new(3.0, -4.0, 205.0),
+        equipod::Angles::from_degrees([2.0, -3.0, 4.0]),
+    );
+    let distances = pose.lengths(design.manipulator()).unwrap().get();
+    let shown: [f64; 6] = std::array::from_fn(|i| distances[i] + offsets[i]);
+    let answer = |args: &[&str]| {
+        let out = equipod(&[args, &["--json"]].concat());
+        assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+        document(&out)
+    };
+    let text = "3,-4,205,2,-3,4";
+    let ik = answer(&["ik", &out, "--pose", text]);
+    let near = |x: &Value, y: f64| assert!((number(x) - y).abs() < 1e-9, "{x} {y}");
+    (0..6).for_each(|i| near(&ik["lengths"][i], shown[i]));
+    let lengths = shown.map(|l| l.to_string()).join(",");
+    let at = |solution: &Value| (0..3).map(|k| number(&solution["position"][k]["re"])).collect::<Vec<_>>();
+    let fk = answer(&["fk", &out, "--lengths", &lengths]);
+    let all: Vec<_> = fk["solutions"].as_array().unwrap().iter().map(at).collect();
+    let wanted = [3.0, -4.0, 205.0];
+    let off = |p: &Vec<f64>| (0..3).map(|k| (p[k] - wanted[k]).abs()).fold(0.0, f64::max);
+    assert!(all.iter().any(|p| off(p) < 1e-6), "{all:?}");
+    let followed = answer(&["fk", &out, "--near", "home", "--lengths", &lengths]);
+    assert!(off(&at(&followed["solutions"][0])) < 1e-6, "{followed}");
+    // the library: the same question, the same answer
+    let own = design.ik(&pose).unwrap().get();
+    assert!((0..6).all(|i| (own[i] - shown[i]).abs() < 1e-12), "{own:?}");
+    let mut tracker = design.tracker(design.home_or_default());
+    let _ = tracker.step(shown).unwrap();
+    assert!((tracker.pose().position - pose.position).norm() < 1e-6);
+    let found = design.solver(equipod::FkOptions::new()).solve(shown).unwrap();
+    let nearest =
+        found.real_poses().map(|p| (p.position - pose.position).norm()).fold(f64::INFINITY, f64::min);
+    assert!(nearest < 1e-6);
+    // and the tables of a machine as it stands at home
+    let files = path("files");
+    assert!(equipod(&["export", &out, "--to", "csv", "-o", &files]).status.success());
+    let table = std::fs::read_to_string(format!("{files}/lengths-workspace.csv")).unwrap();
+    let first = table.lines().find(|line| line.starts_with("1,")).unwrap();
+    let cells: Vec<f64> = first.split(',').map(|x| x.parse().unwrap()).collect();
+    let home = design.ik(&design.home_or_default()).unwrap().get();
+    assert!((0..6).all(|i| (cells[8 + i] - home[i]).abs() < 1e-9), "{table}");
+}
+
+/// Two columns of the table in each other's place are named, on the terminal too.
+#[test]
+fn columns_of_two_legs_in_each_others_place_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut rows = table();
+    rows[1..].iter_mut().for_each(|row| row.swap(7, 10));
+    let wired = &write(&folder, "wired.csv", &rows);
+    let (_, doc) = asked(&[&[DESIGN, wired.as_str()], SIGMAS.as_slice()].concat());
+    assert_eq!(doc["calibration"]["exchanged_legs"], serde_json::json!([2, 5]));
+    let said = equipod(&[&["calibrate", DESIGN, wired.as_str()], SIGMAS.as_slice()].concat());
+    let text = String::from_utf8_lossy(&said.stdout).into_owned();
+    assert!(text.contains("lengths of legs 2 and 5 are five times nearer"), "{text}");
+    let (_, doc) = asked(&[&[DESIGN, TABLE], SIGMAS.as_slice()].concat());
+    assert!(doc["calibration"]["exchanged_legs"].is_null());
+}

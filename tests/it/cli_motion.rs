@@ -29,6 +29,7 @@ fn a_manoeuvre_has_forces_and_limits_for_every_leg() {
         let [low, high] = ["shortest", "longest"].map(|k| number(&leg[k]["value"]));
         assert!(low < high);
         assert!(number(&leg["push"]["value"]) > number(&leg["rms_force"]));
+        assert!(number(&leg["pull"]["value"]) == 0.0, "a leg that only pushes: {leg}");
         assert!(number(&leg["power_w"]["value"]).abs() <= 9000.0 * 0.75);
     }
     let names: Vec<&str> = heave["requirements"]

@@ -110,7 +110,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         // refused with the place in the file: no format asked for holds such joints
         context.load(&args.design)?;
     }
-    if !args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name()) {
+    let simulated = args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name());
+    if !simulated {
         for option in ["mass", "gravity_compensation"] {
             context.no_effect(option, "only the simulator's format, mjcf, holds masses")?;
         }
@@ -153,12 +154,26 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     };
     let text = format!("{lead}\n{text}");
     let mut text = text;
-    let record = ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats);
+    let mut record = ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats);
+    if simulated {
+        record.assumptions = simulator_assumptions(&design);
+    }
     text.push_str("sizes\n");
     for c in &record.sizes {
         let Number(x) = c.value;
         let value = if x < 1e-3 { format!("{x:.4e}") } else { format!("{x:.6}") };
         let _ = writeln!(text, "  {:<36} {value:>12} {:<13} {}", c.what, c.unit, c.from);
     }
+    for line in &record.assumptions {
+        let _ = writeln!(text, "{line}");
+    }
     Ok(Answer::new(exit, record, text))
+}
+
+/// What the model of the simulator takes of masses because the design doesn't say it.
+fn simulator_assumptions(design: &Design) -> Vec<String> {
+    if design.moving_payload().is_some() {
+        return design.mass_assumptions();
+    }
+    vec!["The design has no [payload]: the platform is a ball in the middle of its joints.".to_owned()]
 }

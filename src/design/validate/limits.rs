@@ -88,8 +88,12 @@ pub(super) fn payload(report: &mut Findings<'_>, top: &[Entry]) -> Option<Payloa
 pub(super) fn vibrating(report: &mut Findings<'_>, top: &[Entry], units: &str) {
     let Some(Value::Table(entries)) = find(top, "stiffness").map(|e| &e.node.value) else { return };
     let Some(entry) = find(entries, "natural_frequency") else { return };
-    if find(top, "payload").is_none() {
-        let message = "`natural_frequency` of [stiffness] needs the mass that vibrates";
+    let inertia = match find(top, "payload").map(|e| &e.node.value) {
+        Some(Value::Table(payload)) => find(payload, "inertia").is_some(),
+        _ => false,
+    };
+    if !inertia {
+        let message = "`natural_frequency` of [stiffness] needs the mass and the inertia that vibrate";
         report.refuse(
             Code::MissingKey,
             &entry.key_span,

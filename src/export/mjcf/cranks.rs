@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::swing::{self, SwingTendon};
-use super::{ARMATURE, Export, LEG_MASS, Scale, Unsupported, opening, platform, quat, shape};
+use super::{Export, ModelMasses, Scale, Unsupported, opening, platform, quat, shape};
 use crate::export::model::ExportCranks;
 use crate::export::text::{real, reals};
 use crate::geom::Pose;
@@ -48,7 +48,7 @@ fn lean_range(cranks: &ExportCranks, at_home: f64) -> String {
 
 fn leg(
     out: &mut String,
-    scale: &Scale,
+    (scale, masses): (&Scale, &ModelMasses),
     export: &Export,
     cranks: &ExportCranks,
     i: usize,
@@ -62,9 +62,6 @@ fn leg(
         let size = real(0.5 * diameter * scale.metres);
         format!("<geom type=\"capsule\" size=\"{size}\" fromto=\"{} {}\"/>", scale.at(from), scale.at(to))
     };
-    let body = |length: f64, middle: &Vector3<f64>| {
-        scale.inertial(LEG_MASS * scale.mass, middle, length * scale.metres / 12.0f64.sqrt())
-    };
     let [x, z] = [Vector3::x(), Vector3::z()];
     let (thick, thin) = export.legs[i].diameters;
     let range = leg
@@ -77,7 +74,7 @@ fn leg(
     let _ = writeln!(
         out,
         "      <body name=\"crank{number}\" pos=\"{}\" quat=\"{}\"{}>\n        \
-         <joint name=\"angle{number}\" type=\"hinge\" axis=\"0 0 1\" ref=\"{}\" armature=\"{}\"{range}/>\n        {}\n        {}\n        \
+         <joint name=\"angle{number}\" type=\"hinge\" axis=\"0 0 1\" ref=\"{}\"{range}/>\n        {}\n        {}\n        \
          <body name=\"rod{number}\" pos=\"{}\" quat=\"{}\"{}>\n          \
          <joint name=\"swing{number}x\" type=\"hinge\" axis=\"{}\" damping=\"{damp}\"/>\n          \
          <joint name=\"swing{number}y\" type=\"hinge\" axis=\"0 1 0\" damping=\"{damp}\"{lean}/>\n          {}\n          {}",
@@ -85,14 +82,13 @@ fn leg(
         quat(&turned),
         scale.gravity,
         real(cranks.home_angles[i]),
-        real(ARMATURE * scale.mass * (leg.crank.length * scale.metres).powi(2)),
-        body(leg.crank.length, &(x * (0.5 * leg.crank.length))),
+        masses.nothing(),
         capsule(&Vector3::zeros(), &(x * leg.crank.length), thick),
         scale.at(&hung.position),
         quat(&hung),
         scale.gravity,
         reals(first.iter().copied(), " "),
-        body(leg.rod, &(z * (0.5 * leg.rod))),
+        masses.rod(leg.rod * scale.metres),
         capsule(&Vector3::zeros(), &(z * leg.rod), thin),
         damp = real(1e-4 * damping),
     );
@@ -100,7 +96,7 @@ fn leg(
         tendon.at_rod(out, scale);
     }
     if i == 0 {
-        platform(out, scale, export, &export.legs[0], &seen(&rod, &export.home));
+        platform(out, (scale, masses), export, &export.legs[0], &seen(&rod, &export.home));
     }
     out.push_str("        </body>\n      </body>\n");
     Ok(())
@@ -108,16 +104,16 @@ fn leg(
 
 /// The whole model.
 pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Unsupported> {
-    let scale = Scale::of(export);
+    let masses = ModelMasses::of(export);
+    let scale = Scale::of(export).with_masses(&masses);
     let angles = reals(cranks.home_angles, " ");
     let rods = reals(cranks.platform.rods().get().map(|l| l * scale.metres), " ");
     let mut text = format!(
         "Hinge angleN and its actuator hold the angle of crank N in radians, counted as in the design.\n  \
          Home angles: {angles}\n  Lengths of the rods: {rods}\n  \
-         Assumed: platform with payload {} kg, each crank and rod {} of it; time step and gains follow from mass and size\n  \
+         Masses: {}. Time step and gains follow from mass and size\n  \
          so that models of all sizes behave alike. Rod 1 carries the platform in the tree; rods 2 to 6 are closed by connect.\n",
-        real(scale.mass),
-        real(LEG_MASS),
+        masses.words(export),
     );
     if cranks.tip_swing.is_some() {
         text.push_str("  Range of hinge swingNy: how far rod N may lean out of the plane in which crank N turns, less how far it does at home.\n");
@@ -128,7 +124,7 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
     let mut out = opening(export, &scale, &text);
     shape(&mut out, &scale, &export.bodies[0], "      ");
     for i in 0..6 {
-        leg(&mut out, &scale, export, cranks, i)?;
+        leg(&mut out, (&scale, &masses), export, cranks, i)?;
     }
     out.push_str("    </body>\n  </worldbody>\n  <equality>\n");
     for (i, leg) in cranks.platform.legs().iter().enumerate().skip(1) {

@@ -1,6 +1,7 @@
 //! `MuJoCo` model: six legs of universal joint (two hinges) and slide, or of crank and rod, the platform on leg 1, loops closed by `connect`.
 
 mod cranks;
+mod masses;
 mod swing;
 
 use std::f64::consts::FRAC_PI_2;
@@ -12,8 +13,9 @@ use super::text::{one_line, real, reals, scaled, xml_comment};
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Unsupported, Writer};
 use crate::geom::{Pose, any_across};
 use crate::plot::escape;
-use crate::requirements::{JointAxes, KeepOutShape, LegPart};
+use crate::requirements::{JointAxes, KeepOutShape};
 
+use self::masses::ModelMasses;
 use self::swing::SwingTendon;
 
 /// The format `mjcf`.
@@ -50,18 +52,6 @@ impl Writer for Mjcf {
 const STIFFNESS: f64 = 173.2;
 /// Time step over the square root of the size in metres, seconds.
 const STEP: f64 = 1e-3;
-/// Masses of cylinder and rod over that of the platform.
-const LEG_MASS: f64 = 0.05;
-/// Mass that moves along the leg in place of what turns in its drive, over that of the platform.
-const ARMATURE: f64 = 0.005;
-/// Mass of the yoke of a universal joint over that of the platform. Each hinge has a body of its own: Drake takes the axis of the first of several joints
-/// of a body in the frame of the parent.
-const YOKE_MASS: f64 = 0.005;
-
-/// Mass of a yoke, and moment of inertia of a leg about its own line, over those of the leg, where the design says the masses of its legs: bodies without any are refused, and these
-/// change no force by a millionth.
-const NEARLY_NONE: f64 = 1e-9;
-
 /// Colours of base and platform.
 const PLATES: [&str; 2] = ["0.45 0.45 0.48 1", "0.16 0.42 0.66 1"];
 const CYLINDER: &str = "0.25 0.25 0.28 1";
@@ -73,7 +63,6 @@ const GROUND: &str = "0.86 0.87 0.84 1";
 struct Scale {
     metres: f64,
     size: f64,
-    mass: f64,
     kp: f64,
     kv: f64,
     step: f64,
@@ -84,11 +73,10 @@ impl Scale {
     fn of(export: &Export) -> Self {
         let size = export.size * export.unit.metres;
         let omega = STIFFNESS / size.sqrt();
-        let kp = export.mass * omega * omega / 6.0;
+        let kp = export.moving.mass * omega * omega / 6.0;
         Self {
             metres: export.unit.metres,
             size,
-            mass: export.mass,
             kp,
             // 1.3 of critical damping; twice as much chatters at this time step
             kv: 2.6 * kp / omega,
@@ -99,28 +87,6 @@ impl Scale {
 
     fn at(&self, p: &Vector3<f64>) -> String {
         scaled(p, self.metres, " ")
-    }
-
-    /// A part of a leg, its centre so many metres from the origin of its body along the third axis.
-    fn part(part: &LegPart, center: f64) -> String {
-        let across = if part.inertia > 0.0 { part.inertia } else { NEARLY_NONE * part.mass };
-        format!(
-            "<inertial pos=\"0 0 {}\" mass=\"{}\" diaginertia=\"{across} {across} {}\"/>",
-            real(center),
-            real(part.mass),
-            real(NEARLY_NONE * across),
-            across = real(across)
-        )
-    }
-
-    /// A body that turns like a ball of this mass and radius of gyration.
-    fn inertial(&self, mass: f64, centre: &Vector3<f64>, gyration: f64) -> String {
-        let moment = real(mass * gyration * gyration);
-        format!(
-            "<inertial pos=\"{}\" mass=\"{}\" diaginertia=\"{moment} {moment} {moment}\"/>",
-            self.at(centre),
-            real(mass)
-        )
     }
 }
 
@@ -185,7 +151,12 @@ fn swing_of(export: &Export, leg: &ExportLeg) -> Result<Option<f64>, Unsupported
     Ok((most < FRAC_PI_2).then_some(most))
 }
 
-fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Result<(), Unsupported> {
+fn leg(
+    out: &mut String,
+    (scale, masses): (&Scale, &ModelMasses),
+    export: &Export,
+    leg: &ExportLeg,
+) -> Result<(), Unsupported> {
     let frame = leg_frame(leg)?;
     let (i, length) = (leg.number, leg.length());
     let (thick, thin) = leg.diameters;
@@ -194,8 +165,6 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
     let swing = swing.map_or_else(String::new, |most| format!(" range=\"{} {}\"", real(-most), real(most)));
     let tip = Vector3::new(0.0, 0.0, length);
     let half = 0.5 * length;
-    let mass = LEG_MASS * scale.mass;
-    let gyration = length * scale.metres / 12.0f64.sqrt();
     let capsule = |from: f64, to: f64, diameter: f64, colour: &str| {
         let ends = [Vector3::new(0.0, 0.0, from), Vector3::new(0.0, 0.0, to)].map(|p| scale.at(&p));
         format!(
@@ -205,28 +174,6 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
             ends[1]
         )
     };
-    let [yoke, cylinder, rod] = match &export.leg_masses {
-        None => [
-            scale.inertial(YOKE_MASS * scale.mass, &Vector3::zeros(), 0.1 * length * scale.metres),
-            scale.inertial(mass, &Vector3::new(0.0, 0.0, 0.5 * half), gyration),
-            scale.inertial(mass, &Vector3::new(0.0, 0.0, -0.5 * half), gyration),
-        ],
-        Some(masses) => {
-            let all = masses.cylinder.mass + masses.rod.mass + masses.reflected;
-            // a part of which nothing is said has next to no mass
-            let heavy = |part: &LegPart| match part.mass {
-                0.0 => LegPart { mass: NEARLY_NONE * all, ..*part },
-                _ => *part,
-            };
-            let (cylinder, rod) = (heavy(&masses.cylinder), heavy(&masses.rod));
-            [
-                scale.inertial(NEARLY_NONE * all, &Vector3::zeros(), 0.1 * length * scale.metres),
-                Scale::part(&cylinder, cylinder.center),
-                Scale::part(&rod, -rod.center),
-            ]
-        }
-    };
-    let armature = export.leg_masses.map_or(ARMATURE * scale.mass, |masses| masses.reflected);
     let _ = writeln!(
         out,
         "      <body name=\"yoke{i}\" pos=\"{}\" quat=\"{}\"{}>\n        \
@@ -238,14 +185,14 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
         scale.at(&frame.position),
         quat(&frame),
         scale.gravity,
-        yoke,
+        masses.nothing(),
         scale.gravity,
-        cylinder,
+        masses.cylinder(),
         capsule(0.0, leg.cylinder.min(length), thick, CYLINDER),
         scale.at(&tip),
         scale.gravity,
-        real(armature),
-        rod,
+        real(masses.armature()),
+        masses.rod(0.0),
         capsule(-half.min(length - leg.cylinder.min(length)).max(0.1 * length), 0.0, thin, ROD),
     );
     if let Some(tendon) = SwingTendon::of(export, leg)? {
@@ -255,28 +202,22 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
         // the platform frame seen from the tip of the leg
         let joint = export.bodies[1].joints[leg.platform].at.coords;
         let turn = frame.rotation.inverse() * export.home.rotation;
-        platform(out, scale, export, leg, &Pose { rotation: turn, position: -(turn * joint) });
+        platform(out, (scale, masses), export, leg, &Pose { rotation: turn, position: -(turn * joint) });
     }
     out.push_str("          </body>\n        </body>\n      </body>\n");
     Ok(())
 }
 
 /// The platform on a leg, at a pose in the frame of the body that carries it.
-fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, place: &Pose) {
+fn platform(
+    out: &mut String,
+    (scale, masses): (&Scale, &ModelMasses),
+    export: &Export,
+    leg: &ExportLeg,
+    place: &Pose,
+) {
     let body = &export.bodies[1];
     let joint = body.joints[leg.platform].at.coords;
-    let count = body.joints.len() as f64;
-    let middle: Vector3<f64> = body.joints.iter().map(|j| j.at.coords).sum::<Vector3<f64>>() / count;
-    let centre = export.center_of_mass.map_or(middle, |c| c.coords);
-    let inertial = match &export.inertia {
-        None => scale.inertial(scale.mass, &centre, 0.5 * scale.size),
-        Some(i) => format!(
-            "<inertial pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"/>",
-            scale.at(&centre),
-            real(scale.mass),
-            reals([i[(0, 0)], i[(1, 1)], i[(2, 2)], i[(0, 1)], i[(0, 2)], i[(1, 2)]], " ")
-        ),
-    };
     let _ = writeln!(
         out,
         "            <body name=\"platform\" pos=\"{}\" quat=\"{}\"{}>\n              \
@@ -286,7 +227,7 @@ fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, p
         quat(place),
         scale.gravity,
         scale.at(&joint),
-        inertial,
+        masses.platform(),
         real(0.01 * scale.size),
     );
     for leg in &export.legs {
@@ -322,23 +263,6 @@ fn payload(out: &mut String, scale: &Scale, export: &Export) {
         ),
     };
     let _ = writeln!(out, "              <geom name=\"payload\" {geom} rgba=\"0.5 0.5 0.5 0.3\"/>");
-}
-
-/// The masses in a sentence without its point.
-fn masses(export: &Export, scale: &Scale) -> String {
-    let platform = format!("platform with payload {} kg", real(scale.mass));
-    match &export.leg_masses {
-        None => {
-            let [leg, yoke] = [LEG_MASS, YOKE_MASS].map(real);
-            format!("Assumed: {platform}, each cylinder and rod {leg} of it, each yoke {yoke} of it")
-        }
-        Some(m) => {
-            let [cylinder, rod, reflected] = [m.cylinder.mass, m.rod.mass, m.reflected].map(real);
-            format!(
-                "{platform}; of the design: each cylinder {cylinder} kg, rod {rod} kg, armature of the slide {reflected} kg"
-            )
-        }
-    }
 }
 
 /// How high the ground is: below the lowest joint at home, its ball and the plate that carries it, metres. None where gravity does not pull along the third axis of the base.
@@ -438,14 +362,15 @@ fn calibration(out: &mut String, export: &Export) {
 }
 
 fn model(export: &Export) -> Result<String, Unsupported> {
-    let scale = Scale::of(export);
+    let masses = ModelMasses::of(export);
+    let scale = Scale::of(export).with_masses(&masses);
     let lengths = reals(export.legs.map(|l| l.length() * scale.metres), " ");
     let mut text = format!(
         "Slide leg N and its actuator hold the length minus the home length.\n  \
          Home lengths: {lengths}\n  \
-         {}; time step and gains follow from mass and size\n  \
+         Masses: {}. Time step and gains follow from mass and size\n  \
          so that models of all sizes behave alike. Leg 1 carries the platform in the tree; legs 2 to 6 are closed by connect.\n",
-        masses(export, &scale)
+        masses.words(export)
     );
     if let Some((least, greatest)) = export.leg_range {
         let [least, greatest] = [least, greatest].map(|l| real(l * scale.metres));
@@ -469,7 +394,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
     let mut out = opening(export, &scale, &text);
     shape(&mut out, &scale, &export.bodies[0], "      ");
     for l in &export.legs {
-        leg(&mut out, &scale, export, l)?;
+        leg(&mut out, (&scale, &masses), export, l)?;
     }
     out.push_str("    </body>\n  </worldbody>\n");
     calibration(&mut out, export);

@@ -255,6 +255,8 @@ class Track(NamedTuple):
         The pose reached; of several lengths the poses of those that were reached.
     residual : float or ndarray, shape (n,)
         Largest errors of the leg equations over the squared size.
+    frobenius_ratio : float or ndarray, shape (n,)
+        How far from singular the poses are: ``6 / (|J| |J^-1|)``, 1 at best, 0 at a singular pose; of cranks that of the rods.
     fraction : float
         How far on the straight line of squared lengths, or of angles, to the last ones, 1 where they were reached.
     reason : str or None
@@ -264,6 +266,7 @@ class Track(NamedTuple):
     status: str
     T: Floats
     residual: float | Floats
+    frobenius_ratio: float | Floats
     fraction: float
     reason: str | None
 
@@ -328,8 +331,8 @@ class Tracker:
         Track
             ``T`` has as many poses as rows were reached; `status` speaks of the row after these, or of the last.
         """
-        poses, residual, status, fraction, reason = self._native.follow(_lengths(lengths).reshape(-1, 6))
-        return Track(status, poses, residual, fraction, reason)
+        poses, (residual, ratio), status, fraction, reason = self._native.follow(_lengths(lengths).reshape(-1, 6))
+        return Track(status, poses, residual, ratio, fraction, reason)
 
     def __repr__(self) -> str:
         return f"Tracker(at {np.array2string(self.T[:3, 3], precision=6)})"

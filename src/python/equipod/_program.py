@@ -91,7 +91,14 @@ def ask(arguments: Sequence[str], progress: Progress | bool | None = None, folde
     if look is None:
         command.append("--quiet")
     child = subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=folder,
+        # a terminal and Jupyter interrupt all of their processes, and a second interrupt would end the program before it answers: it gets ours alone
+        start_new_session=True,
     )
     said: list[str] = []
 
@@ -106,17 +113,20 @@ def ask(arguments: Sequence[str], progress: Progress | bool | None = None, folde
     reader.start()
     assert child.stdout is not None
     interrupted = False
-    while True:
-        try:
-            text = child.stdout.read()
-            code = child.wait()
-            break
-        except KeyboardInterrupt:
-            if interrupted:
-                child.kill()
-                raise
-            interrupted = True
-            child.send_signal(signal.SIGINT)
+    try:
+        while True:
+            try:
+                text = child.stdout.read()
+                code = child.wait()
+                break
+            except KeyboardInterrupt:
+                if interrupted:
+                    raise
+                interrupted = True
+                child.send_signal(signal.SIGINT)
+    finally:
+        # nothing of it remains where the caller gives up
+        child.kill()
     reader.join()
     if look is shown:
         sys.stderr.write("\r\x1b[K")

@@ -14,7 +14,7 @@
 static machine_t machine;
 static double size; /* millimetres */
 
-/* The machine of a test: joints off by up to `error`, a tool, and screws. */
+/* The machine of a test: joints off by up to `error`, a tool, screws, and legs that show other lengths than they have. */
 static void made(double error, double tool, double lead, int octahedral)
 {
     int i, k;
@@ -24,6 +24,9 @@ static void made(double error, double tool, double lead, int octahedral)
             machine.base[i][k] += error * any();
             machine.platform[i][k] += error * any();
         }
+    }
+    for (i = 0; i < LEGS; i++) {
+        machine.leg_offset[i] = 0.2 * size * any();
     }
     machine.tool = tool;
 #ifdef EQUIPOD_HAS_DRIVES
@@ -74,6 +77,24 @@ static int has_values(const equipod_pose *pose, const double joints[LEGS])
     return off <= 1e-11 * size;
 }
 
+/* Joint values are those of legs that show their lengths, with the offsets. */
+static int shows_offsets(const equipod_pose *pose, const double joints[LEGS])
+{
+    machine_t plain = machine;
+    double own[LEGS], add[LEGS], off = 0;
+    int i;
+    for (i = 0; i < LEGS; i++) {
+        plain.leg_offset[i] = 0;
+    }
+    if (!joints_at(&plain, pose, own, add)) {
+        return 0;
+    }
+    for (i = 0; i < LEGS; i++) {
+        off = fmax(off, fabs(own[i] + machine.leg_offset[i] - joints[i]));
+    }
+    return off <= 1e-14 * size;
+}
+
 static void there_and_back(unsigned number)
 {
     const double shift = 0.04 * size, degrees = 15;
@@ -86,6 +107,7 @@ static void there_and_back(unsigned number)
         if (!joints_at(&machine, &pose, joints, add)) {
             continue;
         }
+        check(shows_offsets(&pose, joints), "offsets of the legs", number);
         /* from the pose itself it comes back, whatever the joints and the tool are */
         (void)pose_from(&machine, joints, &start, &r);
         condition = r.frobenius_ratio;

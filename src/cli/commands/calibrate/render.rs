@@ -62,6 +62,12 @@ pub(super) fn text(answer: &CalibrateAnswer, wanted: bool) -> String {
 }
 
 fn facts(out: &mut String, found: &CalibrationRecord, units: &str) {
+    if let Some([i, j]) = found.exchanged_legs {
+        let _ = writeln!(
+            out,
+            "LEGS EXCHANGED? The lengths of legs {i} and {j} are five times nearer to the design when they change places: look at the wiring or the columns of the table."
+        );
+    }
     let source = match found.noise.source {
         NoiseSource::Given => "given",
         NoiseSource::Estimated => "estimated from the residuals",

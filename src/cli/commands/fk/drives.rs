@@ -1,7 +1,7 @@
 //! `fk --near` where joints are not ideal: the pose for lengths of drives.
 
 use super::Table;
-use super::lengths::Given;
+use super::lengths::{Given, ShownLengths};
 use super::near::{self, Followed, Machine, Proof};
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -44,13 +44,14 @@ pub(super) fn run(
 fn one(
     machine: &Machine<'_>,
     tracker: &mut CoupledTracker,
-    drives: &LegLengths,
+    given: &ShownLengths,
     number: usize,
     seed: u64,
 ) -> Followed {
     let from = tracker.pose();
+    let drives = given.distances;
     let found = tracker.step(&drives.get());
-    let distances = LegLengths::try_new(found.distances).unwrap_or(*drives);
+    let distances = LegLengths::try_new(found.distances).unwrap_or(drives);
     // certificates are about distances; what is proved of the lengths of drives stands in the record of the drives
     let proof = match found.status {
         CoupledStatus::Proved(_) => Proof::Of(Some(Reality::Real)),
@@ -58,7 +59,7 @@ fn one(
         _ => Proof::Of(None),
     };
     let mut record = near::record_with(machine, &distances, (&from, &found.near), proof, seed);
-    let solution = DriveSolutionRecord::new(&drives.get(), &found);
+    let solution = DriveSolutionRecord::new(&given.shown, &found);
     if let (Some(near), Some(why)) = (&mut record.near, &solution.reason)
         && near.outcome == NearWord::Tracked
     {

@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     if args.near.is_none() {
         drives::refuse_without_start(&design)?;
     }
-    let given = lengths::given(args.lengths.as_deref(), design.lengths, context)?;
+    let given = lengths::given(args.lengths.as_deref(), &design, context)?;
     let table = Table { wanted: args.csv, all: args.all, time_name: None };
     if let Some(text) = &args.near {
         context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
@@ -109,12 +109,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
                 "threads",
                 "one set of lengths is solved on one thread, the rows of a CSV file on many",
             )?;
-            let solutions = solve(method, m, &l, &options)?;
+            let solutions = solve(method, m, &l.distances, &options)?;
             let exit = exit_of(&solutions);
             let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &home));
             let mut text = render::text(&design.name, &answer.solved);
             if args.method == MethodArg::Trilateration {
-                let found = ClosureRecord::new(&design, &fk::closure(m, &l.squared(), &solutions));
+                let found = ClosureRecord::new(&design, &fk::closure(m, &l.distances.squared(), &solutions));
                 text.push_str(&render::closure(&found));
                 answer.closure = Some(found);
             }
@@ -144,7 +144,7 @@ fn many(
     options: &FkOptions,
     threads: Threads,
 ) -> (Exit, FkAnswer, String) {
-    let squares: Vec<_> = rows.iter().map(|row| row.value.squared()).collect();
+    let squares: Vec<_> = rows.iter().map(|row| row.value.distances.squared()).collect();
     let solver = fk::solver(method);
     let results = fk::solve_batch(solver.as_ref(), m, &squares, options, threads);
     // forty poses with all their numbers take as long to put into records as to find
@@ -174,7 +174,7 @@ fn solved_row(
     };
     (
         exit,
-        FkRowRecord { line: row.line, time: row.time, lengths: row.value.get(), angles_deg: None, outcome },
+        FkRowRecord { line: row.line, time: row.time, lengths: row.value.shown, angles_deg: None, outcome },
     )
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::lengths::Given;
+use super::lengths::{Given, ShownLengths};
 use super::{Table, render};
 use crate::cli::exit::Exit;
 use crate::cli::numbers::listed;
@@ -53,7 +53,7 @@ pub(super) fn followed(
     given: &Given,
     table: &Table,
     titles: &str,
-    mut step: impl FnMut(&LegLengths, usize) -> Followed,
+    mut step: impl FnMut(&ShownLengths, usize) -> Followed,
 ) -> Answer {
     match given {
         Given::One(l) => {
@@ -73,7 +73,7 @@ pub(super) fn followed(
                 rows.push(FkRowRecord {
                     line: row.line,
                     time: row.time,
-                    lengths: row.value.get(),
+                    lengths: row.value.shown,
                     angles_deg: None,
                     outcome: FkRowOutcome::Solved(Box::new(found.record)),
                 });
@@ -96,7 +96,8 @@ pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table:
         given,
         table,
         "line  outcome           segments  inverse condition  position",
-        |lengths, number| {
+        |given, number| {
+            let lengths = &given.distances;
             let outcome = solver.solve(&lengths.squared(), &from);
             let mut record = record(&machine, lengths, &from, &outcome, seed);
             let uncertainty =

@@ -12,6 +12,7 @@ use crate::cli::table::{column_unit, csv_line, number};
 use crate::cli::{poses, rows};
 use crate::design::{Design, SeriesRow, TimeSeries};
 use crate::geom::Pose;
+use crate::manipulator::LegLengths;
 use crate::records::{IkAnswer, IkRecord, IkRowsAnswer, Number};
 use crate::requirements::Terms;
 
@@ -33,7 +34,7 @@ pub(crate) struct Args {
 
 const BAD_POSE: &str = "ik::bad_pose";
 
-/// Lengths are distances of joints: every pose has them. Where joints are not ideal the lengths of the drives stand beside them.
+/// Lengths are distances of joints with the offsets of a calibration: every pose has them. Where joints are not ideal the lengths of the drives stand beside the distances.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let (series, one) = match &args.poses {
@@ -60,7 +61,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             let message = format!("pose {}: the drives have no lengths: {why}", row.line);
             Failure::refused("ik::no_drive_length", message)
         })?;
-        Ok(record.with_drives(&design, &terms, &row.value, &states))
+        let distances = distances(&design, row)?.get();
+        Ok(record.with_drives(&design, &terms, &row.value, (&distances, &states)))
     };
     let mut records = series.rows.iter().map(record).collect::<Result<Vec<_>, _>>()?;
     let text = table(&design, series.time_name.as_deref(), &records, args.details);
@@ -92,14 +94,18 @@ fn record(
     row: &SeriesRow<Pose>,
     from_table: bool,
 ) -> Result<IkRecord, Failure> {
-    let Some(lengths) = row.value.lengths(design.manipulator()) else {
-        let message = format!("pose {} is so far away that lengths overflow double precision", row.line);
-        return Err(Failure::refused(BAD_POSE, message));
-    };
     Ok(IkRecord {
         line: from_table.then_some(row.line),
         time: row.time,
-        ..IkRecord::new(design, terms, &row.value, lengths.get())
+        ..IkRecord::new(design, terms, &row.value, distances(design, row)?.get())
+    })
+}
+
+/// Distances of the joints at a pose.
+fn distances(design: &Design, row: &SeriesRow<Pose>) -> Result<LegLengths, Failure> {
+    row.value.lengths(design.manipulator()).ok_or_else(|| {
+        let message = format!("pose {} is so far away that lengths overflow double precision", row.line);
+        Failure::refused(BAD_POSE, message)
     })
 }
 

@@ -147,7 +147,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         met: records.iter().all(|r| r.met),
         length_unit: design.units.clone(),
         force_unit: force_unit(&design).label().into(),
-        assumptions: assumptions(&design),
+        assumptions: design.mass_assumptions(),
         motions: records,
         stiffness,
         csv: args.csv.as_ref().map(|path| path.display().to_string()),
@@ -278,29 +278,4 @@ fn load(design: &Design, name: &str) -> Result<Load, Failure> {
         };
         Failure::refused("motion::no_such_load", format!("`{name}` is no load of the design")).with_help(help)
     })
-}
-
-/// What the file does not say.
-fn assumptions(design: &Design) -> Vec<String> {
-    let mut out = Vec::new();
-    match &design.moving_payload() {
-        None => out.push("The design has no [payload]: forces and powers are not computed.".to_string()),
-        Some(payload) => {
-            if payload.inertia.is_none() {
-                out.push("The payload has no inertia: it is taken as a point mass.".into());
-            }
-            if design.has_cranks() {
-                out.push("Cranks and rods are taken as massless.".into());
-            } else if design.hardware.leg_masses.is_none() {
-                out.push("The legs have no masses in [hardware]: they are taken as massless.".into());
-            }
-            if design.mass_units.is_none() {
-                out.push("The design names no unit of mass: masses are taken in kilograms.".into());
-            }
-            if design.force_units.is_none() {
-                out.push("The design names no unit of force: forces are taken in newtons.".into());
-            }
-        }
-    }
-    out
 }

@@ -3,11 +3,12 @@
  *     cd linuxcnc && halcompile --install equipodkins.c         (or --compile)
  *     [KINS] KINEMATICS = equipodkins, JOINTS = 6; LINEAR_UNITS = mm, ANGULAR_UNITS = degree
  *
- * The machine position X Y Z A B C is the pose: p = (X, Y, Z), R = Rz(C) Ry(B) Rx(A), degrees. Joint N is the length of leg N, from 0, in
+ * The machine position X Y Z A B C is the pose: p = (X, Y, Z), R = Rz(C) Ry(B) Rx(A), degrees. Joint N is the length that leg N shows, from 0, in
  * millimetres. Pins, with N from 0 to 5 (in: read at every call, what is written into them is what the machine was measured to have):
  *
  *     equipodkins.base.N.x .y .z, .platform.N.x .y .z      joints, millimetres; those of the design before anything is set
  *     equipodkins.base-n.N.x .y .z, .platform-n.N.x .y .z  axes of the joints next to base and platform, base and platform frame
+ *     equipodkins.leg-offset.N                             what joint N is longer than leg N: the offsets of the calibration, 0 without one
  *     equipodkins.screw-lead                               travel of a turn of the screws, right-hand positive; 0: no correction
  *     equipodkins.spindle-offset, .tool-offset             added to z of all joints, as genhexkins has them
  *     equipodkins.octahedral                               1: poses by the octahedral platform, corrected on the joints above
@@ -47,7 +48,7 @@ MODULE_DESCRIPTION("Kinematics of a Gough-Stewart platform, each pose with a tes
 typedef struct {
     hal_float_t *base[LEGS][3], *platform[LEGS][3];
     hal_float_t *base_axis[LEGS][3], *platform_axis[LEGS][3];
-    hal_float_t *correction[LEGS];
+    hal_float_t *correction[LEGS], *leg_offset[LEGS];
     hal_float_t *screw_lead, *spindle_offset, *tool_offset;
     hal_bit_t *failed, *reset;
     hal_u32_t *status, *iterations;
@@ -77,6 +78,7 @@ static int read_machine(void)
             machine.base_axis[i][k] = *pins->base_axis[i][k];
             machine.platform_axis[i][k] = *pins->platform_axis[i][k];
         }
+        machine.leg_offset[i] = *pins->leg_offset[i];
     }
     machine.screw_lead = *pins->screw_lead;
     machine.tool = *pins->spindle_offset + *pins->tool_offset;
@@ -180,6 +182,10 @@ static int make_pins(void)
         failed |= vector_pin(pins->base_axis[i], "base-n", i, machine.base_axis[i]);
         failed |= vector_pin(pins->platform_axis[i], "platform-n", i, machine.platform_axis[i]);
         failed |= hal_pin_float_newf(HAL_OUT, &pins->correction[i], component, NAME ".correction.%d", i);
+        failed |= hal_pin_float_newf(HAL_IN, &pins->leg_offset[i], component, NAME ".leg-offset.%d", i);
+        if (!failed) {
+            *pins->leg_offset[i] = machine.leg_offset[i];
+        }
     }
     failed |= length_pin(&pins->screw_lead, "screw-lead", machine.screw_lead);
     failed |= length_pin(&pins->spindle_offset, "spindle-offset", 0);

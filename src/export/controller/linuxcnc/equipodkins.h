@@ -32,11 +32,11 @@
 #define FAR_TURNED 3.6e6
 
 /* A machine as it was measured, which is what the pins say: joints, the axes next to base and platform, lead, and what tool and spindle add to z of all
- * joints; millimetres. `ready` makes the rest of it. */
+ * joints, and what each joint value is longer than the length of its leg (leg offsets of a calibration); millimetres. `ready` makes the rest of it. */
 typedef struct {
     double base[LEGS][3], platform[LEGS][3];
     double base_axis[LEGS][3], platform_axis[LEGS][3];
-    double screw_lead, tool;
+    double screw_lead, tool, leg_offset[LEGS];
     equipod_legs legs;
 #ifdef EQUIPOD_HAS_DRIVES
     double joint_offset[2];
@@ -54,6 +54,11 @@ static void as_designed(machine_t *machine)
 {
     int i, k;
     for (i = 0; i < LEGS; i++) {
+#ifdef EQUIPOD_HAS_LEG_OFFSETS
+        machine->leg_offset[i] = equipod_leg_offsets[i] * EQUIPOD_UNIT_MILLIMETRES;
+#else
+        machine->leg_offset[i] = 0;
+#endif
         for (k = 0; k < 3; k++) {
             machine->base[i][k] = equipod_nominal.base[i][k] * EQUIPOD_UNIT_MILLIMETRES;
             machine->platform[i][k] = equipod_nominal.platform[i][k] * EQUIPOD_UNIT_MILLIMETRES;
@@ -156,7 +161,7 @@ static equipod_status pose_from(const machine_t *machine, const double joints[LE
     double lengths[LEGS];
     int i;
     for (i = 0; i < LEGS; i++) {
-        lengths[i] = joints[i] / EQUIPOD_UNIT_MILLIMETRES;
+        lengths[i] = (joints[i] - machine->leg_offset[i]) / EQUIPOD_UNIT_MILLIMETRES;
     }
     (void)equipod_track_drives(&machine->drives, &machine->legs, lengths, start, EQUIPOD_SINGULAR, SEGMENTS, &found);
     if (found.steps == 0) {
@@ -171,7 +176,7 @@ static equipod_status pose_from(const machine_t *machine, const double joints[LE
     return result->status;
 }
 
-/* Joint values at a pose, and what of them is not the distance of the joints, millimetres; 0 where a drive has no length. */
+/* Joint values at a pose, and what the lengths of the drives are longer than the distances of the joints, millimetres; 0 where a drive has no length. */
 static int joints_at(const machine_t *machine, const equipod_pose *pose, double joints[LEGS], double add[LEGS])
 {
     equipod_drive_state state;
@@ -185,6 +190,7 @@ static int joints_at(const machine_t *machine, const equipod_pose *pose, double 
         if (!is_length(joints[i])) {
             return 0;
         }
+        joints[i] += machine->leg_offset[i];
     }
     return 1;
 }
@@ -270,7 +276,7 @@ static void follow(const machine_t *machine, const equipod_legs *legs, const dou
     }
     for (round = 0; round < ROUNDS; round++) {
         for (i = 0; i < LEGS; i++) {
-            const double length = joints[i] / EQUIPOD_UNIT_MILLIMETRES - add[i];
+            const double length = (joints[i] - machine->leg_offset[i]) / EQUIPOD_UNIT_MILLIMETRES - add[i];
             if (!is_length(length)) {
                 result->status = EQUIPOD_LOST;
                 return;
@@ -345,7 +351,7 @@ static int joints_at(const machine_t *machine, const equipod_pose *pose, double 
         if (!(joints[i] > 0)) {
             return 0;
         }
-        joints[i] = (joints[i] + add[i]) * EQUIPOD_UNIT_MILLIMETRES;
+        joints[i] = (joints[i] + add[i]) * EQUIPOD_UNIT_MILLIMETRES + machine->leg_offset[i];
         add[i] *= EQUIPOD_UNIT_MILLIMETRES;
         if (!is_finite(joints[i])) {
             return 0;

@@ -29,7 +29,8 @@ enum {
     PLATFORM_AXIS = 9,
     OF_LEG = 12,
     CORRECTION = LEGS * OF_LEG,
-    SCREW_LEAD = CORRECTION + LEGS,
+    LEG_OFFSET = CORRECTION + LEGS,
+    SCREW_LEAD = LEG_OFFSET + LEGS,
     SPINDLE_OFFSET,
     TOOL_OFFSET,
     FAILED,
@@ -58,6 +59,9 @@ static kins_param_desc table[] = {
     ENTRY("correction.0", KINS_PARAM_FLOAT, KINS_OUT), ENTRY("correction.1", KINS_PARAM_FLOAT, KINS_OUT),
     ENTRY("correction.2", KINS_PARAM_FLOAT, KINS_OUT), ENTRY("correction.3", KINS_PARAM_FLOAT, KINS_OUT),
     ENTRY("correction.4", KINS_PARAM_FLOAT, KINS_OUT), ENTRY("correction.5", KINS_PARAM_FLOAT, KINS_OUT),
+    ENTRY("leg-offset.0", KINS_PARAM_FLOAT, KINS_IN), ENTRY("leg-offset.1", KINS_PARAM_FLOAT, KINS_IN),
+    ENTRY("leg-offset.2", KINS_PARAM_FLOAT, KINS_IN), ENTRY("leg-offset.3", KINS_PARAM_FLOAT, KINS_IN),
+    ENTRY("leg-offset.4", KINS_PARAM_FLOAT, KINS_IN), ENTRY("leg-offset.5", KINS_PARAM_FLOAT, KINS_IN),
     ENTRY("screw-lead", KINS_PARAM_FLOAT, KINS_IN),
     ENTRY("spindle-offset", KINS_PARAM_FLOAT, KINS_IN),
     {"tool-offset", KINS_PARAM_FLOAT, KINS_IN, 1, 0},
@@ -91,6 +95,7 @@ static void fill_table(void)
             of_leg[BASE_AXIS + k].dflt = machine.base_axis[i][k];
             of_leg[PLATFORM_AXIS + k].dflt = machine.platform_axis[i][k];
         }
+        table[LEG_OFFSET + i].dflt = machine.leg_offset[i];
     }
     table[SCREW_LEAD].dflt = machine.screw_lead;
 #ifdef EQUIPOD_HAS_DRIVES
@@ -111,6 +116,7 @@ static int machine_of(const kins_params *p, machine_t *machine)
             machine->base_axis[i][k] = of_leg[BASE_AXIS + k];
             machine->platform_axis[i][k] = of_leg[PLATFORM_AXIS + k];
         }
+        machine->leg_offset[i] = p->geometry[LEG_OFFSET + i];
     }
     machine->screw_lead = p->geometry[SCREW_LEAD];
     machine->tool = p->geometry[SPINDLE_OFFSET] + p->tool.tran.z;

@@ -81,7 +81,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         length_unit: design.units.clone(),
         force_unit: units.force.label().into(),
         mass_unit: units.mass.label().into(),
-        assumptions: assumptions(&design, &table.drives),
+        assumptions: assumptions(&design, &table.drives, metres.is_some()),
         design: chosen.map(|fit| (&fit.design).into()),
         output,
     };
@@ -129,7 +129,7 @@ pub(in crate::cli::commands) fn table(
 }
 
 /// What neither the design nor a drive says.
-fn assumptions(design: &Design, drives: &[Drive]) -> Vec<String> {
+fn assumptions(design: &Design, drives: &[Drive], with_forces: bool) -> Vec<String> {
     let mut out = Vec::new();
     let h = &design.hardware;
     let mut silent = |what: &str, of: fn(&Drive) -> Option<f64>, own: bool| {
@@ -157,6 +157,9 @@ fn assumptions(design: &Design, drives: &[Drive]) -> Vec<String> {
         out.push(
             "The design has neither loads nor a payload: no force is asked of the drives at rest.".into(),
         );
+    }
+    if with_forces {
+        out.extend(design.mass_assumptions());
     }
     out
 }

@@ -124,7 +124,7 @@ pub(super) fn run(args: &Args, output: Option<&Path>, context: &mut Context) -> 
 fn solve(args: &Args, context: &mut Context) -> Result<Locus, Failure> {
     let method = args.method.method();
     let design = context.load(&args.design)?;
-    let lengths::Given::One(given) = lengths::given(args.lengths.as_deref(), design.lengths, context)? else {
+    let lengths::Given::One(given) = lengths::given(args.lengths.as_deref(), &design, context)? else {
         return Err(Failure::refused(
             "locus::one_row",
             "--lengths names a table, but one set of lengths is wanted",
@@ -136,7 +136,7 @@ fn solve(args: &Args, context: &mut Context) -> Result<Locus, Failure> {
         Some(text) => named(text, &design)?,
         None => between(&design, default_pair(m)?),
     };
-    let lengths = varied(args, &given)?;
+    let lengths = varied(args, &given.distances)?;
     let squares: Vec<_> = lengths.iter().map(LegLengths::squared).collect();
     let options = FkOptions { seed: context.seed(), pose_count: PoseCounting::Never, ..FkOptions::default() };
     let solver = fk::solver(method);

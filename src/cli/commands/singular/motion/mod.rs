@@ -176,8 +176,8 @@ fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, Found),
 fn beginning(args: &CurveQuestion, design: &Design) -> Result<(Option<Pose>, SquaredLegLengths), Failure> {
     if let Some(text) = &args.lengths {
         let bad = |message: String| Failure::refused("motion::bad_lengths", format!("--lengths: {message}"));
-        let lengths = six(text).map_err(bad)?;
-        return Ok((None, lengths.squared()));
+        let lengths = six(text, &design.leg_offsets()).map_err(bad)?;
+        return Ok((None, lengths.distances.squared()));
     }
     let start = poses::parse(&args.pose, design, "--pose", "motion::bad_pose")?;
     let squares = start.squared_lengths(design.manipulator()).ok_or_else(|| {
