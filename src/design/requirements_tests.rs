@@ -141,7 +141,7 @@ fn what_contradicts_itself_is_refused() {
         41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
         70:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
         72:11 design::not_positive: `angular` is 0 | give a positive number
-        73:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass that vibrates | add [payload] with `mass`, `center` and `inertia`
+        73:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass and the inertia that vibrate | add [payload] with `mass`, `center` and `inertia`
         60:1 design::unknown_key: `offset` is not a key of [calibration] | did you mean `offsets`?
         60:11 design::length_count: `offsets` has 4 numbers instead of 6 | give 6 offsets, one for each leg
         61:22 design::not_positive: a standard deviation of -0.01 | standard deviations are not negative
@@ -676,13 +676,24 @@ fn the_mass_of_a_plate_is_counted_once() {
         (nalgebra::Matrix3::identity() * c.norm_squared() - c * c.transpose()) * mass
     };
     let all = moving.inertia.unwrap() + about(moving.mass, moving.center.coords);
-    let parts = about(40.0, nalgebra::Vector3::new(1.0, 2.0, 30.0))
+    // a payload without inertia is a ball as wide as the joints of the platform
+    let joints = added.manipulator().platform_joints();
+    let middle = joints.iter().map(|b| b.coords).sum::<nalgebra::Vector3<f64>>() / joints.len() as f64;
+    let gyration =
+        joints.iter().map(|b| (b.coords - middle).norm_squared()).sum::<f64>() / joints.len() as f64;
+    let ball = nalgebra::Matrix3::identity() * (40.0 * gyration);
+    assert!(added.mass_assumptions()[0].contains("that of a ball"));
+    let parts = ball
+        + about(40.0, nalgebra::Vector3::new(1.0, 2.0, 30.0))
         + rigid.inertia
         + about(plate, rigid.center.coords);
     assert!((all - parts).norm() < 1e-9 * parts.norm());
     assert!((added.all_loads()[0].force.z + (40.0 + plate) * GRAVITY).abs() < 1e-9);
     let included = design(&with_plates().replacen("plate = \"added\"\n", "", 1));
-    assert_eq!(included.moving_payload(), included.payload, "the mass has the plate in it");
+    let moving = included.moving_payload().unwrap();
+    assert!((moving.inertia.unwrap() - ball).norm() < 1e-12 * ball.norm());
+    let stated = crate::requirements::Payload { inertia: None, ..moving };
+    assert_eq!(Some(stated), included.payload, "the mass has the plate in it");
     // without a payload the plate is what moves
     let (text, _) = PLATES.split_once("[payload]").unwrap();
     let alone = design(&format!("{}{text}", GOOD.replacen("trajectory = \"path.csv\"\n", "", 1)));
