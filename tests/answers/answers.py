@@ -34,7 +34,7 @@ CALLS = """
 0 explore {rbt-octahedral} --samples 1 -o {explored}
 1 explore {apart} --samples 1 -o {none}
 1 explore {general-6-6} --samples 1 -o {general}
-0 explore {rbt-griffis-duffy} --samples 1 -o {made}
+3 explore {rbt-griffis-duffy} --samples 1 -o {made}
 0 equivalents-nearest {general-6-6} -o {nearest.toml}
 0 report {explored}
 0 export {rbt-octahedral} --to csv,svg -o {exported}

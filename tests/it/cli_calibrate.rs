@@ -448,7 +448,7 @@ fn lengths_of_a_calibrated_machine_are_those_that_its_legs_show() {
     let near = |x: &Value, y: f64| assert!((number(x) - y).abs() < 1e-9, "{x} {y}");
     (0..6).for_each(|i| near(&ik["lengths"][i], shown[i]));
     let lengths = shown.map(|l| l.to_string()).join(",");
-    let at = |solution: &Value| (0..3).map(|k| number(&solution["position"][k]["re"])).collect::<Vec<_>>();
+    let at = |solution: &Value| (0..3).map(|k| number(&solution["p"]["re"][k])).collect::<Vec<_>>();
     let fk = answer(&["fk", &out, "--lengths", &lengths]);
     let all: Vec<_> = fk["solutions"].as_array().unwrap().iter().map(at).collect();
     let wanted = [3.0, -4.0, 205.0];
