@@ -112,64 +112,24 @@
     )
 )]
 
-#[cfg(feature = "lab")]
-mod bench;
-#[cfg(feature = "synthesis")]
-mod calibration;
-#[cfg(feature = "capi")]
-mod capi;
-#[cfg(feature = "cli")]
-pub mod cli;
-#[cfg(any(feature = "files", feature = "synthesis"))]
-mod coupled;
+mod app;
 #[cfg(feature = "files")]
-mod design;
-#[cfg(feature = "optimize")]
-mod dimensional;
-mod distance;
-#[cfg(any(feature = "files", feature = "synthesis"))]
-mod dynamics;
-mod entrance;
-#[cfg(feature = "synthesis")]
-mod equivalence;
-#[cfg(all(feature = "files", feature = "synthesis"))]
-mod equivalents;
-#[cfg(feature = "files")]
-mod export;
+mod files;
 mod fk;
-mod geom;
-mod manipulator;
-#[cfg(feature = "synthesis")]
-mod manufacture;
-mod names;
+mod machine;
 mod num;
 #[cfg(feature = "optimize")]
-mod offsets;
-#[cfg(feature = "page")]
-mod page;
-#[cfg(feature = "files")]
-mod plot;
-mod poly;
-#[cfg(feature = "python")]
-mod python;
-#[cfg(any(feature = "files", feature = "synthesis"))]
-mod reach;
-#[cfg(feature = "page")]
-pub mod records;
-#[cfg(feature = "page")]
-mod report;
-#[cfg(any(feature = "files", feature = "synthesis"))]
-mod requirements;
-mod rotary;
-#[cfg(feature = "synthesis")]
-mod singularity;
-mod solve;
-#[cfg(feature = "sweep")]
-mod sweep;
+mod optimize;
+mod platform;
 #[cfg(feature = "synthesis")]
 mod synthesis;
-mod topology;
+#[cfg(feature = "synthesis")]
+mod verify;
 
+#[cfg(feature = "cli")]
+pub use app::cli;
+#[cfg(feature = "page")]
+pub use app::records;
 pub use nalgebra;
 pub use num_complex;
 
@@ -179,48 +139,48 @@ pub use prelude::*;
 /// Everything on the front page, for `use equipod::prelude::*`.
 pub mod prelude {
     #[doc(inline)]
-    pub use crate::entrance::{Batch, Error, Solver, Tracker};
+    pub use crate::app::entrance::{Batch, Error, Solver, Tracker};
     #[doc(inline)]
     pub use crate::fk::{
         Completeness, FkOptions, FkRoot, FkSolutions, Method, NearOutcome, PoseCounting, Reality,
         SolutionSet, Threads,
     };
     #[doc(inline)]
-    pub use crate::geom::{Angles, ComplexPose, Pose};
+    pub use crate::num::Cancel;
     #[doc(inline)]
-    pub use crate::manipulator::{
+    pub use crate::platform::geom::{Angles, ComplexPose, Pose};
+    #[doc(inline)]
+    pub use crate::platform::manipulator::{
         Body, Leg, LegIndex, LegLengths, Manipulator, Octahedral, SquaredLegLengths,
     };
-    #[doc(inline)]
-    pub use crate::num::Cancel;
     #[cfg(feature = "synthesis")]
     #[doc(inline)]
     pub use crate::synthesis::{AffineLegMap, Family, LegMapOutcome, Pattern, Relation};
 
-    #[cfg(feature = "files")]
-    #[doc(inline)]
-    pub use crate::design::{Design, Format, PRESETS, Violation, Warning};
     #[cfg(all(feature = "files", feature = "synthesis"))]
     #[doc(inline)]
-    pub use crate::entrance::{
+    pub use crate::app::entrance::{
         AssessReport, CheckReport, SingularHome, VerifyOptions, leg_map, verify, verify_with,
     };
     #[cfg(all(feature = "files", feature = "synthesis"))]
     #[doc(inline)]
-    pub use crate::equivalence::{Sample, Verdict, Verification};
+    pub use crate::app::equivalents::Equivalents;
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use crate::files::design::{Design, Format, PRESETS, Violation, Warning};
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use crate::files::export::{ExportFormat, ExportOptions, ExportedFile, LengthUnit};
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use crate::machine::requirements::AssessOptions;
     #[cfg(all(feature = "files", feature = "synthesis"))]
     #[doc(inline)]
-    pub use crate::equivalents::Equivalents;
-    #[cfg(feature = "files")]
-    #[doc(inline)]
-    pub use crate::export::{ExportFormat, ExportOptions, ExportedFile, LengthUnit};
-    #[cfg(feature = "files")]
-    #[doc(inline)]
-    pub use crate::requirements::AssessOptions;
+    pub use crate::verify::{Sample, Verdict, Verification};
 
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[doc(inline)]
-    pub use crate::entrance::{
+    pub use crate::app::entrance::{
         OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus,
     };
 }
@@ -233,46 +193,46 @@ pub mod methods {
     /// Problems drawn from a class, solved, validated with arithmetic of their own, counted and timed.
     #[cfg(feature = "lab")]
     pub mod bench {
-        pub use crate::bench::*;
+        pub use crate::app::bench::*;
     }
     /// Joint centres and leg offsets of a machine from measured poses and lengths.
     #[cfg(feature = "synthesis")]
     pub mod calibration {
-        pub use crate::calibration::*;
+        pub use crate::machine::calibration::*;
     }
     /// Design files: text in, values out, and back to text.
     #[cfg(feature = "files")]
     pub mod design {
-        pub use crate::design::*;
+        pub use crate::files::design::*;
     }
     /// The best platform that meets its requirements: offsets, triangles, height, joint axes.
     #[cfg(feature = "optimize")]
     pub mod dimensional {
-        pub use crate::dimensional::*;
+        pub use crate::optimize::dimensional::*;
     }
     /// Machines whose joints are not ideal: universal joints whose axes do not meet, screws that couple the turn of a leg to its length.
     #[cfg(any(feature = "files", feature = "synthesis"))]
     pub mod coupled {
-        pub use crate::coupled::*;
+        pub use crate::machine::coupled::*;
     }
     /// Poses from distances alone: Cayley-Menger determinants, trilateration, closure conditions.
     pub mod distance {
-        pub use crate::distance::*;
+        pub use crate::fk::distance::*;
     }
     /// How the legs move and what their drives push when the platform moves: inverse dynamics, stiffness, natural frequencies.
     #[cfg(any(feature = "files", feature = "synthesis"))]
     pub mod dynamics {
-        pub use crate::dynamics::*;
+        pub use crate::machine::dynamics::*;
     }
     /// Whether two platforms are equivalent: the leg map and forward kinematics, compared.
     #[cfg(feature = "synthesis")]
     pub mod equivalence {
-        pub use crate::equivalence::*;
+        pub use crate::verify::*;
     }
     /// Files for other programs: a design in, texts out.
     #[cfg(feature = "files")]
     pub mod export {
-        pub use crate::export::*;
+        pub use crate::files::export::*;
     }
     /// Forward kinematics: all finite complex poses for given leg lengths, by every method.
     pub mod fk {
@@ -280,16 +240,16 @@ pub mod methods {
     }
     /// Poses, quaternions, distances.
     pub mod geom {
-        pub use crate::geom::*;
+        pub use crate::platform::geom::*;
     }
     /// Joints, legs, lengths, inverse kinematics, Jacobian.
     pub mod manipulator {
-        pub use crate::manipulator::*;
+        pub use crate::platform::manipulator::*;
     }
     /// Tolerances of the joints, the correction a controller runs, joints on a grid of holes.
     #[cfg(feature = "synthesis")]
     pub mod manufacture {
-        pub use crate::manufacture::*;
+        pub use crate::machine::manufacture::*;
     }
     /// Seeded random numbers, double-double, interval and exact arithmetic, dense linear algebra, conic programs.
     pub mod num {
@@ -298,49 +258,49 @@ pub mod methods {
     /// The best platform without shared joints in the class of an octahedral one.
     #[cfg(feature = "optimize")]
     pub mod offsets {
-        pub use crate::offsets::*;
+        pub use crate::optimize::offsets::*;
     }
     /// One HTML page of a design, and the answers it gets from the core.
     #[cfg(feature = "page")]
     pub mod page {
-        pub use crate::page::*;
+        pub use crate::app::page::*;
     }
     /// Pictures: values in, SVG text out.
     #[cfg(feature = "files")]
     pub mod plot {
-        pub use crate::plot::*;
+        pub use crate::files::plot::*;
     }
     /// Polynomials in one unknown.
     pub mod poly {
-        pub use crate::poly::*;
+        pub use crate::num::poly::*;
     }
     /// How far the platform may move from a pose before a requirement binds, and the allowed pose nearest to one asked for.
     #[cfg(any(feature = "files", feature = "synthesis"))]
     pub mod reach {
-        pub use crate::reach::*;
+        pub use crate::machine::reach::*;
     }
     /// A folder of results as one HTML page: files in, HTML text out.
     #[cfg(feature = "page")]
     pub mod report {
-        pub use crate::report::*;
+        pub use crate::app::report::*;
     }
     /// What a platform has to satisfy, evaluated from the definitions.
     #[cfg(any(feature = "files", feature = "synthesis"))]
     pub mod requirements {
-        pub use crate::requirements::*;
+        pub use crate::machine::requirements::*;
     }
     /// Platforms on rods of constant length whose cranks turn: angles of poses, poses of angles, speeds, torques.
     pub mod rotary {
-        pub use crate::rotary::*;
+        pub use crate::machine::rotary::*;
     }
     /// Designs that no pose can hold, singular poses, self-motions.
     #[cfg(feature = "synthesis")]
     pub mod singularity {
-        pub use crate::singularity::*;
+        pub use crate::synthesis::singularity::*;
     }
     /// The leg equations over the complex numbers, and certificates of their roots.
     pub mod solve {
-        pub use crate::solve::*;
+        pub use crate::fk::solve::*;
     }
     /// Leg maps, and the class of equivalent platforms.
     #[cfg(feature = "synthesis")]
@@ -349,7 +309,7 @@ pub mod methods {
     }
     /// Which legs share which joints, and the catalogue of all ways to share them.
     pub mod topology {
-        pub use crate::topology::*;
+        pub use crate::platform::topology::*;
     }
 }
 

@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics};
-use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// How many threads a batch may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -123,9 +123,9 @@ pub(crate) fn in_order<T: Send>(count: usize, threads: Threads, job: &(dyn Fn(us
 mod tests {
     use super::*;
     use crate::fk::{Automatic, Homotopy, Method, NearSolver, Octic, OcticSolver, Sylvester, Template};
-    use crate::geom::{Pose, random_rotation};
-    use crate::manipulator::Leg;
     use crate::num::Rng;
+    use crate::platform::geom::{Pose, random_rotation};
+    use crate::platform::manipulator::Leg;
     use nalgebra::{Point3, Vector3};
 
     fn threads(n: usize) -> Threads {
@@ -156,8 +156,8 @@ mod tests {
         shared::<Template>();
         shared::<OcticSolver>();
         shared::<NearSolver>();
-        shared::<crate::solve::certify::Certifier>();
-        shared::<crate::solve::certify::octahedral::OctahedralCertifier>();
+        shared::<crate::fk::solve::certify::Certifier>();
+        shared::<crate::fk::solve::certify::octahedral::OctahedralCertifier>();
         shared::<FkSolutions>();
         shared::<Box<dyn ForwardKinematics>>();
         shared::<Box<dyn crate::fk::PreparedDesign>>();

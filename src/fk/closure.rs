@@ -3,10 +3,10 @@
 use thiserror::Error;
 
 use super::{Completeness, FkSolutions, SolutionSet};
-use crate::distance::{
+use crate::fk::distance::{
     ClosureDegrees, ClosureError, ClosurePolynomial, NoPlan, closure_degrees, closure_polynomial, plans,
 };
-use crate::manipulator::{JointKnowledge, Manipulator, SquaredLegLengths};
+use crate::platform::manipulator::{JointKnowledge, Manipulator, SquaredLegLengths};
 
 /// Sequences tried until one tells the number of real poses.
 const ATTEMPTS: usize = 4;
@@ -82,12 +82,12 @@ pub fn closure(m: &Manipulator, s: &SquaredLegLengths, found: &FkSolutions) -> R
 mod tests {
     use super::*;
     use crate::fk::{FkOptions, ForwardKinematics, Homotopy, Reality};
-    use crate::geom::Pose;
-    use crate::geom::random_rotation;
-    use crate::manipulator::Leg;
     use crate::num::Rng;
-    use crate::poly::complex_roots;
-    use crate::topology::catalogue;
+    use crate::num::poly::complex_roots;
+    use crate::platform::geom::Pose;
+    use crate::platform::geom::random_rotation;
+    use crate::platform::manipulator::Leg;
+    use crate::platform::topology::catalogue;
     use nalgebra::{Point3, Vector3};
 
     /// The number of real poses by the polynomial is that of the certificates, which know nothing of each other.

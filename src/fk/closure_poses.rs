@@ -3,11 +3,11 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 use num_complex::Complex64;
 
-use crate::distance::{closure_polynomial, plans};
-use crate::geom::{ComplexPose, trilaterate};
-use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::poly::complex_roots;
-use crate::topology::{JointIndex, Sequence};
+use crate::fk::distance::{closure_polynomial, plans};
+use crate::num::poly::complex_roots;
+use crate::platform::geom::{ComplexPose, trilaterate};
+use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use crate::platform::topology::{JointIndex, Sequence};
 
 /// Bits to which roots are enclosed before they are rounded.
 const BITS: u64 = 60;
@@ -90,7 +90,7 @@ fn pose(m: &Manipulator, placed: &[(JointIndex, Vector3<Complex64>)]) -> Option<
 mod tests {
     use super::*;
     use crate::fk::{FkOptions, ForwardKinematics, Homotopy};
-    use crate::topology::catalogue;
+    use crate::platform::topology::catalogue;
 
     #[test]
     fn candidates_from_exact_roots_are_the_poses() {

@@ -6,8 +6,8 @@ use super::{
     Completeness, FkError, FkOptions, FkSolutions, Method, Reason, Rejected, RejectionReason, SolutionSet,
     Theorem,
 };
-use crate::geom::ComplexPose;
-use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::platform::geom::ComplexPose;
+use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Candidates so far; `None` where an eigenvector or root gives no finite pose.
 #[derive(Debug, Clone, Default)]
@@ -80,9 +80,9 @@ impl Candidates {
 mod tests {
     use super::*;
     use crate::fk::FkTolerances;
-    use crate::geom::Pose;
-    use crate::manipulator::Leg;
     use crate::num::Rng;
+    use crate::platform::geom::Pose;
+    use crate::platform::manipulator::Leg;
     use nalgebra::{Point3, Rotation3, Vector3};
 
     /// Certification finds that candidates repeat a root; the counts of the elimination are told beside that, not in its place.

@@ -7,12 +7,12 @@ use super::collect::{Collected, PoseCandidate, SortKey, Sourced, collect_with, s
 use super::evidence::{KnownCertificates, proved};
 use super::homotopy::pose_of;
 use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
-use crate::geom::ComplexPose;
-use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
-use crate::num::octuple::ComplexOctuple;
-use crate::solve::certify::{
+use crate::fk::solve::certify::{
     CertifiedPose, Certifier, MIRROR, NewtonStart, ProvedReality, RootRelation, overlapping_pairs, relation,
 };
+use crate::num::octuple::ComplexOctuple;
+use crate::platform::geom::ComplexPose;
+use crate::platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 
 /// Regular ends with a larger condition number may belong to a cluster.
 const NEARLY_SINGULAR: f64 = 1e4;
@@ -384,8 +384,8 @@ fn drop_repeated(proofs: &mut Vec<CertifiedRoot>, overlapping: &[(usize, usize)]
 mod tests {
     use super::*;
     use crate::fk::{FkOptions, ForwardKinematics, Homotopy};
-    use crate::geom::Pose;
     use crate::num::Rng;
+    use crate::platform::geom::Pose;
     use nalgebra::{Point3, Rotation3, Vector3};
 
     /// Certificates taken over from mirror images and conjugates are those that their own poses get.

@@ -6,11 +6,13 @@
 
 use super::evidence::{all_distinct, cluster_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
-use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::solve::certify::{Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs};
-use crate::solve::pose_count::{
+use crate::fk::solve::certify::{
+    Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs,
+};
+use crate::fk::solve::pose_count::{
     CountOptions, CountedLengths, PoseCount, PoseSet, count_generic_poses, count_poses, exact_squares,
 };
+use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// What the number says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -149,8 +151,8 @@ pub(super) fn compared_with_count(
 mod tests {
     use super::*;
     use crate::fk::{ForwardKinematics, Homotopy, SolutionSet};
-    use crate::manipulator::LegLengths;
     use crate::num::double_double::DoubleDouble;
+    use crate::platform::manipulator::LegLengths;
     use nalgebra::Point3;
 
     /// Sixteen certified poses of lengths known within radii, of which nothing is known yet.

@@ -1,7 +1,13 @@
 //! Forward kinematics: finds all finite complex poses that a platform can have with given leg lengths.
 //!
-//! Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that agreement of
-//! the root sets of two platforms is evidence for the map between them.
+//! It knows `num` and `platform`. Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that agreement of
+//! the root sets of two platforms is evidence for the map between them. `solve::certify`, which proves roots, names nothing that finds them.
+//!
+//! * [`FkOptions`]: the method, the seed and what is counted.
+//! * [`FkSolutions`]: the poses, each with its certificate, and whether they are all.
+//! * [`NearSolver`]: one real pose followed from lengths to lengths.
+//!
+//! Squared lengths become leg equations; a method finds roots, Newton's method sharpens them, certificates prove them, and a theorem or a count says whether they are all.
 
 mod batch;
 mod bounds;
@@ -12,6 +18,7 @@ mod cluster;
 mod collect;
 mod completeness;
 mod dependent;
+pub(crate) mod distance;
 #[cfg(feature = "lab")]
 mod elimination;
 mod evidence;
@@ -24,6 +31,7 @@ mod newton;
 mod octic;
 mod real_points;
 mod solutions;
+pub(crate) mod solve;
 #[cfg(feature = "lab")]
 mod sylvester;
 #[cfg(feature = "lab")]
@@ -52,7 +60,7 @@ pub use sylvester::Sylvester;
 pub use template::Template;
 pub use trilateration::Trilateration;
 
-use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
 use thiserror::Error;
 
 /// Options of forward kinematics.
@@ -75,7 +83,7 @@ pub struct FkOptions {
     pub tolerances: FkTolerances,
 }
 
-/// When the finite poses are counted (see [`crate::solve::pose_count`]).
+/// When the finite poses are counted (see [`crate::fk::solve::pose_count`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PoseCounting {
     /// Where no theorem says that the poses found are all.

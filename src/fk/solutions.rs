@@ -3,10 +3,10 @@
 use num_complex::Complex64;
 
 use super::Completeness;
-use crate::geom::{ComplexPose, Pose};
-use crate::names::{UnknownName, named};
-use crate::solve::certify::RootCertificate;
-use crate::solve::pose_count::{CountedLengths, PoseCount};
+use crate::fk::solve::certify::RootCertificate;
+use crate::fk::solve::pose_count::{CountedLengths, PoseCount};
+use crate::num::names::{UnknownName, named};
+use crate::platform::geom::{ComplexPose, Pose};
 
 /// A forward-kinematics method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

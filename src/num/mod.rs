@@ -1,4 +1,12 @@
-//! Numbers with known errors: double-double, interval and exact rational arithmetic, decompositions of small matrices, seeded random numbers, and the doors to faer and clarabel.
+//! Numbers with known errors: double-double, interval and exact arithmetic, polynomials in one unknown, decompositions of small matrices, seeded random numbers, and the doors to faer and clarabel.
+//!
+//! It knows nothing of platforms and names no other room.
+//!
+//! * [`Interval`](interval::Interval): all real numbers between two doubles; every operation encloses the exact result.
+//! * [`Surd`](surd::Surd): a number of a field of square roots, exactly.
+//! * [`Rng`]: random numbers from a seed, a stream for each purpose.
+//!
+//! A number is made from a double or from a written expression, goes through the rooms above in the arithmetic that the question needs, and becomes a double with a bound of its error.
 
 pub(crate) mod algebraic;
 pub mod ball;
@@ -23,8 +31,10 @@ pub(crate) mod jet;
 #[cfg(any(feature = "lab", feature = "synthesis"))]
 pub mod linalg;
 pub(crate) mod modular;
+pub(crate) mod names;
 pub(crate) mod octuple;
 pub(crate) mod parallel;
+pub(crate) mod poly;
 #[cfg(feature = "files")]
 pub(crate) mod real;
 pub mod rounding;

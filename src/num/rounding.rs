@@ -8,7 +8,7 @@
 //! * flushing of subnormal results or operands to zero. Code compiled with `-ffast-math` switches it on for a whole process when its library is loaded.
 //!
 //! The last two are settings of a thread, which new threads inherit. [`check_arithmetic`] finds them by computing, on any processor, at the cost of seven
-//! operations. The program asks it at its start, and [`solve::certify`](crate::solve::certify) before every certified solve: no certificate comes from such a thread.
+//! operations. The program asks it at its start, and `fk::solve::certify` before every certified solve: no certificate comes from such a thread.
 
 use std::hint::black_box;
 

@@ -6,9 +6,9 @@
 
 use std::fmt::Write as _;
 
-use crate::manipulator::{AlgebraicVector, ExactLegs};
 use crate::num::algebraic::Algebraic;
 use crate::num::exact::{rank, relations};
+use crate::platform::manipulator::{AlgebraicVector, ExactLegs};
 
 /// `s(TO) = A s(FROM) + c` with exact numbers and `det A` not zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -185,8 +185,8 @@ fn determinant(a: &[AlgebraicVector]) -> Algebraic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manipulator::{ExactEnds, Manipulator};
     use crate::num::surd::Surd;
+    use crate::platform::manipulator::{ExactEnds, Manipulator};
 
     /// The relation of platforms by their exact ends.
     fn relation(from: &[ExactEnds; 6], to: &[ExactEnds; 6]) -> ExactRelation {

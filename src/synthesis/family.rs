@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::enumerate::{enumerate, representative};
 use super::moves::{moves, reachable};
 use super::pattern::Pattern;
-use crate::topology::Topology;
+use crate::platform::topology::Topology;
 
 /// A pattern and where it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -7,7 +7,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::manipulator::{Body, Leg, Octahedral};
+use crate::platform::manipulator::{Body, Leg, Octahedral};
 
 /// The place of an inner point on a side: `t` runs from 0 at leg `side` to 1 at leg `side + 1`.
 ///
@@ -178,8 +178,8 @@ pub fn offsets_from_distances(o: &Octahedral, base: f64, platform: f64) -> [f64;
 pub(super) mod tests {
 
     use super::*;
-    use crate::geom::Pose;
-    use crate::manipulator::{Manipulator, SquaredLegLengths};
+    use crate::platform::geom::Pose;
+    use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
     use crate::synthesis::joint_free;
     use nalgebra::Rotation3;
 

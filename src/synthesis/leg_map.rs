@@ -7,11 +7,11 @@ use thiserror::Error;
 
 use super::exact_map::{ExactMap, ExactRelation};
 use super::{LegSpan, Normalisation};
-use crate::manipulator::{
-    ExactLegs, Leg, LegIndex, Level, Manipulator, SquaredLegLengths, inverse_condition,
-};
 use crate::num::double_double::DoubleDouble;
 use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::{
+    ExactLegs, Leg, LegIndex, Level, Manipulator, SquaredLegLengths, inverse_condition,
+};
 
 /// The map `s' = A s + c` on squared leg lengths.
 ///

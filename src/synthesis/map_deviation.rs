@@ -18,9 +18,9 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::AffineLegMap;
-use crate::geom::SamplePlan;
-use crate::manipulator::{Leg, Manipulator};
 use crate::num::ball::{Real, UP};
+use crate::platform::geom::SamplePlan;
+use crate::platform::manipulator::{Leg, Manipulator};
 
 /// Sums over the legs of FROM taken from a leg of TO.
 struct LegDeviation {
@@ -106,8 +106,8 @@ impl AffineLegMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{Pose, random_rotation};
     use crate::num::Rng;
+    use crate::platform::geom::{Pose, random_rotation};
     use crate::synthesis::{LegMapTolerances, leg_map};
     use nalgebra::Point3;
 

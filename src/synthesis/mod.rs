@@ -1,7 +1,13 @@
-//! Finds the platforms that are equivalent to a given one, and the leg maps between them.
+//! Finds the platforms that are equivalent to a given one with the leg maps between them, and the designs that no pose can hold.
 //!
-//! Nothing in here solves forward kinematics: `synthesis` and `fk` never import each other, so that
+//! It knows `num` and `platform`. Nothing in here solves forward kinematics: `synthesis` and `fk` never import each other, so that
 //! agreement of the root sets of two platforms is evidence for the map between them.
+//!
+//! * [`Family`]: all platforms that are equivalent to an octahedral one.
+//! * [`AffineLegMap`]: `s' = A s + c` between the squared lengths of two platforms.
+//! * [`Architecture`](singularity::Architecture): whether a design is singular at every pose, and how that is proved.
+//!
+//! Legs become vectors whose linear relations decide: equal spans give the map, dependent ones a singular design.
 
 pub mod alignment;
 pub mod components;
@@ -22,9 +28,10 @@ mod nearest;
 mod pattern;
 pub mod rearrangement;
 pub mod relocate;
+pub(crate) mod singularity;
 mod topology;
 
-pub use crate::topology::Topology;
+pub use crate::platform::topology::Topology;
 pub use correspondence::LegCorrespondence;
 pub use determinant::{Factor, offset_determinant, singular_offset};
 pub(crate) use determinant::{determinant_gradient, determinant_hessian, offset_products};

@@ -19,8 +19,8 @@ use nalgebra::{Point3, SMatrix, SVector, Vector3};
 
 use super::hexagon::{corner, edge, sliding_body};
 use super::offset_determinant;
-use crate::geom::Pose;
-use crate::manipulator::{Body, InvalidManipulator, Leg, LegIndex, Manipulator, is_collinear};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Body, InvalidManipulator, Leg, LegIndex, Manipulator, is_collinear};
 
 /// Steps of a fit before it counts as not settled.
 const STEPS: usize = 300;

@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::AffineLegMap;
 use super::determinant::{Factor, expand};
 use super::hexagon::{HexagonPoint, JointLabel, Offset, corner_point, edge, edge_lengths};
-use crate::manipulator::{Body, InvalidManipulator, LegIndex, Manipulator, Octahedral};
+use crate::platform::manipulator::{Body, InvalidManipulator, LegIndex, Manipulator, Octahedral};
 use crate::synthesis::HexagonSide;
 
 /// Six points of the hexagon that are linearly independent for generic offsets.

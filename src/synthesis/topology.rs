@@ -1,7 +1,7 @@
 //! Which legs of a pattern share which joints.
 
 use super::pattern::Pattern;
-use crate::topology::Topology;
+use crate::platform::topology::Topology;
 
 impl Topology {
     /// The topology of a pattern; base and platform are kept apart.

@@ -76,7 +76,8 @@ fn there_is_a_manual_page_for_every_command() {
 /// `equipod design schema OF`.
 fn schema(of: &str) -> Value {
     let out = equipod(&["design", "schema", of]).stdout;
-    serde_json::from_slice(&out).unwrap_or_else(|_| panic!("{of} lacks its schema: src/records/schema.rs"))
+    serde_json::from_slice(&out)
+        .unwrap_or_else(|_| panic!("{of} lacks its schema: src/app/records/schema.rs"))
 }
 
 #[test]
@@ -88,7 +89,10 @@ fn schemas_are_json_and_every_answer_has_one() {
         let command = command.as_str();
         let schema = schema(command);
         assert_eq!(schema["$ref"], format!("#/$defs/{command}"));
-        assert!(schema["$defs"][command].is_object(), "{command} lacks its answer in src/records/schema.rs");
+        assert!(
+            schema["$defs"][command].is_object(),
+            "{command} lacks its answer in src/app/records/schema.rs"
+        );
     }
     assert_eq!(equipod(&["design", "schema", "nothing"]).status.code(), Some(2));
 }

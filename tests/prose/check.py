@@ -17,7 +17,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 MARKDOWN = ["*.md", "docs/*.md", "docs/guides/*.md", "docs/theory/*.md", "designs/*.md", "tests/*/README.md"]
 SOURCES = ["src/**/*.rs", "examples/*.rs"]
-PAGE = ["src/page/web/*.js", "src/page/web/*.html"]
+PAGE = ["src/app/page/web/*.js", "src/app/page/web/*.html"]
 
 # words with a full stop that end no sentence
 ABBREVIATIONS = {

@@ -1,4 +1,4 @@
-"""Writes `src/python/equipod/records.py`, the types of answers, from the schemas that the program prints.
+"""Writes `src/app/python/equipod/records.py`, the types of answers, from the schemas that the program prints.
 
     python tests/python/generate_records.py PROGRAM [--check]
 
@@ -31,7 +31,7 @@ ANSWERS = {
     "singular-poses": "SingularPosesAnswer",
     "verify": "VerifyAnswer",
 }
-FILE = pathlib.Path(__file__).parents[2] / "src/python/equipod/records.py"
+FILE = pathlib.Path(__file__).parents[2] / "src/app/python/equipod/records.py"
 HEAD = '''"""Answers as typed records: the fields of `equipod COMMAND --json`, by the same names.
 
 Made from the schemas of the answers by `tests/python/generate_records.py`; do not edit. What may be absent from a document is None, and so is what is null in it.

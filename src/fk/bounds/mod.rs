@@ -7,8 +7,8 @@ mod shared;
 pub(super) use shared::class_bound;
 
 use super::Theorem;
-use crate::manipulator::Manipulator;
-use crate::solve::special::special_position;
+use crate::fk::solve::special::special_position;
+use crate::platform::manipulator::Manipulator;
 
 /// The smallest proved bound on the number of isolated finite poses of a design, for all lengths.
 pub(crate) fn pose_bound(m: &Manipulator) -> Theorem {

@@ -4,8 +4,8 @@
 //! platform of it and of its mergers; which joints coincide is decided exactly, on the doubles as they are.
 
 use crate::fk::Theorem;
-use crate::manipulator::{Body, JointKnowledge, Manipulator};
-use crate::topology::Topology;
+use crate::platform::manipulator::{Body, JointKnowledge, Manipulator};
+use crate::platform::topology::Topology;
 
 /// A topology with a count of its own, base and platform joint of every leg.
 type Row = ([usize; 6], [usize; 6], Theorem);
@@ -125,8 +125,8 @@ fn first_of<T: PartialEq>(ends: &[T; 6]) -> [usize; 6] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manipulator::Leg;
-    use crate::topology::catalogue;
+    use crate::platform::manipulator::Leg;
+    use crate::platform::topology::catalogue;
     use nalgebra::Point3;
 
     fn joint(k: usize) -> Point3<f64> {

@@ -1,8 +1,8 @@
 use super::super::FkRoot;
 use super::*;
-use crate::geom::{Pose, random_rotation};
-use crate::manipulator::Leg;
 use crate::num::Rng;
+use crate::platform::geom::{Pose, random_rotation};
+use crate::platform::manipulator::Leg;
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 /// Doubly planar joints in `z = 0`, or in two planes somewhere.

@@ -13,8 +13,8 @@ pub use outcome::{NearEvidence, NearOutcome, WhyLost};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
-use crate::geom::Pose;
-use crate::manipulator::{Body, Manipulator, SquaredLegLengths};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 use local::{Blur, Local, Newton, SegmentStart};
 
 /// `4 (beta + eta) eta` aimed at for every segment; the theorem needs 1.

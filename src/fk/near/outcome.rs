@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::geom::Pose;
+use crate::platform::geom::Pose;
 
 /// Numbers that go with every outcome.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -10,7 +10,7 @@ pub struct NearEvidence {
     /// Largest error of the leg equations at the pose, over the squared size of the design.
     pub residual: f64,
     /// `6 / (|J|_F |J^-1|_F)` at the pose, `J` the matrix of unnormalised leg lines
-    /// ([`plucker_matrix`](crate::manipulator::plucker_matrix)) with the RMS radius of the platform as
+    /// ([`plucker_matrix`](crate::platform::manipulator::plucker_matrix)) with the RMS radius of the platform as
     /// characteristic length: 1 at best, 0 at a singularity. Cheaper than the inverse condition number, and never below that of the same matrix.
     pub frobenius_ratio: f64,
     /// Segments the straight line of squared lengths was divided into; 1: the start lies in the Kantorovich ball.
@@ -42,7 +42,7 @@ pub enum WhyLost {
     /// [`NearOptions::segments`](super::NearOptions::segments) were not enough.
     #[error("the lengths are too far from those of the start for the number of segments allowed")]
     SegmentsExhausted,
-    /// A crank would turn further than a step allows, which [`RotaryTracker`](crate::rotary::RotaryTracker) says.
+    /// A crank would turn further than a step allows, which `machine::rotary::RotaryTracker` says.
     #[error("the angles are too far from those of the start: a step turns a crank by at most 79 turns")]
     AnglesTooFar,
     /// Newton's method did not end in the ball in which it must; rounding is the only cause known.

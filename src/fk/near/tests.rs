@@ -1,8 +1,8 @@
 use super::*;
 use crate::fk::{Homotopy, Reality};
-use crate::geom::{ComplexPose, random_rotation};
-use crate::manipulator::{Leg, default_home};
 use crate::num::Rng;
+use crate::platform::geom::{ComplexPose, random_rotation};
+use crate::platform::manipulator::{Leg, default_home};
 use nalgebra::{Matrix6, Point3};
 
 fn hexapod(rng: &mut Rng) -> Manipulator {
@@ -21,7 +21,7 @@ fn gap(m: &Manipulator, a: &Pose, b: &Pose) -> f64 {
 }
 
 fn determinant(m: &Manipulator, pose: &Pose) -> f64 {
-    let j: Matrix6<f64> = crate::manipulator::plucker_matrix(m, pose, m.platform_rms_radius());
+    let j: Matrix6<f64> = crate::platform::manipulator::plucker_matrix(m, pose, m.platform_rms_radius());
     j.determinant()
 }
 

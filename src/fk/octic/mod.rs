@@ -27,11 +27,11 @@ use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
     SolutionSet, Theorem,
 };
-use crate::geom::{ComplexPose, trilaterate};
-use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
+use crate::fk::solve::certify::Certifier;
 use crate::num::batch::LANES;
-use crate::poly::roots;
-use crate::solve::certify::Certifier;
+use crate::num::poly::roots;
+use crate::platform::geom::{ComplexPose, trilaterate};
+use crate::platform::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
 
 /// Forward kinematics of octahedral platforms (also of those whose joints coincide without being named as
 /// shared: only coordinates count).

@@ -10,7 +10,7 @@
 use super::lanes::{COARSE, LEGS, Points};
 use super::solver::Triangle;
 use crate::num::batch::{ComplexBatch, LANES};
-use crate::poly::roots_in_lanes;
+use crate::num::poly::roots_in_lanes;
 
 /// Squared lengths this near to those of a translation, in parts of all, are solved from there: three roots of the octic are one at the translation, and still close to each other at the cube root of it.
 /// Ten times farther the continuation fails too often to be worth its time.
@@ -229,9 +229,9 @@ fn divide(c: &mut [f64], root: f64) {
 mod tests {
     use super::*;
     use crate::fk::OcticSolver;
-    use crate::geom::Pose;
-    use crate::manipulator::Manipulator;
     use crate::num::Rng;
+    use crate::platform::geom::Pose;
+    use crate::platform::manipulator::Manipulator;
     use nalgebra::{Point3, Rotation3, Vector3};
 
     const ZERO: Points = [ComplexBatch::ZERO; 3];

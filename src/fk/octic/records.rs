@@ -3,14 +3,14 @@
 use super::{OcticPoses, OcticSolver};
 use crate::fk::collect::sort_key;
 use crate::fk::evidence::proved as proved_reality;
-use crate::fk::{Completeness, FkRoot, FkSolutions, Method, SolutionSet, Theorem};
-use crate::geom::ComplexPose;
-use crate::manipulator::SquaredLegLengths;
-use crate::num::batch::LANES;
-use crate::solve::certify::octahedral::{OctahedralCertificates, PairCertificate};
-use crate::solve::certify::{
+use crate::fk::solve::certify::octahedral::{OctahedralCertificates, PairCertificate};
+use crate::fk::solve::certify::{
     Certificate, CertifiedPose, Certifier, Distinctness, NewtonStart, RootCertificate, distinct,
 };
+use crate::fk::{Completeness, FkRoot, FkSolutions, Method, SolutionSet, Theorem};
+use crate::num::batch::LANES;
+use crate::platform::geom::ComplexPose;
+use crate::platform::manipulator::SquaredLegLengths;
 
 /// The answer for poses all of which are certified and distinct.
 pub(super) fn proved(

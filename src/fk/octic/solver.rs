@@ -11,14 +11,14 @@ use super::lanes::{Corners, Placed, SEPARATE};
 use super::parallel::ParallelSides;
 use crate::fk::collect::pose_scale;
 use crate::fk::newton::refine;
-use crate::fk::{FkError, Method};
-use crate::geom::{ComplexPose, reorthogonalised};
-use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
-use crate::num::batch::LANES;
-use crate::num::vector_unit::on_vector_unit;
-use crate::solve::certify::octahedral::{
+use crate::fk::solve::certify::octahedral::{
     OctahedralCertificate, OctahedralCertificates, OctahedralCertifier, PairCertificate,
 };
+use crate::fk::{FkError, Method};
+use crate::num::batch::LANES;
+use crate::num::vector_unit::on_vector_unit;
+use crate::platform::geom::{ComplexPose, reorthogonalised};
+use crate::platform::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
 
 /// Largest residual of a pose that is returned.
 const RESIDUAL: f64 = 1e-12;
@@ -125,7 +125,7 @@ impl OcticSolver {
         Ok(Self {
             manipulator: m.clone(),
             size,
-            order: octahedral.order().map(crate::manipulator::LegIndex::get),
+            order: octahedral.order().map(crate::platform::manipulator::LegIndex::get),
             parallel: ParallelSides::all(&base, &platform),
             base,
             platform,

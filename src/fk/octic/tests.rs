@@ -1,8 +1,8 @@
 use super::*;
 use crate::fk::Homotopy;
-use crate::geom::{Pose, random_rotation};
-use crate::manipulator::LegLengths;
 use crate::num::Rng;
+use crate::platform::geom::{Pose, random_rotation};
+use crate::platform::manipulator::LegLengths;
 use nalgebra::Point3;
 
 /// Rojas, Borras, Thomas, sec. 6.

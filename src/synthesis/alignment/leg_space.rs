@@ -11,9 +11,9 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::TOLERANCE;
 use super::rotations::{Axes, Candidates, Projector, candidates, turned};
-use crate::manipulator::{Leg, Manipulator};
 use crate::num::Purpose;
 use crate::num::linalg::{LinalgError, svd};
+use crate::platform::manipulator::{Leg, Manipulator};
 use crate::synthesis::components::spectrum::{Spectrum, unit, without};
 use crate::synthesis::leg_vector::{Normalisation, leg_vector};
 

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::leg_space::Canonical;
 use super::{CLEAR, RoundingBounds, SAME};
-use crate::geom::{Pose, rotation_vector};
+use crate::platform::geom::{Pose, rotation_vector};
 use crate::synthesis::leg_map::LegMapOutcome;
 
 /// A pair of rigid motions that makes B equivalent to A.

@@ -12,11 +12,11 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, DMatrix, Matrix3, Point3, Rotation3, SMatrix, Vector3};
 
 use super::leg_space::LegSpace;
-use crate::geom::{Pose, nearest_rotation, random_rotation};
-use crate::manipulator::Leg;
 use crate::num::Rng;
 use crate::num::linalg::{LinalgError, svd};
 use crate::num::small::symmetric_eigen3;
+use crate::platform::geom::{Pose, nearest_rotation, random_rotation};
+use crate::platform::manipulator::Leg;
 use crate::synthesis::components::spectrum::{Spectrum, dot, norm, unit};
 use crate::synthesis::leg_vector::leg_vector;
 

@@ -1,9 +1,9 @@
 use nalgebra::{Point3, Vector3};
 
 use super::*;
-use crate::geom::random_rotation;
-use crate::manipulator::Leg;
 use crate::num::Rng;
+use crate::platform::geom::random_rotation;
+use crate::platform::manipulator::Leg;
 
 fn motion(rng: &mut Rng) -> Pose {
     Pose { rotation: random_rotation(rng), position: Vector3::from_fn(|_, _| 3.0 * rng.normal()) }

@@ -2,9 +2,9 @@
 
 use super::shape::Parametrisation;
 use super::spectrum::{Decision, real_roots};
-use crate::manipulator::{Leg, LegIndex};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::{Leg, LegIndex};
 use crate::synthesis::leg_vector::LegSpan;
 
 /// The name of a flat by its dimension.

@@ -1,8 +1,8 @@
 //! Which legs and which partners of a point lie in the span of legs, exactly.
 
-use crate::manipulator::{AlgebraicVector, Body, ExactLeg, ExactLegs, Leg};
 use crate::num::algebraic::Algebraic;
 use crate::num::exact::{product, rank, relations};
+use crate::platform::manipulator::{AlgebraicVector, Body, ExactLeg, ExactLegs, Leg};
 
 /// `sum_k c_k rows_k`, the coefficients being small integers.
 pub(super) fn combination(rows: &[&AlgebraicVector], c: &[i32]) -> AlgebraicVector {

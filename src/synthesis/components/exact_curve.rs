@@ -8,8 +8,8 @@ use super::exact_form::{
     rationals, split,
 };
 use super::form::{SingularKind, exponents, laplace, power};
-use crate::manipulator::{AlgebraicVector, Body, ExactLegs};
 use crate::num::exact::{ExactVector, rank, relations};
+use crate::platform::manipulator::{AlgebraicVector, Body, ExactLegs};
 
 /// Bits of coefficients up to which greatest common divisors of minors are computed.
 const LONG: u64 = 300;
@@ -278,8 +278,8 @@ pub(super) fn place(point: &AlgebraicVector) -> Option<Vector3<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manipulator::Leg;
     use crate::num::Rng;
+    use crate::platform::manipulator::Leg;
     use nalgebra::Point3;
 
     fn base(legs: &[Leg; 6]) -> ExactCurve {

@@ -10,8 +10,8 @@ use nalgebra::Vector3;
 
 use super::form::Form;
 use super::spectrum::{Decision, Question, Spectrum, unit};
-use crate::manipulator::{Body, ExactLegs, Leg};
 use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::{Body, ExactLegs, Leg};
 use crate::synthesis::leg_vector::Normalisation;
 
 /// Below this ratio of the spreads of the joints the axes follow the joints, with a unit for each.

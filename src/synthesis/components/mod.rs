@@ -39,10 +39,12 @@ pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
 use self::flats::{BothReadings, ClosedPair, closed_pairs};
 use self::search::Search;
 use super::leg_vector::{LegSpan, Normalisation};
-use crate::manipulator::{AlgebraicVector, Body, ExactLegs, Leg, LegIndex, Level, Manipulator, homogeneous};
 use crate::num::Rng;
 use crate::num::algebraic::Algebraic;
 use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::{
+    AlgebraicVector, Body, ExactLegs, Leg, LegIndex, Level, Manipulator, homogeneous,
+};
 
 /// Limits of [`components`].
 #[derive(Debug, Clone, Copy, PartialEq)]

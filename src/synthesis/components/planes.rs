@@ -16,9 +16,9 @@ use super::spectrum::{
     APART, AT_INFINITY, COMPUTED, Decision, NO_DIMENSION, Question, SAME, Spectrum, dot, least_squares,
     nearness, norm, unit,
 };
-use crate::manipulator::Body;
 use crate::num::Rng;
 use crate::num::linalg::{LinalgError, eigenvalues};
+use crate::platform::manipulator::Body;
 use crate::synthesis::leg_vector::Normalisation;
 
 /// What was found over the plane of one body.

@@ -15,8 +15,8 @@ use super::found::{FoundComponents, View};
 use super::planes::{PlaneSide, joints_on_line, line_points, plane_side, points_of};
 use super::shape::FamilyShape;
 use super::spectrum::{APART, AT_INFINITY, COMPUTED, Question, SAME, nearness, unit};
-use crate::manipulator::{AlgebraicVector, Body, LegIndex};
 use crate::num::Rng;
+use crate::platform::manipulator::{AlgebraicVector, Body, LegIndex};
 
 use crate::num::linalg::LinalgError;
 use crate::synthesis::leg_vector::{LegSpan, Normalisation};

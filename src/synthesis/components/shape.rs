@@ -6,8 +6,8 @@ use super::flats::{BothReadings, Flat, Product};
 use super::form::{Form, exponents, power};
 use super::found::{Polynomial, value};
 use super::spectrum::{Spectrum, dot, norm, orthonormal, unit, without};
-use crate::manipulator::{Body, Leg};
 use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::{Body, Leg};
 use crate::synthesis::leg_vector::Normalisation;
 
 /// A curve in a flat, given by its parametrisation in homogeneous local coordinates.

@@ -5,9 +5,9 @@
 
 use super::pieces::{Piece, PlaneGroups, scroll};
 use super::sample::{Arrangement, DesignSample};
-use crate::manipulator::{Body, ExactLeg};
 use crate::num::exact::{ExactVector, rank};
-use crate::topology::Topology;
+use crate::platform::manipulator::{Body, ExactLeg};
+use crate::platform::topology::Topology;
 
 /// The answer.
 #[derive(Debug, Clone, PartialEq)]

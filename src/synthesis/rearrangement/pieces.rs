@@ -17,9 +17,9 @@
 //! meets it once more, so that six rational legs lead to further rational ones.
 
 use super::sample::{DesignSample, finite, integer, meet, subsets, weighted};
-use crate::manipulator::{Body, ExactLeg};
 use crate::num::Rng;
 use crate::num::exact::{ExactVector, Rational, rank, relations};
+use crate::platform::manipulator::{Body, ExactLeg};
 
 /// How the ends of the legs of a [`Piece`] are paired.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

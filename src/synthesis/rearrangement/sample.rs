@@ -3,9 +3,9 @@
 
 use nalgebra::Point3;
 
-use crate::manipulator::{Body, ExactLeg, InvalidManipulator, Manipulator, flat_dimension};
 use crate::num::Rng;
 use crate::num::exact::{ExactVector, Rational, rank, relations};
+use crate::platform::manipulator::{Body, ExactLeg, InvalidManipulator, Manipulator, flat_dimension};
 
 /// Joints and legs of one design. Joints are homogeneous: `(1, x, y, z)`.
 #[derive(Debug, Clone, PartialEq)]

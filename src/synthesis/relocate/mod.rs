@@ -22,8 +22,8 @@ pub use self::names::{counted_from, family_between, spanning_joints};
 pub use self::singular::SingularParameters;
 use super::components::{Component, Components, Parametrisation, exactly_replaceable};
 use super::leg_map::{AffineLegMap, LegMapOutcome, LegMapTolerances, leg_map_to_legs};
-use crate::manipulator::{InvalidManipulator, Leg, LegIndex, Manipulator};
 use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::{InvalidManipulator, Leg, LegIndex, Manipulator};
 
 /// One leg and where it is to go.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector, Point3, Vector3};
 
-use crate::manipulator::Manipulator;
 use crate::num::Purpose;
 use crate::num::linalg::LinalgError;
 use crate::num::small::bounded_svd;
+use crate::platform::manipulator::Manipulator;
 use crate::synthesis::components::{Component, Components, MovingPoint, Parametrisation};
 
 /// Orthonormal directions of the flat through the points, and one of them; what is within `limit` of the flat of the points before adds nothing.
@@ -238,8 +238,8 @@ fn times(p: &BTreeMap<[u8; 3], f64>, factor: &[f64; 4]) -> BTreeMap<[u8; 3], f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manipulator::{Leg, Manipulator};
     use crate::num::Rng;
+    use crate::platform::manipulator::{Leg, Manipulator};
     use crate::synthesis::components::{ComponentOptions, FamilyKind, components};
 
     #[test]

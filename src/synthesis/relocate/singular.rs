@@ -3,8 +3,8 @@
 use nalgebra::Matrix6;
 
 use super::LegMove;
-use crate::manipulator::Leg;
 use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::Leg;
 use crate::synthesis::components::spectrum::real_roots;
 use crate::synthesis::components::{Components, Parametrisation};
 

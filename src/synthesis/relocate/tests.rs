@@ -3,9 +3,9 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::*;
-use crate::geom::{Pose, random_rotation};
-use crate::manipulator::Octahedral;
 use crate::num::Rng;
+use crate::platform::geom::{Pose, random_rotation};
+use crate::platform::manipulator::Octahedral;
 use crate::synthesis::components::{ComponentOptions, components};
 use crate::synthesis::{AffineLegMap, Relation, joint_free, leg_map};
 
@@ -193,7 +193,9 @@ fn all_six_together_are_the_joint_free_platform_of_the_paper() {
     // Delta1 = 12/5, Delta2 = 6/5
     let done = together(0.2, 0.2);
     assert!((done.map.determinant - (0.8f64.powi(6) - 0.2f64.powi(6))).abs() < 1e-12);
-    let s = crate::manipulator::LegLengths::try_new([19.8, 18.0, 18.0, 17.0, 14.9, 17.8]).unwrap().squared();
+    let s = crate::platform::manipulator::LegLengths::try_new([19.8, 18.0, 18.0, 17.0, 14.9, 17.8])
+        .unwrap()
+        .squared();
     let l = done.map.closest.apply(&s).unwrap().lengths().get();
     let published = [
         18.851843411189265,

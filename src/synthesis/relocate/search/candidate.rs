@@ -6,10 +6,10 @@ use nalgebra::Matrix6;
 
 use super::pool::{JointPattern, Pool, shared};
 use super::wishes::{Wish, WishMargin, Wishes};
-use crate::geom::{Pose, segment_distance};
-use crate::manipulator::{Leg, LegIndex, Manipulator, inverse_condition, jacobian_of_legs};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
+use crate::platform::geom::{Pose, segment_distance};
+use crate::platform::manipulator::{Leg, LegIndex, Manipulator, inverse_condition, jacobian_of_legs};
 use crate::synthesis::components::Components;
 use crate::synthesis::leg_map::{LegMapOutcome, LegMapTolerances, leg_map_to_legs};
 use crate::synthesis::relocate::{Assembled, assemble};

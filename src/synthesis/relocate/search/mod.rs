@@ -24,9 +24,9 @@ pub use wishes::{Hole, Wish, WishMargin, Wishes};
 use self::candidate::Scorer;
 use self::pool::{JointPattern, patterns};
 use super::super::components::{Components, PartKind, Reading, SingularKind};
-use crate::manipulator::Manipulator;
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::Manipulator;
 use pool::Pool;
 
 /// How long to search.

@@ -3,9 +3,9 @@
 
 use super::candidate::LegSource;
 use super::wishes::{Hole, HoleAnswer, JudgedHole, Wishes};
-use crate::manipulator::{Body, Leg, LegIndex, Manipulator};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::{Body, Leg, LegIndex, Manipulator};
 use crate::synthesis::components::{Component, Components, MovingPoint, Parametrisation};
 
 /// A place, with generic legs from it.

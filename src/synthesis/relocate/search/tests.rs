@@ -4,8 +4,8 @@ use nalgebra::Point3;
 
 use super::super::tests::{corner, octahedral};
 use super::*;
-use crate::geom::Pose;
-use crate::manipulator::{Body, Leg, LegIndex, Manipulator, default_home};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Body, Leg, LegIndex, Manipulator, default_home};
 use crate::synthesis::components::{ComponentOptions, components};
 use crate::synthesis::{LegMapTolerances, leg_map};
 
@@ -175,7 +175,7 @@ fn nothing_is_impossible_by_a_tolerance() {
     // turned by angles that doubles round, the families exist within the tolerance only: what was proved before is proved no more
     let mut rng = crate::num::Rng::new(8);
     for _ in 0..6 {
-        let turn = crate::geom::random_rotation(&mut rng);
+        let turn = crate::platform::geom::random_rotation(&mut rng);
         let legs = six_four().legs().map(|l| Leg { base: turn * l.base, platform: turn * l.platform });
         let m = Manipulator::from_legs(legs).unwrap();
         let mut w = wishes(&m);

@@ -3,9 +3,9 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{Impossibility, SearchError};
-use crate::geom::Pose;
-use crate::manipulator::{Body, LegIndex, Manipulator};
 use crate::num::linalg::LinalgError;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Body, LegIndex, Manipulator};
 use crate::synthesis::components::spectrum::Spectrum;
 use crate::synthesis::components::{Components, MovingPoint, Parametrisation, exact_partners};
 use crate::synthesis::leg_vector::LegSpan;
@@ -180,7 +180,7 @@ fn partners(span: &LegSpan, hole: &Hole, tolerance: f64) -> Result<(HoleAnswer, 
     let n = span.normalisation();
     let on_base = hole.body == Body::Base;
     // the leg with the hole at both ends: only the end on its own body is used
-    let place = n.apply(&crate::manipulator::Leg { base: hole.point, platform: hole.point });
+    let place = n.apply(&crate::platform::manipulator::Leg { base: hole.point, platform: hole.point });
     let x = place.end(hole.body);
     let alpha = nalgebra::Vector4::new(1.0, x.x, x.y, x.z).normalize();
     let rows: Vec<Vec<f64>> = span

@@ -1,0 +1,218 @@
+//! Runs a plan: draws, solves, certifies again for the enclosures, validates, in as many threads as asked for.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+use thiserror::Error;
+
+use super::Class;
+use super::error_metric::error_metric;
+use super::expectation::expected_count;
+use super::generator::{LengthsFrom, NotDrawn, Problem, problem};
+use super::statistics::{BenchReport, summarise};
+use super::validator::{Claim, Validation, validate};
+use crate::fk::solve::certify::Certifier;
+use crate::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, PoseCounting};
+use crate::platform::geom::ComplexPose;
+
+/// What to run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan {
+    /// Class of the problems.
+    pub class: Class,
+    /// Where leg lengths come from.
+    pub lengths: LengthsFrom,
+    /// Number of problems.
+    pub count: u64,
+    /// Index of the first problem: to repeat one that failed.
+    pub first: u64,
+    /// Seed of the problems and of the solver's generic constants.
+    pub seed: u64,
+    /// Threads; each problem is solved on one.
+    pub threads: usize,
+    /// Whether poses are counted modulo random primes where completeness is not proved.
+    pub count_poses: bool,
+    /// Every so many problems the reference solver solves it again from two other starts; 0 for never.
+    pub recheck_every: u64,
+}
+
+/// A run that could not be made.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// A problem could not be drawn.
+    #[error("problem {k} could not be drawn: {why}")]
+    NotDrawn {
+        /// Index of the problem.
+        k: u64,
+        /// Why.
+        why: NotDrawn,
+    },
+    /// The reference solver could not solve a single member of the class.
+    #[error("the number of poses of the class {0} could not be computed")]
+    NoExpectation(Class),
+}
+
+/// A problem whose answer is not right.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrongAnswer {
+    /// Index of the problem: with class and seed it names the problem.
+    pub k: u64,
+    /// Roots that are missing.
+    pub missed: usize,
+    /// Claims that are not roots.
+    pub spurious: usize,
+    /// Certificates that are wrong.
+    pub false_certificates: usize,
+    /// Distinct right roots.
+    pub found: usize,
+    /// What the solver said of its own answer.
+    pub solver: String,
+}
+
+/// What one problem gave.
+#[derive(Debug, Clone)]
+pub(super) struct Outcome {
+    pub(super) k: u64,
+    pub(super) verdict: Validation,
+    pub(super) claimed: usize,
+    pub(super) certified_roots: usize,
+    pub(super) proved: bool,
+    pub(super) accounted: bool,
+    pub(super) rechecked: bool,
+    pub(super) metric: f64,
+    pub(super) solve_us: f64,
+    pub(super) certify_us: f64,
+    pub(super) validate_us: f64,
+    pub(super) solver: String,
+}
+
+/// The claims of a set of solutions, with the enclosures of their certificates, and the time that making certificates again takes.
+pub(super) fn claims_of(problem: &Problem, found: &FkSolutions) -> (Vec<Claim>, f64) {
+    let start = Instant::now();
+    let certifier = Certifier::new(&problem.manipulator, &problem.squares).ok();
+    let outcomes: Vec<_> =
+        found.roots.iter().map(|root| certifier.as_ref().map(|c| c.certify(&root.pose))).collect();
+    let time = start.elapsed().as_secs_f64() * 1e6;
+    std::hint::black_box(outcomes);
+    let claims = found.roots.iter().map(|root| Claim {
+        pose: root.pose,
+        dual_quaternion: root.dual_quaternion,
+        certified: root.certified(),
+        enclosure: root.certificate.map(|c| c.enclosure().discs().copied().collect()),
+        reality: root.reality,
+        multiplicity: root.multiplicity,
+    });
+    (claims.collect(), time)
+}
+
+fn starts(seed: u64) -> [FkOptions; 2] {
+    [1, 2].map(|k: u64| FkOptions {
+        seed: seed.wrapping_add(k * 7_919),
+        pose_count: PoseCounting::Never,
+        ..FkOptions::default()
+    })
+}
+
+fn one(
+    plan: &Plan,
+    expected: usize,
+    k: u64,
+    solver: &dyn ForwardKinematics,
+    reference: &dyn ForwardKinematics,
+) -> Result<Outcome, NotDrawn> {
+    let problem = problem(plan.class, plan.lengths, plan.seed, k)?;
+    let options = FkOptions {
+        seed: plan.seed,
+        pose_count: if plan.count_poses { PoseCounting::WhenUnproved } else { PoseCounting::Never },
+        ..FkOptions::default()
+    };
+    let start = Instant::now();
+    let solved = solver.solve(&problem.manipulator, &problem.squares, &options);
+    let solve_us = start.elapsed().as_secs_f64() * 1e6;
+    let (found, solver) = match solved {
+        Ok(found) => {
+            let said = found.completeness.to_string();
+            (Some(found), said)
+        }
+        Err(error) => (None, error.to_string()),
+    };
+    let (claims, certify_us) = found.as_ref().map_or((Vec::new(), 0.0), |f| claims_of(&problem, f));
+    let mut others: Vec<ComplexPose> = problem.pose.map(ComplexPose::from).into_iter().collect();
+    let start = Instant::now();
+    let mut verdict = validate(&problem, &claims, &others);
+    let validate_us = start.elapsed().as_secs_f64() * 1e6;
+    let due = plan.recheck_every > 0 && k.is_multiple_of(plan.recheck_every);
+    let rechecked = due || verdict.counted != expected || verdict.missed > 0;
+    if rechecked {
+        for options in starts(plan.seed) {
+            if let Ok(again) = reference.solve(&problem.manipulator, &problem.squares, &options) {
+                others.extend(again.roots.iter().map(|r| r.pose));
+            }
+        }
+        verdict = validate(&problem, &claims, &others);
+    }
+    verdict.missed = verdict.missed.max(expected.saturating_sub(verdict.counted));
+    let proved = found.as_ref().is_some_and(|f| matches!(f.completeness, Completeness::Proved { .. }));
+    // a proof of completeness is a certificate too
+    let claimed_complete = found.as_ref().is_some_and(|f| {
+        matches!(f.completeness, Completeness::Proved { .. } | Completeness::Modular { .. })
+    });
+    verdict.false_certificates += usize::from(claimed_complete && verdict.missed > 0);
+    let poses: Vec<ComplexPose> = claims.iter().map(|c| c.pose).collect();
+    Ok(Outcome {
+        k,
+        verdict,
+        claimed: claims.len(),
+        certified_roots: claims.iter().filter(|c| c.certified).count(),
+        proved,
+        accounted: found.as_ref().is_some_and(FkSolutions::all_accounted),
+        rechecked,
+        metric: error_metric(&problem.manipulator, &problem.squares, &poses),
+        solve_us,
+        certify_us,
+        validate_us,
+        solver,
+    })
+}
+
+/// Runs `plan` with `solver`; `reference` computes the number of poses to expect and looks for missed ones from other starts.
+///
+/// # Errors
+/// [`RunError`]; a problem the solver fails on is a failure in the report, not an error.
+pub fn run(
+    plan: &Plan,
+    solver: &dyn ForwardKinematics,
+    reference: &dyn ForwardKinematics,
+) -> Result<BenchReport, RunError> {
+    let undrawn = |k: u64| move |why: NotDrawn| RunError::NotDrawn { k, why };
+    problem(plan.class, plan.lengths, plan.seed, plan.first).map_err(undrawn(plan.first))?;
+    let expected = expected_count(plan.class, plan.lengths, plan.seed, reference)
+        .ok_or(RunError::NoExpectation(plan.class))?;
+    let (next, end) = (AtomicU64::new(plan.first), plan.first.saturating_add(plan.count));
+    let work = || {
+        let mut out = Vec::new();
+        loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            if k >= end {
+                return Ok(out);
+            }
+            out.push(one(plan, expected, k, solver, reference).map_err(undrawn(k))?);
+        }
+    };
+    let start = Instant::now();
+    let parts: Vec<Result<Vec<Outcome>, RunError>> = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..plan.threads.max(1)).map(|_| scope.spawn(work)).collect();
+        let mut parts = vec![work()];
+        for other in others {
+            // a panic in a worker goes on in the caller
+            parts.push(other.join().unwrap_or_else(|payload| std::panic::resume_unwind(payload)));
+        }
+        parts
+    });
+    let seconds = start.elapsed().as_secs_f64();
+    let mut outcomes: Vec<Outcome> =
+        parts.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
+    outcomes.sort_by_key(|o| o.k);
+    Ok(summarise(plan, expected, seconds, &outcomes))
+}

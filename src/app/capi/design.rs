@@ -1,0 +1,229 @@
+//! Designs, and what is computed at a pose.
+
+use std::ffi::{CStr, CString, c_char};
+
+use nalgebra::Point3;
+
+use super::failure::{CallFault, EqpError, EqpStatus, give, items, places, read, take_back, told, write};
+use super::pose::EqpPose;
+use crate::app::entrance::Error;
+use crate::files::design::{Design, Format, parse};
+use crate::machine::requirements::Requirements;
+use crate::platform::manipulator::{Leg, Manipulator, jacobian};
+
+/// A design. It does not change: threads may share it.
+#[derive(Debug)]
+pub struct EqpDesign {
+    pub(super) design: Design,
+    pub(super) required: Requirements,
+    name: CString,
+    units: CString,
+}
+
+impl EqpDesign {
+    fn new(design: Design) -> Self {
+        // names with a zero in them end there
+        let text = |s: &str| CString::new(s.split('\0').next().unwrap_or_default()).unwrap_or_default();
+        let required = design.requirements();
+        Self { name: text(&design.name), units: text(&design.units), required, design }
+    }
+}
+
+/// # Safety
+/// `text` points to `length` bytes.
+unsafe fn parsed(text: *const c_char, length: usize, format: Format) -> Result<EqpDesign, CallFault> {
+    // SAFETY: the caller's promise; a byte is a byte.
+    let bytes = unsafe { items(text.cast::<u8>(), length, "text") }?;
+    let text = std::str::from_utf8(bytes).map_err(|e| CallFault::new(EqpStatus::BadText, e.to_string()))?;
+    let (design, _) = parse(text, format).map_err(|violations| Error::Design { file: None, violations })?;
+    Ok(EqpDesign::new(design))
+}
+
+/// Reads the text of a design file, TOML, of `length` bytes.
+///
+/// # Safety
+/// `text` points to `length` bytes, `design` to a place for a pointer, `error` is null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_from_toml(
+    text: *const c_char,
+    length: usize,
+    design: *mut *mut EqpDesign,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe { told(error, || give(parsed(text, length, Format::Toml)?, design, "design")) }
+}
+
+/// Reads the text of a design file, JSON, of `length` bytes.
+///
+/// # Safety
+/// As `eqp_design_from_toml`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_from_json(
+    text: *const c_char,
+    length: usize,
+    design: *mut *mut EqpDesign,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe { told(error, || give(parsed(text, length, Format::Json)?, design, "design")) }
+}
+
+/// Reads a design file; `path` ends with a zero and is UTF-8.
+///
+/// # Safety
+/// `path` points to a text that ends with a zero, `design` to a place for a pointer, `error` is null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_load(
+    path: *const c_char,
+    design: *mut *mut EqpDesign,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            if path.is_null() {
+                return Err(CallFault::null("path"));
+            }
+            let path = CStr::from_ptr(path);
+            let path = path.to_str().map_err(|e| CallFault::new(EqpStatus::BadText, e.to_string()))?;
+            give(EqpDesign::new(Design::load(path)?), design, "design")
+        })
+    }
+}
+
+/// A design from the ends of its six legs: base joints in the base frame, platform joints in the platform frame, in leg order. Its home is worked out, and nothing limits it.
+///
+/// # Safety
+/// `base` and `platform` point to six points of three numbers, `design` to a place for a pointer, `error` is null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_from_joints(
+    base: *const f64,
+    platform: *const f64,
+    design: *mut *mut EqpDesign,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            let base = read(base.cast::<[[f64; 3]; 6]>(), "base")?;
+            let platform = read(platform.cast::<[[f64; 3]; 6]>(), "platform")?;
+            let point = |x: &[f64; 3]| Point3::new(x[0], x[1], x[2]);
+            let legs = std::array::from_fn(|i| Leg { base: point(&base[i]), platform: point(&platform[i]) });
+            let made = Manipulator::from_legs(legs).map_err(Error::from)?;
+            give(EqpDesign::new(Design::new("platform", "units", made)), design, "design")
+        })
+    }
+}
+
+/// Frees a design; null is nothing. What was made from it stays.
+///
+/// # Safety
+/// `design` is null or a design that was not freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_free(design: *mut EqpDesign) {
+    // SAFETY: the caller's promise.
+    unsafe { take_back(design) }
+}
+
+/// The name of a design, which lives as long as it; null for null.
+///
+/// # Safety
+/// `design` is null or a design.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_name(design: *const EqpDesign) -> *const c_char {
+    // SAFETY: the caller's promise.
+    unsafe { design.as_ref() }.map_or(std::ptr::null(), |d| d.name.as_ptr())
+}
+
+/// The unit of lengths of a design, which lives as long as it; null for null.
+///
+/// # Safety
+/// `design` is null or a design.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_units(design: *const EqpDesign) -> *const c_char {
+    // SAFETY: the caller's promise.
+    unsafe { design.as_ref() }.map_or(std::ptr::null(), |d| d.units.as_ptr())
+}
+
+/// The home pose of a design, above the base where it names none.
+///
+/// # Safety
+/// `design` is a design, `pose` points to a place for a pose, `error` is null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_home(
+    design: *const EqpDesign,
+    pose: *mut EqpPose,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            let home = read(design, "design")?.design.home_or_default();
+            *write(pose, "pose")? = (&home).into();
+            Ok(())
+        })
+    }
+}
+
+/// Inverse kinematics: six lengths for each of `count` poses.
+///
+/// # Safety
+/// `design` is a design, `poses` points to `count` poses, `lengths` to places for `count` rows of six numbers, `error` is null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_ik(
+    design: *const EqpDesign,
+    poses: *const EqpPose,
+    count: usize,
+    lengths: *mut f64,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            let design = &read(design, "design")?.design;
+            let poses = items(poses, count, "poses")?;
+            let lengths = places(lengths.cast::<[f64; 6]>(), count, "lengths")?;
+            for (pose, to) in poses.iter().zip(lengths) {
+                *to = design.ik(&pose.checked()?)?.get();
+            }
+            Ok(())
+        })
+    }
+}
+
+/// The Jacobian at a pose, row `i` `[u_i, ((R b_i) x u_i) / L]`: speed of leg `i` from the velocity of the platform origin and the angular velocity times `L`, base frame.
+/// `EQP_STATUS_BAD_LENGTHS` where the characteristic length `L` is not positive and finite, `EQP_STATUS_COMPUTATION` where a leg has length zero.
+///
+/// # Safety
+/// `design` is a design, `pose` points to a pose, `rows` to places for six rows of six numbers, `error` is null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_jacobian(
+    design: *const EqpDesign,
+    pose: *const EqpPose,
+    characteristic_length: f64,
+    rows: *mut f64,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            let design = &read(design, "design")?.design;
+            let pose = read(pose, "pose")?.checked()?;
+            if !(characteristic_length > 0.0 && characteristic_length.is_finite()) {
+                let message = format!(
+                    "characteristic_length is {characteristic_length}; give a positive finite length"
+                );
+                return Err(CallFault::new(EqpStatus::BadLengths, message));
+            }
+            let j = jacobian(design.manipulator(), &pose, characteristic_length);
+            if let Some(leg) = (0..6).find(|i| j.row(*i).iter().any(|x| !x.is_finite())) {
+                let message = format!("leg {} has no direction at this pose, or its row overflows", leg + 1);
+                return Err(CallFault::new(EqpStatus::Computation, message));
+            }
+            *write(rows.cast::<[[f64; 6]; 6]>(), "rows")? =
+                std::array::from_fn(|i| std::array::from_fn(|k| j[(i, k)]));
+            Ok(())
+        })
+    }
+}

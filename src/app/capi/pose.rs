@@ -1,0 +1,85 @@
+//! Poses.
+
+use nalgebra::{Matrix3, Matrix4};
+
+use super::failure::{CallFault, EqpError, EqpStatus, read, told, write};
+use crate::app::entrance::Error;
+use crate::platform::geom::{Angles, Pose};
+
+/// A pose: a platform point `x` is at `R x + p` in the base frame.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EqpPose {
+    /// `R`, row by row.
+    pub rotation: [[f64; 3]; 3],
+    /// `p`, design units.
+    pub position: [f64; 3],
+}
+
+impl From<&Pose> for EqpPose {
+    fn from(pose: &Pose) -> Self {
+        let r = pose.rotation.matrix();
+        Self {
+            rotation: std::array::from_fn(|i| std::array::from_fn(|j| r[(i, j)])),
+            position: pose.position.into(),
+        }
+    }
+}
+
+impl EqpPose {
+    /// The pose; a matrix that is a rotation but for rounding becomes the nearest one.
+    pub(super) fn checked(&self) -> Result<Pose, CallFault> {
+        let mut matrix = Matrix4::identity();
+        let rows = Matrix3::from_fn(|i, j| self.rotation[i][j]);
+        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&rows);
+        for (k, x) in self.position.iter().enumerate() {
+            matrix[(k, 3)] = *x;
+        }
+        Pose::try_from(matrix).map_err(|e| Error::from(e).into())
+    }
+}
+
+/// The pose at a position with the roll, pitch and yaw given, degrees: `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+///
+/// # Safety
+/// `position` and `rpy_deg` point to three numbers each, `pose` to a place for a pose, `error` is null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_pose_from_rpy(
+    position: *const f64,
+    rpy_deg: *const f64,
+    pose: *mut EqpPose,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            let position = read(position.cast::<[f64; 3]>(), "position")?;
+            let angles = read(rpy_deg.cast::<[f64; 3]>(), "rpy_deg")?;
+            if !position.iter().chain(angles).all(|x| x.is_finite()) {
+                return Err(CallFault::new(EqpStatus::BadPose, "a number of the pose is not finite"));
+            }
+            *write(pose, "pose")? = (&Pose::new(*position, Angles::from_degrees(*angles))).into();
+            Ok(())
+        })
+    }
+}
+
+/// Roll, pitch and yaw of a pose, degrees.
+///
+/// # Safety
+/// `pose` points to a pose, `rpy_deg` to places for three numbers, `error` is null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_pose_rpy(
+    pose: *const EqpPose,
+    rpy_deg: *mut f64,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            let pose = read(pose, "pose")?.checked()?;
+            *write(rpy_deg.cast::<[f64; 3]>(), "rpy_deg")? = pose.angles().degrees();
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,236 @@
+//! `--align` and `--exchange` of `equivalents map` and `verify`: the second design in the frames of the first.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::context::Context;
+use super::exit::Exit;
+use super::failure::Failure;
+use super::files::{self, OutputPath};
+use crate::app::records::{AlignmentRecord, FramesRecord};
+use crate::files::design::Design;
+use crate::num::linalg::LinalgError;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Manipulator;
+use crate::synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
+use crate::synthesis::{LegMapOutcome, Relation};
+use crate::verify::judge;
+
+/// Options about the frames of the second design.
+#[derive(Debug, clap::Args)]
+pub(crate) struct FrameArgs {
+    /// Find all rigid motions of the base and platform frames of the second design that make it equivalent to the first
+    #[arg(long)]
+    align: bool,
+    /// Exchange base and platform of the second design first, so that its poses become the inverse poses
+    #[arg(long)]
+    exchange: bool,
+    /// Write the second design, in the frames of the first, to this file (.toml or .json)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<OutputPath>,
+}
+
+/// The second design as it is compared with the first.
+#[derive(Debug)]
+pub(crate) struct Second {
+    /// In the frames of the first, where `--align` found how.
+    pub(crate) manipulator: Manipulator,
+    /// As it is asked about, before any motion.
+    given: Manipulator,
+    aligned: Option<Aligned>,
+    exchange: bool,
+    written: Option<PathBuf>,
+}
+
+/// What `--align` finds.
+#[derive(Debug)]
+struct Aligned {
+    /// For the second design as it is asked about.
+    given: Alignment,
+    /// With its base and platform exchanged.
+    exchanged: Alignment,
+    /// For its mirror image.
+    mirrored: Alignment,
+}
+
+/// Refuses two designs in different units with this code.
+pub(crate) fn same_units(a: &Design, b: &Design, code: &str) -> Result<(), Failure> {
+    if a.units == b.units {
+        return Ok(());
+    }
+    let message = format!("{} is in {}, {} is in {}", a.name, a.units, b.name, b.units);
+    Err(Failure::refused(code, message)
+        .with_help("write both designs in the same unit: the c of their leg map has the unit squared"))
+}
+
+impl FrameArgs {
+    /// Exchanges, aligns and writes the second design as asked.
+    pub(crate) fn apply(&self, a: &Design, b: &Design, context: &Context) -> Result<Second, Failure> {
+        if !(self.align || self.exchange) {
+            context.no_effect("output", "the second design stays as it is without --align and --exchange")?;
+        }
+        let broken = |e: &dyn std::fmt::Display| {
+            Failure::new(Exit::Inconclusive, "align::breakdown", format!("no motion could be computed: {e}"))
+                .with_help("coordinates of this magnitude are beyond what the search computes with; use a larger unit")
+        };
+        let upside_down = exchanged(b.manipulator());
+        let (given, other) = if self.exchange {
+            (upside_down, b.manipulator().clone())
+        } else {
+            (b.manipulator().clone(), upside_down)
+        };
+        let find = |m: &Manipulator| align(a.manipulator(), m, context.seed()).map_err(|e| broken(&e));
+        let mut second = Second {
+            manipulator: given.clone(),
+            given,
+            aligned: None,
+            exchange: self.exchange,
+            written: None,
+        };
+        let mut motion = None;
+        if self.align {
+            let found = find(&second.manipulator)?;
+            let (exchanged, mirrored) = (find(&other)?, find(&mirrored(&second.manipulator))?);
+            if let Alignment::Found { motions, .. } = &found {
+                let first = &motions[0];
+                motion = Some((first.base, first.platform));
+                // without a motion the joints stay as exact as they are
+                if first.is_motion() {
+                    second.manipulator = transformed(&second.manipulator, &first.base, &first.platform)
+                        .map_err(|e| broken(&e))?;
+                }
+            }
+            second.aligned = Some(Aligned { given: found, exchanged, mirrored });
+        }
+        if let Some(path) = self.output.as_deref().filter(|_| motion.is_some() || !self.align) {
+            files::write_design(path, &second.design(b, motion.as_ref())?)?;
+            second.written = Some(path.to_path_buf());
+        }
+        Ok(second)
+    }
+}
+
+impl Second {
+    /// What the first design and this one have to do with each other. A motion that was found is known to rounding only, so that nothing but singular platforms is proved after it.
+    pub(crate) fn judged(&self, a: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
+        let given = judge(a, &self.given)?;
+        match self.aligned.as_ref().map(|found| &found.given) {
+            Some(Alignment::Found { motions, .. }) if given.relation != Relation::Singular => {
+                Ok(motions[0].map.clone())
+            }
+            _ => Ok(given),
+        }
+    }
+
+    /// Some rigid motion was asked for and not found: there is none (`Some(true)`), or it is not decided (`Some(false)`).
+    pub(crate) fn refuted(&self) -> Option<bool> {
+        match self.aligned.as_ref()?.given {
+            Alignment::Found { .. } => None,
+            Alignment::None { .. } => Some(true),
+            Alignment::Undecided { .. } => Some(false),
+        }
+    }
+
+    /// Names, lengths and home pose follow; a box of poses about home, which has the axes of the old frame, does not.
+    fn design(&self, b: &Design, motion: Option<&(Pose, Pose)>) -> Result<Design, Failure> {
+        let (mut base, mut platform) = (b.base_names().to_vec(), b.platform_names().to_vec());
+        if self.exchange {
+            std::mem::swap(&mut base, &mut platform);
+        }
+        let moved = |pose: &Pose| {
+            let pose = if self.exchange { inverse(pose) } else { *pose };
+            motion.map_or(pose, |(g, h)| after(g, &after(&pose, &inverse(h))))
+        };
+        let mut design = Design::new(format!("{}, moved", b.name), &b.units, self.manipulator.clone())
+            .with_joint_names(base, platform)
+            .map_err(|e| Failure::internal(e.to_string()))?;
+        (design.source, design.description) = (b.source.clone(), b.description.clone());
+        (design.lengths, design.optimize, design.hardware) = (b.lengths, b.optimize, b.hardware);
+        design.home = b.home.as_ref().map(moved);
+        // in the base frame: home is not the same pose in the new frames
+        design.workspace.poses = b.workspace.space(&b.home_or_default()).poses.iter().map(moved).collect();
+        // a motion that is found numerically leaves no exact joint: three numbers each
+        Ok(if motion.is_none() { design.exchanged_from(b) } else { design })
+    }
+
+    /// Fields for the document.
+    pub(crate) fn record(&self) -> FramesRecord {
+        let aligned = self.aligned.as_ref();
+        FramesRecord {
+            exchanged: self.exchange,
+            alignment: aligned.map(|a| AlignmentRecord::new(&a.given, &a.exchanged, &a.mirrored)),
+            output: self.written.as_ref().map(|path| path.display().to_string()),
+        }
+    }
+
+    /// What people read; empty without the options.
+    pub(crate) fn text(&self) -> String {
+        let mut out = String::new();
+        if self.exchange {
+            out.push_str(
+                "base and platform of the second design are exchanged: its poses are inverse poses\n",
+            );
+        }
+        let Some(found) = &self.aligned else { return out };
+        let _ = writeln!(out, "{}", found.given.explanation());
+        if let Alignment::Found { motions, .. } = &found.given {
+            for (k, m) in motions.iter().enumerate() {
+                let _ = writeln!(out, "{:>3}  base      {}", k + 1, motion_text(&m.base));
+                let _ = writeln!(out, "     platform  {}", motion_text(&m.platform));
+                let _ =
+                    writeln!(out, "     residual {:.1e}, det A = {:.6}", m.map.residual, m.map.determinant);
+            }
+        }
+        for (name, other) in [("exchanged", &found.exchanged), ("mirrored", &found.mirrored)] {
+            if let (Alignment::Found { .. }, false) = (other, self.refuted().is_none()) {
+                let _ = writeln!(out, "it is equivalent when the second design is {name}");
+            }
+        }
+        out.push('\n');
+        out
+    }
+
+    /// One sentence on the alignment, where one was asked for.
+    pub(crate) fn explanation(&self) -> Option<String> {
+        self.aligned.as_ref().map(|a| a.given.explanation())
+    }
+}
+
+/// A motion as axis, angle and shift.
+fn motion_text(p: &Pose) -> String {
+    // by the quaternion: the axis of a half turn has no place in the skew part of the matrix
+    let q = UnitQuaternion::from_rotation_matrix(&p.rotation);
+    let (axis, angle) = q.axis_angle().map_or((Vector3::z(), 0.0), |(u, t)| (u.into_inner(), t.to_degrees()));
+    let place = |x: f64| (x * 1e6).round() / 1e6 + 0.0; // + 0.0: no "-0.000000"
+    let vector = |v: &Vector3<f64>| format!("({:.6}, {:.6}, {:.6})", place(v.x), place(v.y), place(v.z));
+    format!("turn by {angle:.6} deg about {}, then shift by {}", vector(&axis), vector(&p.position))
+}
+
+fn inverse(pose: &Pose) -> Pose {
+    let rotation = pose.rotation.inverse();
+    Pose { rotation, position: -(rotation * pose.position) }
+}
+
+/// First `y`, then `x`.
+fn after(x: &Pose, y: &Pose) -> Pose {
+    Pose { rotation: x.rotation * y.rotation, position: x.rotation * y.position + x.position }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Rotation3, Vector3};
+
+    use super::*;
+
+    #[test]
+    fn poses_compose_and_invert() {
+        let x = Pose {
+            rotation: Rotation3::new(Vector3::new(0.1, 0.7, -0.3)),
+            position: Vector3::new(1.0, 2.0, 3.0),
+        };
+        let none = after(&x, &inverse(&x));
+        assert!(none.position.norm() < 1e-14 && none.rotation.angle() < 1e-7);
+    }
+}

@@ -1,0 +1,92 @@
+//! `equipod assess`: by how much a design meets its requirements.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use super::build::drives;
+use crate::app::cli::context::Context;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+use crate::app::cli::progress::ProgressLine;
+use crate::app::cli::requirements;
+use crate::app::entrance::Error;
+use crate::app::records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
+use crate::machine::requirements::AssessOptions;
+
+/// Arguments of `assess`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json) with the tables home, workspace and hardware
+    design: PathBuf,
+    /// Number of poses of a Halton sequence in the region of poses, and as many random ones
+    #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
+    points: u32,
+    /// Number of steps between two poses of a trajectory
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    steps: u32,
+    /// Number of local searches for the worst pose of each requirement
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    searches: u32,
+    /// Greatest number of cells of the workspace over which the margins of one kind of requirement, and det J, are bounded for a proof; default: 6000, and 60000 for a requirement that these leave undecided
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=100_000_000))]
+    cells: Option<u32>,
+}
+
+/// Evaluates the requirements.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load_with_cranks(&args.design)?;
+    if Context::coupled_of(&design)?.is_some() && design.requirements().leaves_out_moving_legs() {
+        let message = format!(
+            "{}: `natural_frequency_hz` counts masses of legs, and how these move about joints that are not ideal (`offset`, `screw_lead`) is not known",
+            design.name
+        );
+        let help =
+            "without `offset` and `screw_lead`, or without masses of the legs, the frequency is judged";
+        return Err(Failure::refused("design::not_ideal", message).with_help(help));
+    }
+    if design.workspace.trajectory.is_none() {
+        context.no_effect("steps", "the workspace of the design has no trajectory")?;
+    }
+    let options = AssessOptions::new()
+        .points(args.points as usize)
+        .steps(args.steps as usize)
+        .searches(args.searches as usize)
+        .seed(context.seed());
+    let mut progress = ProgressLine::new(context.quiet());
+    let cells = args.cells.map(|n| n as usize);
+    let found = design.assess_by(&options, cells, &mut |stage| progress.note(&stage.to_string()));
+    progress.end();
+    let found = found.map_err(|e| match e {
+        Error::NothingRequired => {
+            let help =
+                "add [hardware] with lengths, swing, diameters or greatest forces; see docs/design-files.md";
+            Failure::refused("assess::nothing_required", "the design has no requirements").with_help(help)
+        }
+        other => Failure::internal(other.to_string()),
+    })?;
+    let lightest_drive = drives::lightest(&args.design, &design, context)?;
+    let record = AssessAnswer { lightest_drive, ..AssessAnswer::new(&design, &found) };
+    let text = text(&design.name, &record);
+    Ok(Answer::new(requirements::exit_of(record.met), record, text))
+}
+
+fn text(name: &str, found: &AssessAnswer) -> String {
+    let mut out = requirements::lead(name, Some(found));
+    let at = found.regular.pose.as_ref().map_or_else(|| "any".to_owned(), PoseQuaternionRecord::short);
+    let said = &found.regular_explanation;
+    let _ = match found.regular.status {
+        RegularityWord::Proved => writeln!(out, "\n{said}."),
+        RegularityWord::ChangesSign => writeln!(out, "\n{said}, {at}."),
+        RegularityWord::Undecided => writeln!(out, "\n{said}; undecided near {at}."),
+    };
+    if let Some(d) = &found.lightest_drive {
+        let _ = writeln!(out, "{}.", d.message);
+    }
+    out.push_str("A margin below 0 is a violation (!); = at the limit, as far as rounding can tell, which is none. The proved margin is one that no pose judged falls below.\n");
+    if found.met.is_none() {
+        out.push_str(
+            "What is only searched may be violated between the poses looked at; more --cells may prove it.\n",
+        );
+    }
+    out
+}

@@ -1,0 +1,164 @@
+//! `equipod bench`: random problems of a class, solved, validated by independent code, counted and timed.
+
+mod noise;
+mod render;
+
+use clap::ValueEnum;
+
+use crate::app::bench::{BenchReport, Class, LengthsFrom, Plan, reference_times, run as run_plan};
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::OutputPath;
+use crate::app::cli::output::Answer;
+use crate::app::records::{BenchAnswer, BenchClassRecord};
+use crate::fk::{self, Homotopy, Method};
+
+/// Arguments of `bench`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// 6-6, 6-5, 6P-6, 6P-6P, tilted-planes, octahedral, griffis-duffy, hexapod, similar, affine, congruent, collinear,
+    /// close-pair, spread, double-root, hexapod-home, or all of these; T01 to T34 (also T04-planar-base, -planar-platform,
+    /// -both-planar), or topologies for the 34; several with commas between
+    #[arg(long, value_name = "CLASS", default_value = "6-6")]
+    class: String,
+    /// Number of problems of each class
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    count: u64,
+    /// Index of the first problem; with --count 1 it repeats one that failed
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    first: u64,
+    /// Worker threads; each problem is solved and timed on one of them
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
+    threads: u64,
+    /// Method of solution; auto takes the best one for the design
+    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
+    method: MethodArg,
+    /// Squared lengths uniform in [0.5, 3], or those of a random real pose; the former where the class allows it when absent
+    #[arg(long, value_enum, value_name = "SOURCE")]
+    lengths_from: Option<Source>,
+    /// Look for missed roots from two other starts once in so many problems; 0 means never
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    recheck_every: u64,
+    /// Count the poses modulo random primes where completeness is not proved, as fk does; this takes some milliseconds per problem
+    #[arg(long)]
+    count_poses: bool,
+    /// Measure noise instead: disturb the leg lengths of random poses by relative errors from 1e-12 to 1e-1 and measure how far the poses move
+    #[arg(long, conflicts_with_all = ["first", "lengths_from", "recheck_every", "count_poses"])]
+    noise: bool,
+    /// Write a picture of how noise moves the poses
+    #[arg(long, value_name = "FILE", requires = "noise")]
+    svg: Option<OutputPath>,
+}
+
+/// `--method`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MethodArg {
+    Auto,
+    Octic,
+    Homotopy,
+    Template,
+    Trilateration,
+}
+
+/// `--lengths-from`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Source {
+    Pose,
+    Uniform,
+}
+
+/// Runs the harness on one class or all.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let classes = classes(&args.class)?;
+    let method = match args.method {
+        MethodArg::Auto => None,
+        MethodArg::Octic => Some(Method::Octic),
+        MethodArg::Homotopy => Some(Method::Homotopy),
+        MethodArg::Template => Some(Method::Template),
+        MethodArg::Trilateration => Some(Method::Trilateration),
+    };
+    let solver = fk::solver(method);
+    if args.noise {
+        return noise::run(args, &classes, solver.as_ref(), context.seed());
+    }
+    let references = reference_times(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
+    let mut reports: Vec<BenchReport> = Vec::new();
+    for class in classes {
+        let lengths = lengths(args.lengths_from, class)?;
+        let plan = Plan {
+            class,
+            lengths,
+            count: args.count,
+            first: args.first,
+            seed: context.seed(),
+            threads: usize::try_from(args.threads).unwrap_or(1),
+            count_poses: args.count_poses,
+            recheck_every: args.recheck_every,
+        };
+        let report = run_plan(&plan, solver.as_ref(), &Homotopy);
+        reports.push(report.map_err(|e| Failure::new(Exit::Inconclusive, "bench::not_run", e.to_string()))?);
+    }
+    let exit = if reports.iter().all(BenchReport::passed) { Exit::Yes } else { Exit::No };
+    let name = args.method.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
+    let rows: Vec<_> = reports.iter().map(|r| BenchClassRecord::new(r, &references)).collect();
+    let text = render::text(&rows, &references, context.seed());
+    Ok(Answer::new(exit, BenchAnswer::new(&args.class, &name, rows, &references), text))
+}
+
+fn classes(names: &str) -> Result<Vec<Class>, Failure> {
+    let parts: Result<Vec<_>, Failure> = names.split(',').map(|name| classes_named(name.trim())).collect();
+    Ok(parts?.concat())
+}
+
+fn classes_named(name: &str) -> Result<Vec<Class>, Failure> {
+    if name == "all" {
+        return Ok(Class::ALL.to_vec());
+    }
+    if name == "topologies" {
+        return Ok(Class::topologies());
+    }
+    if let Some(class) = Class::from_name(name) {
+        return Ok(vec![class]);
+    }
+    let known: Vec<_> = Class::ALL.iter().map(|c| c.name()).collect();
+    Err(Failure::refused("bench::unknown_class", format!("`{name}` is not a class of problems"))
+        .with_help(format!("the classes are {}, all, T01 to T34, topologies", known.join(", "))))
+}
+
+fn lengths(asked: Option<Source>, class: Class) -> Result<LengthsFrom, Failure> {
+    match asked {
+        Some(Source::Uniform) if !class.allows_uniform_lengths() => {
+            let message = format!("the class {class} takes its lengths from real poses");
+            Err(Failure::refused("bench::needs_pose", message).with_help("take --lengths-from pose"))
+        }
+        Some(Source::Pose) => Ok(LengthsFrom::Pose),
+        None if !class.allows_uniform_lengths() => Ok(LengthsFrom::Pose),
+        Some(Source::Uniform) | None => Ok(LengthsFrom::Uniform),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unknown_classes_are_refused_with_the_list() {
+        for name in ["T35", "x", "6-6,", "6-6,x"] {
+            let failure = classes(name).unwrap_err();
+            assert_eq!((failure.exit, failure.code.as_str()), (Exit::Refused, "bench::unknown_class"));
+            assert!(failure.help.unwrap().contains("griffis-duffy"));
+        }
+        assert_eq!(classes("all").unwrap().len(), Class::ALL.len());
+        assert_eq!(classes("topologies").unwrap().len(), 34);
+        assert_eq!(classes("T07").unwrap().len(), 1);
+        assert_eq!(classes("6-5, 6-6").unwrap(), [Class::SharedPlatformJoint, Class::General]);
+    }
+
+    #[test]
+    fn uniform_lengths_are_for_the_classes_of_martyushev() {
+        assert_eq!(lengths(None, Class::General).unwrap(), LengthsFrom::Uniform);
+        assert_eq!(lengths(None, Class::Octahedral).unwrap(), LengthsFrom::Pose);
+        assert_eq!(lengths(Some(Source::Uniform), Class::Hexapod).unwrap_err().code, "bench::needs_pose");
+    }
+}

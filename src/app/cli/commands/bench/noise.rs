@@ -1,0 +1,99 @@
+//! `equipod bench --noise`: errors of poses over errors of leg lengths.
+
+use std::fmt::Write as _;
+use std::num::NonZeroUsize;
+
+use super::Args;
+use crate::app::bench::{Class, NOISE_LEVELS, NoisePlan, noise};
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files;
+use crate::app::cli::output::Answer;
+use crate::app::records::{BenchAnswer, NoiseAnswer, NoiseLevelRecord, NoiseRowRecord, SpreadRecord};
+use crate::files::plot::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
+use crate::fk::{ForwardKinematics, Threads};
+
+/// Levels the published figure shows, other than zero.
+const PUBLISHED: (f64, f64) = (1e-4, 8e-4);
+
+/// Runs the classes, writes the picture.
+pub(super) fn run(
+    args: &Args,
+    classes: &[Class],
+    solver: &dyn ForwardKinematics,
+    seed: u64,
+) -> Result<Answer, Failure> {
+    if args.svg.is_some() && classes.len() > NoiseFigure::MOST_CURVES {
+        let message = format!("a picture of {} classes cannot be read", classes.len());
+        return Err(Failure::refused("bench::too_many_classes", message)
+            .with_help(format!("name at most {} classes", NoiseFigure::MOST_CURVES)));
+    }
+    let threads = usize::try_from(args.threads).ok().and_then(NonZeroUsize::new);
+    let mut rows = Vec::new();
+    for class in classes {
+        let plan = NoisePlan {
+            class: *class,
+            count: args.count,
+            seed,
+            threads: threads.map_or(Threads::All, Threads::Count),
+            levels: NOISE_LEVELS.to_vec(),
+        };
+        let levels = noise(&plan, solver);
+        let levels = levels.map_err(|e| Failure::new(Exit::Inconclusive, "bench::not_run", e.to_string()))?;
+        rows.push(NoiseRowRecord::new(*class, &levels));
+    }
+    let record = NoiseAnswer { class: args.class.clone(), count: args.count, threads: args.threads, rows };
+    if let Some(path) = &args.svg {
+        files::write_text(path, &noise_chart(&figure(&record, seed)))?;
+    }
+    let text = text(&record.rows);
+    Ok(Answer::new(Exit::Yes, BenchAnswer::Noise(record), text))
+}
+
+fn text(rows: &[NoiseRowRecord]) -> String {
+    let mut out = format!(
+        "{:<14} {:>7} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+        "class", "sigma", "no pose", "rot 25%", "50%", "75%", "99%", "pos 25%", "50%", "75%", "99%"
+    );
+    for row in rows {
+        for l in &row.levels {
+            let _ = write!(out, "{:<14} {:>7.0e} {:>7}", row.class, l.sigma.0, l.without_real_pose);
+            for s in [&l.rotation_rad, &l.position_rad] {
+                match s {
+                    Some(s) => {
+                        for value in [s.lower_quartile, s.median, s.upper_quartile, s.p99] {
+                            let _ = write!(out, " {:>9.2e}", value.0);
+                        }
+                    }
+                    None => out.push_str(&format!(" {:>9}", "-").repeat(4)),
+                }
+            }
+            out.push('\n');
+        }
+    }
+    out.push_str("radians; angle of the rotation, angle of the positions, to the nearest real pose\n");
+    out
+}
+
+fn figure(noise: &NoiseAnswer, seed: u64) -> NoiseFigure {
+    let count = noise.count;
+    let quartiles = |s: &SpreadRecord| [s.lower_quartile.0, s.median.0, s.upper_quartile.0];
+    let point = |l: &NoiseLevelRecord| {
+        let (rotation, position) = (l.rotation_rad.as_ref()?, l.position_rad.as_ref()?);
+        Some(NoisePoint { sigma: l.sigma.0, quartiles: [quartiles(rotation), quartiles(position)] })
+    };
+    let curve = |row: &NoiseRowRecord| NoiseCurve {
+        label: row.class.clone(),
+        points: row.levels.iter().filter_map(point).collect(),
+    };
+    NoiseFigure {
+        title: "Errors of poses over errors of leg lengths".into(),
+        note: format!(
+            "{count} platforms a class, seed {seed}; nearest real pose; definitions of Martyushev (2025), eqs. (20), (21); \
+             curves are set a little apart"
+        ),
+        panels: ["angle of the rotation [rad]".into(), "angle of the position vectors [rad]".into()],
+        marked: (PUBLISHED.0, PUBLISHED.1, "published range".into()),
+        curves: noise.rows.iter().map(curve).collect(),
+    }
+}

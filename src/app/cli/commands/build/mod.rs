@@ -1,0 +1,33 @@
+//! `equipod build`: from the design on paper to the workshop.
+
+pub(super) mod drives;
+pub(super) mod round;
+pub(super) mod tolerances;
+
+use clap::Subcommand;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+
+/// Commands about building a design.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Find the cheapest drive of a table with which the design meets its requirements
+    Drives(drives::Args),
+    /// Put the joints on a grid of holes, exactly equivalent or as near as the grid allows
+    Round(round::Args),
+    /// Compute how far joints may be off while the error of the pose stays within a bound
+    Tolerances(tolerances::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
+        match self {
+            Self::Drives(args) => drives::run(args, context),
+            Self::Round(args) => round::run(args, context),
+            Self::Tolerances(args) => tolerances::run(args, context),
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! `equipod build round`: joints on a grid of holes.
+
+pub(in crate::app::cli::commands) mod render;
+
+use std::path::PathBuf;
+
+use nalgebra::Point3;
+
+use super::tolerances::numbers;
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::output::Answer;
+use crate::app::cli::requirements;
+use crate::app::entrance::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
+use crate::app::records::{AssessAnswer, DesignRoleWord, VariantWord};
+use crate::files::design::Design;
+use crate::machine::manufacture::{NoRounding, Rounding};
+use crate::machine::requirements::{Grid, HoleCircles, HolePattern};
+use crate::platform::manipulator::{Body, Manipulator};
+use crate::verify::{Verdict, Verification};
+
+/// Arguments of `build round`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json) with planar bodies; its home pose, workspace and requirements judge the roundings
+    design: PathBuf,
+    /// Distance between neighbouring holes, instead of the grids that the design states in its table holes
+    #[arg(long, value_name = "PITCH")]
+    grid: Option<f64>,
+    /// Distance between neighbouring holes of the platform; that of the base when absent
+    #[arg(long, value_name = "PITCH")]
+    grid_platform: Option<f64>,
+    /// How the holes lie; square where neither this nor the design says it
+    #[arg(long, value_enum, value_name = "PATTERN")]
+    pattern: Option<PatternWord>,
+    /// How the holes of the platform lie; as those of --pattern when absent
+    #[arg(long, value_enum, value_name = "PATTERN")]
+    pattern_platform: Option<PatternWord>,
+    /// Position of one hole of the base grid, in the plane of the base joints; 0,0 where neither this nor the design says it
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    origin: Option<String>,
+    /// Position of one hole of the platform grid
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    origin_platform: Option<String>,
+    /// Angle by which the base grid is turned, degrees; 0 where neither this nor the design says it
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    angle: Option<f64>,
+    /// Angle by which the platform grid is turned, degrees
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    angle_platform: Option<f64>,
+    /// Choose the origins and angles of the grids too; the given ones are candidates
+    #[arg(long)]
+    free_grid: bool,
+    /// Rounding that is written
+    #[arg(long, value_enum, default_value_t = Variant::Rule)]
+    variant: Variant,
+    /// Share of the inverse condition number that the exact rounding has to keep to be chosen
+    #[arg(long, value_name = "SHARE", default_value_t = KEEP)]
+    keep: f64,
+    /// Number of triangles of each body that are combined in the first search
+    #[arg(long, value_name = "N", default_value_t = CANDIDATES, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    candidates: u32,
+    /// Tool point at which errors of the pose are measured, platform frame
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
+    tool: String,
+    /// Number of random poses for the error of the nearest rounding
+    #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    trials: u32,
+    /// Write the rounded design; .json gives JSON, anything else TOML
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<OutputPath>,
+}
+
+/// How holes lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum PatternWord {
+    /// On squares
+    Square,
+    /// On equilateral triangles
+    Triangular,
+}
+
+impl From<PatternWord> for HolePattern {
+    fn from(word: PatternWord) -> Self {
+        match word {
+            PatternWord::Square => Self::Square,
+            PatternWord::Triangular => Self::Triangular,
+        }
+    }
+}
+
+/// Which rounding is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Variant {
+    /// The exact rounding when it meets the requirements and keeps the share of --keep, else the nearest, else the exact one; where neither meets them the one that misses them least
+    Rule,
+    /// All joints lie exactly on the sides of two triangles
+    Exact,
+    /// All joints lie on grid points next to where they are wanted
+    Nearest,
+}
+
+/// A rounding that may be written.
+#[derive(Debug, Clone, Copy)]
+struct Choice<'a> {
+    way: RoundingWay,
+    manipulator: &'a Manipulator,
+    grids: &'a [Option<Grid>; 2],
+}
+
+/// The two roundings, the exact one first, where there are.
+fn choices(found: &Rounding) -> [Option<Choice<'_>>; 2] {
+    let exact = found.exact.as_ref().ok();
+    let exact =
+        exact.map(|e| Choice { way: RoundingWay::Exact, manipulator: &e.manipulator, grids: &e.grids });
+    let nearest = found.nearest.as_ref().ok();
+    let nearest =
+        nearest.map(|n| Choice { way: RoundingWay::Nearest, manipulator: &n.manipulator, grids: &n.grids });
+    [exact, nearest]
+}
+
+fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
+    let [exact, nearest] = choices(found);
+    match variant {
+        Variant::Exact => exact,
+        Variant::Nearest => nearest,
+        Variant::Rule => with(found, found.choice(keep)?),
+    }
+}
+
+/// The choice of one of the two manipulators.
+fn with<'a>(found: &'a Rounding, m: &Manipulator) -> Option<Choice<'a>> {
+    choices(found).into_iter().flatten().find(|c| std::ptr::eq(c.manipulator, m))
+}
+
+/// The grids of the design, or of `--grid`, with what other options say of them.
+fn grids(args: &Args, design: &Design) -> Result<[Option<Grid>; 2], Failure> {
+    let pitches = args.grid.map(|base| [base, args.grid_platform.unwrap_or(base)]);
+    let mut grids = match (design.holes, pitches) {
+        (Some(grids), None) => grids,
+        (_, Some(pitches)) => pitches.map(|pitch| Some(Grid::square(pitch))),
+        (None, None) => {
+            return Err(Failure::refused("round::no_grid", "the design states no [holes], and --grid is absent")
+                .with_help("name the distance of neighbouring holes, --grid 25, or state the grids of both plates in [holes]"));
+        }
+    };
+    if let (Some(pitch), None) = (args.grid_platform, args.grid) {
+        // what stands on circles has other lengths than a pitch
+        let lattice = grids[1].filter(|grid| grid.pattern.skew().is_some());
+        grids[1] = Some(Grid { pitch, ..lattice.unwrap_or(Grid::square(pitch)) });
+    }
+    let pattern = [args.pattern, args.pattern_platform.or(args.pattern)];
+    let origin = [(&args.origin, "--origin"), (&args.origin_platform, "--origin-platform")];
+    let angle = [args.angle, args.angle_platform];
+    for (k, grid) in grids.iter_mut().enumerate() {
+        let Some(grid) = grid else {
+            if origin[k].0.is_some() || angle[k].is_some() || pattern[k].is_some() {
+                return Err(no_grid_to_change(Body::BOTH[k]));
+            }
+            continue;
+        };
+        if let Some(pattern) = pattern[k] {
+            if grid.pattern == HolePattern::BoltCircle {
+                let message =
+                    format!("[holes] gives the {} bolt circles, which have no pitch", Body::BOTH[k]);
+                return Err(Failure::refused("round::bad_grid", message)
+                    .with_help("name the pitch of the other pattern too, --grid 25"));
+            }
+            *grid = Grid { pattern: pattern.into(), circles: HoleCircles::NONE, ..*grid };
+        }
+        if let (Some(text), option) = origin[k] {
+            grid.origin = numbers(text, option, "round::bad_grid")?;
+        }
+        grid.angle_deg = angle[k].unwrap_or(grid.angle_deg);
+    }
+    Ok(grids)
+}
+
+fn no_grid_to_change(body: Body) -> Failure {
+    Failure::refused(
+        "round::no_grid",
+        format!("[holes] has no grid for the {body}, whose joints stay where they are"),
+    )
+    .with_help("name the distance of neighbouring holes, --grid 25, or state the grid in [holes]")
+}
+
+/// Rounds, judges both roundings and writes the chosen one.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let grids = grids(args, &design)?;
+    let tool = Point3::from(numbers::<3>(&args.tool, "--tool", "round::bad_tool")?);
+    if args.variant != Variant::Rule {
+        context.no_effect("keep", "the rounding is chosen by --variant, not by rule")?;
+    }
+    if !(args.keep >= 0.0 && args.keep.is_finite()) {
+        return Err(Failure::refused(
+            "round::bad_share",
+            format!("--keep is {}, not a share of 0 or more", args.keep),
+        ));
+    }
+    let choices = RoundingChoices {
+        grids,
+        free: args.free_grid,
+        keep: args.keep,
+        candidates: args.candidates as usize,
+        tool,
+        trials: args.trials as usize,
+        seed: context.seed(),
+    };
+    let found = design.rounded(&choices).map_err(|why| {
+        let code =
+            if matches!(why, NoRounding::NotPlanar(_)) { "round::not_planar" } else { "round::bad_grid" };
+        Failure::refused(code, why.to_string())
+    })?;
+    let taken = chosen(&found, args.variant, args.keep);
+    let missing = || found.least_missed(&design.requirements(), design.manipulator().size());
+    let choice = match args.variant {
+        Variant::Rule => taken.or_else(|| with(&found, missing()?)),
+        _ => taken,
+    };
+    let rounded = choice.map(|c| (VariantWord::from(c.way), design.on_holes(c.way, c.manipulator, c.grids)));
+    let mut written = None;
+    if let (Some(path), Some((_, rounded))) = (&args.output, &rounded) {
+        files::write_design(path, rounded)?;
+        written = Some(path.display().to_string());
+    }
+    let assessment = rounded
+        .as_ref()
+        .and_then(|(_, d)| Some(AssessAnswer::of(d, context.seed())?.with_role(DesignRoleWord::OnHoles)));
+    let met = assessment.as_ref().map_or(Some(true), |a| a.met);
+    let rounded = rounded.as_ref().map(|(variant, d)| (*variant, d));
+    // an exact rounding that is not equivalent would be a fault of the search
+    let contradicted = found.exact.as_ref().is_ok_and(|e| {
+        let refuted = |v: &Verification| matches!(v.verdict, Verdict::NotEquivalent(_) | Verdict::Singular);
+        !e.proved || e.verification.as_ref().is_ok_and(refuted)
+    });
+    let exit = match rounded {
+        _ if contradicted => Exit::Inconclusive,
+        Some(_) if taken.is_some() => requirements::exit_of(met),
+        _ => Exit::No,
+    };
+    let report = render::RoundReport {
+        design: &design,
+        choices: &choices,
+        found: &found,
+        rounded,
+        is_taken: taken.is_some(),
+        assessment,
+        written: written.as_deref(),
+    };
+    let record = report.record();
+    let text = render::text(&record);
+    Ok(Answer::new(exit, record, text))
+}

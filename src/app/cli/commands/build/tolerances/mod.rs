@@ -1,0 +1,250 @@
+//! `equipod build tolerances`: how far the joints may be off.
+
+mod render;
+
+use std::path::PathBuf;
+
+use nalgebra::Point3;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::output::Answer;
+use crate::app::cli::poses;
+use crate::app::records::PoseDeviations;
+use crate::files::design::Design;
+use crate::machine::manufacture::{
+    Budget, ErrorAtPose, ErrorBound, JointErrors, MachineErrors, MachineUncertainty, PoseSearch,
+    ToleranceError, Trials, budget, error_map, solved_error, trials,
+};
+use crate::machine::requirements::PoseSpace;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Manipulator;
+
+/// Arguments of `build tolerances`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json); its home pose and workspace give the poses
+    design: PathBuf,
+    /// Greatest allowed error of the tool point and of the orientation
+    #[arg(long, value_name = "LENGTH,DEG")]
+    bound: String,
+    /// Tool point whose position counts, platform frame
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
+    tool: String,
+    /// Number of poses of a Halton sequence in the region of poses, and as many random ones
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    points: u32,
+    /// Number of local searches for every worst pose
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    searches: u32,
+    /// Number of random joint errors and poses that are solved
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
+    trials: u32,
+    /// Also say how uncertain computed poses are by the calibration table of the design, and draw errors of joints and offsets with its standard deviations and correlations
+    #[arg(long)]
+    calibrated: bool,
+    /// Greatest error of each joint in any direction for the map of errors, design units; the radius that keeps the bound when absent
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    joint_error: Option<f64>,
+    /// Greatest difference between the length of a leg and the one it shows, design units: homing, backlash, pitch of the screw
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    length_error: Option<f64>,
+    /// Growth of base, platform and legs by temperature, as shares: degrees times coefficient of expansion
+    #[arg(long, value_name = "BASE,PLATFORM,LEGS", allow_hyphen_values = true)]
+    growth: Option<String>,
+    /// Write the greatest errors by joints, lengths and temperature at all poses looked at as a table
+    #[arg(long, value_name = "FILE")]
+    map: Option<OutputPath>,
+}
+
+/// Everything that was found.
+#[derive(Debug)]
+pub(super) struct Found {
+    pub(super) bound: ErrorBound,
+    pub(super) tool: Point3<f64>,
+    pub(super) budget: Budget,
+    /// Random errors within the radius that all joints may have.
+    pub(super) trials: Trials,
+    /// Random errors with the deviations of a calibration, where they were asked for.
+    pub(super) calibrated: Option<Trials>,
+    /// How uncertain computed poses are by the calibration, at each pose looked at.
+    pub(super) computed: Option<Vec<PoseDeviations>>,
+    /// The greatest errors by all causes, where they were asked for.
+    pub(super) map: Option<(MachineErrors, Vec<ErrorAtPose>)>,
+    /// Solved errors (length, degrees) with the joints moved in the worst way by the radius, and by 1.5 times it.
+    pub(super) worst: [Option<(f64, f64)>; 2],
+    /// What solving says about the radius, which is of first order.
+    pub(super) solved: Solved,
+    pub(super) workspace_given: bool,
+}
+
+/// The first order against poses that are solved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Solved {
+    /// The largest share of a bound that was used up: by the worst errors at their pose, either way, and by random errors in the budget. `None` where a pose could
+    /// not be followed.
+    pub(super) share: Option<f64>,
+    /// A radius, not above that of the budget, with which the worst errors at their pose keep the bound when they are solved, either way.
+    pub(super) radius: Option<f64>,
+}
+
+impl Solved {
+    /// No error looked at went beyond its bound: at all, not by more than a tolerance.
+    pub(super) fn within(&self) -> bool {
+        self.share.is_some_and(|share| share <= 1.0)
+    }
+}
+
+/// Steps in which a radius is made smaller.
+const SHRINKING: usize = 30;
+
+fn solved(
+    m: &Manipulator,
+    budget: &Budget,
+    trials: &Trials,
+    tool: &Point3<f64>,
+    bound: &ErrorBound,
+) -> Solved {
+    // the share of the bounds that the worst errors of this length use up, either way
+    let share = |radius: f64| -> Option<f64> {
+        [1.0, -1.0].into_iter().try_fold(0.0_f64, |most, sign| {
+            let scale = sign * radius / budget.radius.reached;
+            let errors: Vec<_> = budget.worst_errors.iter().map(|e| e * scale).collect();
+            let (p, w) = solved_error(m, &errors, &budget.radius.pose, tool)?;
+            Some(most.max(p.norm() / bound.position).max(w.norm().to_degrees() / bound.rotation_deg))
+        })
+    };
+    let (mut radius, mut kept) = (budget.radius.value, None);
+    for _ in 0..SHRINKING {
+        match share(radius) {
+            Some(used) if used <= 1.0 => {
+                kept = Some(radius);
+                break;
+            }
+            Some(used) => radius *= (1.0 - 1e-9) / used.min(2.0),
+            None => radius *= 0.5,
+        }
+    }
+    let random = (trials.formula.position.max / bound.position)
+        .max(trials.formula.rotation_deg.max / bound.rotation_deg);
+    let worst = share(budget.radius.value).filter(|_| trials.lost == 0);
+    Solved { share: worst.map(|share| share.max(random)), radius: kept }
+}
+
+/// Numbers separated by commas.
+pub(crate) fn numbers<const N: usize>(text: &str, option: &str, code: &str) -> Result<[f64; N], Failure> {
+    crate::app::cli::numbers::parse(text).ok_or_else(|| {
+        let message = format!("{option}: `{text}` is not {N} numbers separated by commas");
+        Failure::refused(code, message).with_help("write finite numbers, for instance 0.1,0.05")
+    })
+}
+
+fn failure_of(error: &ToleranceError) -> Failure {
+    match error {
+        ToleranceError::BadBound { .. } => Failure::refused("tolerances::bad_bound", error.to_string()),
+        _ => Failure::new(Exit::No, "tolerances::singular_workspace", error.to_string()).with_help(
+            "give a smaller [workspace]; `equipod singular poses` finds a box without singular poses",
+        ),
+    }
+}
+
+fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
+    let [position, rotation_deg] = numbers(&args.bound, "--bound", "tolerances::bad_bound")?;
+    let tool = Point3::from(numbers::<3>(&args.tool, "--tool", "tolerances::bad_tool")?);
+    let bound = ErrorBound { position, rotation_deg };
+    let (space, workspace_given) = poses::space(design);
+    let search = PoseSearch {
+        points: args.points as usize,
+        searches: args.searches as usize,
+        seed,
+        ..PoseSearch::default()
+    };
+    let m = design.manipulator();
+    let budget = budget(m, &space, tool, bound, &search).map_err(|e| failure_of(&e))?;
+    let errors = JointErrors::Balls(budget.radius.value);
+    let trials = trials(m, &space, &tool, &bound, &errors, (args.trials as usize, seed));
+    let (mut calibrated, mut computed) = (None, None);
+    if args.calibrated {
+        let known = uncertainty(design)?;
+        computed = Some(computed_poses(design, &known, &space, &tool, &search));
+        let errors = JointErrors::Calibrated(known);
+        calibrated = Some(self::trials(m, &space, &tool, &bound, &errors, (args.trials as usize, seed)));
+    }
+    let map = machine_errors(args, &budget)?
+        .map(|errors| Ok((errors, error_map(m, &space, &tool, &errors, &search)?)))
+        .transpose()
+        .map_err(|e: ToleranceError| failure_of(&e))?;
+    let worst = [1.0, 1.5].map(|scale| {
+        let errors: Vec<_> = budget.worst_errors.iter().map(|e| e * scale).collect();
+        let (p, w) = solved_error(m, &errors, &budget.radius.pose, &tool)?;
+        Some((p.norm(), w.norm().to_degrees()))
+    });
+    let solved = solved(m, &budget, &trials, &tool, &bound);
+    Ok(Found { bound, tool, budget, trials, calibrated, computed, map, worst, solved, workspace_given })
+}
+
+/// What the map of errors is about; `None` where it is not asked for.
+fn machine_errors(args: &Args, budget: &Budget) -> Result<Option<MachineErrors>, Failure> {
+    if args.joint_error.is_none()
+        && args.length_error.is_none()
+        && args.growth.is_none()
+        && args.map.is_none()
+    {
+        return Ok(None);
+    }
+    for (option, value) in [("--joint-error", args.joint_error), ("--length-error", args.length_error)] {
+        if value.is_some_and(|x| !(x >= 0.0 && x.is_finite())) {
+            let message = format!("{option} is not a length of 0 or more");
+            return Err(
+                Failure::refused("tolerances::bad_error", message).with_help("give a length in design units")
+            );
+        }
+    }
+    let growth = args.growth.as_deref().map(|text| numbers(text, "--growth", "tolerances::bad_error"));
+    Ok(Some(MachineErrors {
+        joints: args.joint_error.unwrap_or(budget.radius.value),
+        lengths: args.length_error.unwrap_or(0.0),
+        growth: growth.transpose()?.unwrap_or_default(),
+    }))
+}
+
+/// What the calibration of the design does not know.
+fn uncertainty(design: &Design) -> Result<MachineUncertainty, Failure> {
+    design.machine_uncertainty().ok_or_else(|| {
+        let message = "the design has no standard deviations in a table [calibration]";
+        Failure::refused("tolerances::not_calibrated", message)
+            .with_help("`equipod calibrate DESIGN MEASUREMENTS -o FILE` writes a design with them")
+    })
+}
+
+/// The covariances of the poses of the workspace: the corners and a sample of the region, and the poses that are listed.
+fn computed_poses(
+    design: &Design,
+    known: &MachineUncertainty,
+    space: &PoseSpace,
+    tool: &Point3<f64>,
+    search: &PoseSearch,
+) -> Vec<PoseDeviations> {
+    let m = design.manipulator();
+    let independent = known.independent();
+    let of = |pose: Pose| {
+        let [kept, independent] = [known, &independent].map(|u| u.pose_covariance(m, &pose, tool));
+        Some(PoseDeviations { pose, kept: kept?, independent: independent? })
+    };
+    search.poses(space).into_iter().filter_map(of).collect()
+}
+
+/// Computes the budget and tries it.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let found = find(&design, args, context.seed())?;
+    if let (Some(path), Some((_, map))) = (&args.map, &found.map) {
+        files::write_text(path, &render::map(&design, map))?;
+    }
+    let path = args.map.as_ref().map(|path| path.display().to_string());
+    let record = render::record(&design, &found, context.seed(), path);
+    let text = render::text(&design, &found, &record);
+    Ok(Answer::new(Exit::Yes, record, text))
+}

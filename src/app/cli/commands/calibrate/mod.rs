@@ -1,0 +1,356 @@
+//! `equipod calibrate`: joint centres and leg offsets from measured poses and lengths.
+
+mod render;
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::output::Answer;
+use crate::app::cli::rows::{self, TableName};
+use crate::app::entrance::Error;
+use crate::app::records::{
+    CalibrateAnswer, CalibrateOutcome, CalibrationRecord, ComputedPosesRecord, NextPoseRecord, Number,
+    ResidualsRecord,
+};
+use crate::files::design::{Design, SeriesKind};
+use crate::machine::calibration::{
+    CalibrateOptions, Calibration, CalibrationError, CalibrationStatus, CarriedFrames, HeldParts, Loss,
+    LossUnit, Measurement, MeasurementNoise, NextPose, StartChoice, Unknowns, next_poses, planning_root,
+};
+use crate::platform::geom::{InvalidPose, Pose};
+
+/// Arguments of `calibrate`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json) of the machine as it was meant
+    design: PathBuf,
+    /// A table with a measured pose and six measured lengths a line (`-` for standard input); without it, poses to measure are planned
+    measurements: Option<PathBuf>,
+    /// Standard deviation of a length, design units; without it lengths count as equally uncertain, poses as exact, and the deviation is estimated
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    sigma_length: Option<f64>,
+    /// Standard deviation of each coordinate of a measured position, design units; 0 when absent
+    #[arg(long, value_name = "LENGTH", requires = "sigma_length", allow_hyphen_values = true)]
+    sigma_position: Option<f64>,
+    /// Standard deviation of each component of the rotation vector of a measured orientation, degrees; 0 when absent
+    #[arg(long, value_name = "DEG", requires = "sigma_length", allow_hyphen_values = true)]
+    sigma_rotation_deg: Option<f64>,
+    /// Loss of large distances: all but squares take gross errors for possible
+    #[arg(long, value_enum, default_value_t = LossArg::Squares)]
+    loss: LossArg,
+    /// What the loss doubts: whole poses, or the lengths of single legs
+    #[arg(long, value_enum, default_value_t = UnitArg::Pose)]
+    loss_of: UnitArg,
+    /// Frames of the joints: those of the measured poses, or those of the design, into which the joints are carried by the rigid motions that fit best
+    #[arg(long, value_enum, default_value_t = FramesArg::Measured)]
+    frames: FramesArg,
+    /// What is known and stays as it is, separated by commas
+    #[arg(long, value_enum, value_delimiter = ',')]
+    hold: Vec<HeldArg>,
+    /// Where to begin: at the design, at a solution that needs no design, or at both, and the better end is taken
+    #[arg(long, value_enum, default_value_t = StartArg::Best)]
+    start: StartArg,
+    /// Greatest standard deviation of a change of the machine that counts as identified, as a share of the size of the design
+    #[arg(long, value_name = "SHARE", default_value_t = 0.01, allow_hyphen_values = true)]
+    identified: f64,
+    /// Another table of measurements, for residuals that the fit has not seen
+    #[arg(long, value_name = "FILE")]
+    check: Option<PathBuf>,
+    /// Number of poses to measure next
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(0..=200))]
+    next: u16,
+    /// Number of poses of a Halton sequence in the workspace, and as many random ones, among which the next ones are chosen and at which computed poses are judged
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u16).range(1..=5000))]
+    candidates: u16,
+    /// Write the calibrated design, where all of it is identified and nothing refutes it
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<OutputPath>,
+}
+
+/// `--loss`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LossArg {
+    Squares,
+    Huber,
+    Cauchy,
+    Tukey,
+}
+
+/// `--loss-of`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum UnitArg {
+    Pose,
+    Leg,
+}
+
+/// `--frames`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum FramesArg {
+    Measured,
+    Design,
+}
+
+/// `--hold`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum HeldArg {
+    Base,
+    Platform,
+    Offsets,
+}
+
+/// `--start`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum StartArg {
+    Best,
+    Nominal,
+    ClosedForm,
+}
+
+const BAD_MEASUREMENTS: &str = "calibrate::bad_measurements";
+
+impl Args {
+    fn options(&self) -> CalibrateOptions {
+        CalibrateOptions {
+            noise: self.sigma_length.map(|length| MeasurementNoise {
+                length,
+                position: self.sigma_position.unwrap_or(0.0),
+                rotation: self.sigma_rotation_deg.unwrap_or(0.0).to_radians(),
+            }),
+            loss: match self.loss {
+                LossArg::Squares => Loss::Squares,
+                LossArg::Huber => Loss::Huber,
+                LossArg::Cauchy => Loss::Cauchy,
+                LossArg::Tukey => Loss::Tukey,
+            },
+            loss_unit: match self.loss_of {
+                UnitArg::Pose => LossUnit::Pose,
+                UnitArg::Leg => LossUnit::Leg,
+            },
+            held: HeldParts {
+                base: self.hold.contains(&HeldArg::Base),
+                platform: self.hold.contains(&HeldArg::Platform),
+                offsets: self.hold.contains(&HeldArg::Offsets),
+            },
+            start: match self.start {
+                StartArg::Best => StartChoice::Best,
+                StartArg::Nominal => StartChoice::Nominal,
+                StartArg::ClosedForm => StartChoice::ClosedForm,
+            },
+            identified: self.identified,
+        }
+    }
+
+    fn refuse_without_effect(&self, context: &Context) -> Result<(), Failure> {
+        if self.measurements.is_none() {
+            for option in ["loss", "loss_of", "frames", "start", "check", "output"] {
+                context.no_effect(option, "there are no measurements")?;
+            }
+        }
+        if self.loss == LossArg::Squares {
+            context.no_effect("loss_of", "squares doubt nothing")?;
+        }
+        Ok(())
+    }
+}
+
+/// Exit 0 where the machine is calibrated, 1 where it is not identifiable or the model is refuted, 3 where that is open.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    args.refuse_without_effect(context)?;
+    let options = args.options();
+    let Some(path) = &args.measurements else { return plan(args, &design, &options, context) };
+    let (rows, lines) = measurements(path, context)?;
+    let check = args.check.as_deref().map(|path| measurements(path, context)).transpose()?;
+    let found = design.calibrate(&rows, &options).map_err(|e| failure_of(&e))?;
+    let frames = frames(args, &design, &found)?;
+    let mut record =
+        CalibrationRecord::new(&design, &found, (options.loss, options.loss_unit), frames.as_ref(), &lines);
+    record.check = check.map(|(rows, lines)| ResidualsRecord::new(&found.residuals_of(&rows), &lines));
+    let candidates = design.measurable_poses(args.candidates.into(), context.seed());
+    let measured: Vec<Pose> = match &frames {
+        None => candidates.clone(),
+        Some(frames) => candidates.iter().map(|pose| frames.measured_pose(pose)).collect(),
+    };
+    if found.status != CalibrationStatus::NotIdentifiable {
+        record.computed_poses = ComputedPosesRecord::new(&found, &measured);
+    }
+    let outcome = CalibrateOutcome::from(found.status);
+    let path = match (&args.output, found.status) {
+        (Some(path), CalibrationStatus::Calibrated) => {
+            let calibrated = design.with_calibration(&found, frames.as_ref()).map_err(|e| failure_of(&e))?;
+            files::write_design(path, &calibrated)?;
+            Some(path.display().to_string())
+        }
+        _ => None,
+    };
+    let next_poses = next(args, &found, &candidates, &measured);
+    let answer = CalibrateAnswer {
+        name: design.name.clone(),
+        units: design.units.clone(),
+        outcome,
+        reason: reason(&found),
+        calibration: Some(record),
+        next_poses,
+        path,
+    };
+    let text = render::text(&answer, args.output.is_some());
+    Ok(Answer::new(exit_of(outcome), answer, text))
+}
+
+fn exit_of(outcome: CalibrateOutcome) -> Exit {
+    match outcome {
+        CalibrateOutcome::Calibrated | CalibrateOutcome::Planned => Exit::Yes,
+        CalibrateOutcome::NotIdentifiable | CalibrateOutcome::Refuted => Exit::No,
+        CalibrateOutcome::Undecided => Exit::Inconclusive,
+    }
+}
+
+/// Why it ended as it did.
+fn reason(found: &Calibration) -> String {
+    let (rank, unknowns) = (found.observability.rank, found.unknowns.count());
+    match found.status {
+        CalibrationStatus::Calibrated => {
+            format!(
+                "all {unknowns} unknowns are identified, and the residuals do not speak against the model"
+            )
+        }
+        CalibrationStatus::NotIdentifiable => {
+            format!(
+                "the measurements do not see {} of {unknowns} independent changes of the machine",
+                unknowns - rank
+            )
+        }
+        CalibrationStatus::Refuted => {
+            "the residuals are too large for the noise given: a measurement, the noise or the model is wrong"
+                .into()
+        }
+        CalibrationStatus::Undecided if found.converged => {
+            "there are no more numbers than unknowns, so that nothing speaks for or against the model".into()
+        }
+        CalibrationStatus::Undecided => "the fit did not converge".into(),
+    }
+}
+
+fn failure_of(error: &Error) -> Failure {
+    let Error::Calibration(why) = error else {
+        return Failure::new(Exit::No, "calibrate::bad_machine", error.to_string())
+            .with_help("the measurements belong to no machine of this kind: check their columns and units");
+    };
+    match why {
+        CalibrationError::BadNoise { .. } => Failure::refused("calibrate::bad_noise", why.to_string())
+            .with_help(
+                "give --sigma-length above 0, and --sigma-position and --sigma-rotation-deg of 0 or more",
+            ),
+        CalibrationError::NothingUnknown => {
+            Failure::refused("calibrate::nothing_unknown", why.to_string()).with_help("hold less")
+        }
+        CalibrationError::BadShare(_) => Failure::refused("calibrate::bad_share", why.to_string())
+            .with_help("give --identified above 0, for instance 0.01"),
+        CalibrationError::NoClosedForm => {
+            Failure::new(Exit::No, "calibrate::no_closed_form", why.to_string()).with_help(
+                "begin at the design (--start nominal), or measure 17 poses or more that turn about all axes",
+            )
+        }
+        _ => Failure::refused(BAD_MEASUREMENTS, why.to_string()),
+    }
+}
+
+/// Measurements with the lines they stand on.
+fn measurements(path: &Path, context: &Context) -> Result<(Vec<Measurement>, Vec<usize>), Failure> {
+    let form = "a pose and six lengths a line: x,y,z,roll_deg,pitch_deg,yaw_deg,l1,..,l6 or x,y,z,qw,qx,qy,qz,l1,..,l6";
+    let table = TableName { path, code: BAD_MEASUREMENTS, form };
+    let series = rows::read(SeriesKind::PosesWithLengths, table, context, measurement)?;
+    Ok(series.rows.into_iter().map(|row| (row.value, row.line)).unzip())
+}
+
+fn measurement(text: &str) -> Result<Measurement, String> {
+    let fields: Vec<&str> = text.split(',').collect();
+    if !(12..=13).contains(&fields.len()) {
+        return Err(format!("{} values instead of a pose and six lengths", fields.len()));
+    }
+    let (pose, shown) = fields.split_at(fields.len() - 6);
+    let pose: Pose = pose.join(",").parse().map_err(|e: InvalidPose| e.to_string())?;
+    let mut lengths = [0.0; 6];
+    for (leg, (length, field)) in lengths.iter_mut().zip(shown).enumerate() {
+        let read = field.trim().parse().ok().filter(|x: &f64| x.is_finite());
+        *length = read.ok_or_else(|| format!("length {}, `{field}`, is not a finite number", leg + 1))?;
+    }
+    Ok(Measurement { pose, lengths })
+}
+
+/// The motions to the frames of the design, where they are asked for.
+fn frames(args: &Args, design: &Design, found: &Calibration) -> Result<Option<CarriedFrames>, Failure> {
+    if args.frames == FramesArg::Measured {
+        return Ok(None);
+    }
+    let nominal = design.leg_model();
+    CarriedFrames::between(&found.model, &nominal).map(Some).ok_or_else(|| {
+        let message = "the joints of a body lie on a line, so that any turn about it fits";
+        Failure::new(Exit::No, "calibrate::no_frames", message).with_help("leave out --frames design")
+    })
+}
+
+/// Where to measure next: poses as the design and as the measurements have them.
+fn next(args: &Args, found: &Calibration, candidates: &[Pose], measured: &[Pose]) -> Vec<NextPoseRecord> {
+    let chosen = next_poses(
+        &found.model,
+        &found.unknowns,
+        &found.noise,
+        &found.bounded_root,
+        measured,
+        args.next.into(),
+    );
+    chosen.iter().map(|n| next_record(&candidates[n.candidate], n)).collect()
+}
+
+fn next_record(pose: &Pose, next: &NextPose) -> NextPoseRecord {
+    NextPoseRecord {
+        pose: pose.into(),
+        rpy_deg: pose.angles().degrees().map(Number),
+        shrinks: Number(next.shrinks),
+        greatest_deviation: Number(next.greatest_deviation),
+    }
+}
+
+/// The poses to begin with.
+fn plan(
+    args: &Args,
+    design: &Design,
+    options: &CalibrateOptions,
+    context: &Context,
+) -> Result<Answer, Failure> {
+    if let Some(MeasurementNoise { length, position, rotation }) = options.noise
+        && !(length > 0.0 && position >= 0.0 && rotation >= 0.0)
+    {
+        return Err(failure_of(&CalibrationError::BadNoise { length, position, rotation }.into()));
+    }
+    if !(options.identified > 0.0 && options.identified.is_finite()) {
+        return Err(failure_of(&CalibrationError::BadShare(options.identified).into()));
+    }
+    let model = design.leg_model();
+    let unknowns = Unknowns::new(&model, options.held);
+    if unknowns.count() == 0 {
+        return Err(failure_of(&CalibrationError::NothingUnknown.into()));
+    }
+    let size = design.manipulator().size();
+    let noise = options.noise.unwrap_or_else(|| MeasurementNoise::assumed(size));
+    let candidates = design.measurable_poses(args.candidates.into(), context.seed());
+    let root = planning_root(&unknowns, options.identified * size);
+    let chosen = next_poses(&model, &unknowns, &noise, &root, &candidates, args.next.into());
+    let answer = CalibrateAnswer {
+        name: design.name.clone(),
+        units: design.units.clone(),
+        outcome: CalibrateOutcome::Planned,
+        reason: "nothing was measured: these are the poses to begin with".into(),
+        calibration: None,
+        next_poses: chosen.iter().map(|n| next_record(&candidates[n.candidate], n)).collect(),
+        path: None,
+    };
+    let text = render::text(&answer, false);
+    Ok(Answer::new(Exit::Yes, answer, text))
+}

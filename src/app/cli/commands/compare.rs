@@ -1,0 +1,249 @@
+//! `equipod compare`: designs side by side.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use super::build::drives;
+use super::build::tolerances::numbers;
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::numbers::significant;
+use crate::app::cli::output::Answer;
+use crate::app::cli::table::{csv_line, number};
+use crate::app::entrance::{FigureOptions, PlatformMotion};
+use crate::app::records::{AccuracyRecord, CompareAnswer, FigureCell, FiguresRecord};
+use crate::app::report::{Comparison, comparison_page};
+use crate::files::design::Design;
+use crate::files::export::LengthUnit;
+use crate::files::plot::thumbnail;
+use crate::machine::dynamics::Manoeuvre;
+use crate::machine::manufacture::ErrorBound;
+use crate::machine::requirements::ForceUnit;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Manipulator;
+
+/// Arguments of `compare`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design files (.toml or .json), all in the same units
+    #[arg(value_name = "DESIGN", required = true, num_args = 1..)]
+    designs: Vec<PathBuf>,
+    /// A sine about home along which forces, speeds and powers are taken, as often as there are some
+    #[arg(long, value_name = "AXIS:AMPLITUDE:HERTZ", allow_hyphen_values = true)]
+    sine: Vec<String>,
+    /// An acceleration from rest at home, design units or degrees per second squared, as often as there are some
+    #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
+    accelerate: Vec<String>,
+    /// Accuracy of the pose for which joints are toleranced: of the platform origin and of the orientation
+    #[arg(long, value_name = "LENGTH,DEG")]
+    accuracy: Option<String>,
+    /// Number of poses of a Halton sequence in the region of poses, and as many random ones
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    points: u32,
+    /// Write the table, a design a line
+    #[arg(long, value_name = "FILE")]
+    csv: Option<OutputPath>,
+    /// Write the table with pictures as one HTML page that can be sorted
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<OutputPath>,
+}
+
+/// Instants of a period of a sine.
+const SAMPLES: usize = 120;
+
+/// What is asked of all designs.
+pub(super) struct Asked {
+    motions: Vec<(String, Manoeuvre)>,
+    accuracy: Option<ErrorBound>,
+    points: usize,
+    seed: u64,
+}
+
+impl Asked {
+    /// Figures alone, for the report.
+    pub(super) fn plain(points: usize) -> Self {
+        Self { motions: Vec::new(), accuracy: None, points, seed: 1 }
+    }
+}
+
+/// Every design has its figures: exit 0.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let mut designs = Vec::new();
+    for path in &args.designs {
+        designs.push((files::shown(path), context.load_ideal(path)?));
+    }
+    let asked = asked(args, context)?;
+    let mut comparison = compare(&designs, &asked)?;
+    for ((path, (_, design)), found) in args.designs.iter().zip(&designs).zip(&mut comparison.answer.designs)
+    {
+        found.lightest_drive = drives::lightest(path, design, context)?;
+    }
+    if let Some(path) = &args.csv {
+        files::write_text(path, &csv(&comparison.answer))?;
+        comparison.answer.paths.push(path.display().to_string());
+    }
+    if let Some(path) = &args.output {
+        files::write_text(path, &comparison_page(&comparison))?;
+        comparison.answer.paths.push(path.display().to_string());
+    }
+    let text = text(&comparison.answer);
+    Ok(Answer::new(Exit::Yes, comparison.answer, text))
+}
+
+fn asked(args: &Args, context: &Context) -> Result<Asked, Failure> {
+    let bad = |option: &str, why: &dyn std::fmt::Display| {
+        let help = "an axis is x, y, z, roll, pitch or yaw: --sine z:50:1, --accelerate yaw:90";
+        Failure::refused("compare::bad_manoeuvre", format!("{option}: {why}")).with_help(help)
+    };
+    let mut motions = Vec::new();
+    for text in &args.sine {
+        motions.push((format!("sine {text}"), Manoeuvre::sine(text).map_err(|e| bad("--sine", &e))?));
+    }
+    for text in &args.accelerate {
+        let start = Manoeuvre::acceleration(text).map_err(|e| bad("--accelerate", &e))?;
+        motions.push((format!("accelerate {text}"), start));
+    }
+    let accuracy = args.accuracy.as_deref().map(|text| -> Result<ErrorBound, Failure> {
+        let [position, rotation_deg] = numbers(text, "--accuracy", "compare::bad_accuracy")?;
+        if !(position > 0.0 && rotation_deg > 0.0) {
+            let message = format!("--accuracy: `{text}` is not two positive numbers");
+            return Err(Failure::refused("compare::bad_accuracy", message)
+                .with_help("give a length in design units and an angle in degrees, for instance 0.1,0.05"));
+        }
+        Ok(ErrorBound { position, rotation_deg })
+    });
+    Ok(Asked { motions, accuracy: accuracy.transpose()?, points: args.points as usize, seed: context.seed() })
+}
+
+fn force_unit(design: &Design) -> &'static str {
+    design.force_units.unwrap_or(ForceUnit::Newton).label()
+}
+
+/// The figures and pictures of all designs.
+///
+/// # Errors
+/// `compare::units_differ`.
+pub(super) fn compare(designs: &[(String, Design)], asked: &Asked) -> Result<Comparison, Failure> {
+    let all =
+        |unit: &dyn Fn(&Design) -> String| designs.iter().map(|(_, d)| unit(d)).collect::<BTreeSet<_>>();
+    let (lengths, forces) = (all(&|d| d.units.trim().to_string()), all(&|d| force_unit(d).to_string()));
+    for (what, units) in [("length", &lengths), ("force", &forces)] {
+        if units.len() > 1 {
+            let list = units.iter().cloned().collect::<Vec<_>>().join(", ");
+            let message = format!("the designs have different units of {what}: {list}");
+            return Err(Failure::refused("compare::units_differ", message)
+                .with_help("`equipod design convert DESIGN --units mm -o FILE` writes a design in another unit of length"));
+        }
+    }
+    let mut out = Comparison {
+        answer: CompareAnswer {
+            length_unit: lengths.into_iter().next().unwrap_or_default(),
+            force_unit: forces.into_iter().next().unwrap_or_default(),
+            manoeuvres: asked.motions.iter().map(|(name, _)| name.clone()).collect(),
+            accuracy: asked
+                .accuracy
+                .map(|b| AccuracyRecord { position: b.position, rotation_deg: b.rotation_deg }),
+            characteristic_length: designs.first().map_or(f64::NAN, |(_, d)| d.characteristic_length()),
+            designs: Vec::new(),
+            paths: Vec::new(),
+        },
+        thumbnails: Vec::new(),
+    };
+    for (path, design) in designs {
+        let home = design.home_or_default();
+        let motions: Vec<PlatformMotion> =
+            asked.motions.iter().map(|(_, m)| PlatformMotion::Manoeuvre(*m, home, SAMPLES)).collect();
+        // a unit that is no length has no forces in motion
+        let masses =
+            LengthUnit::of(&design.units).ok().and_then(|unit| design.motion_masses(unit.metres, None));
+        let length = out.answer.characteristic_length;
+        let found = design.figures(&FigureOptions {
+            points: asked.points,
+            seed: asked.seed,
+            motions: &motions,
+            masses: masses.as_ref(),
+            accuracy: asked.accuracy,
+            characteristic_length: length,
+        });
+        out.answer.designs.push(FiguresRecord::new(design, path.clone(), &found, length));
+        out.thumbnails.push(thumbnail(&drawn(design, &home), &home, &design.name));
+    }
+    Ok(out)
+}
+
+/// The legs to draw at a pose: rods from the tips of cranks that reach.
+fn drawn(design: &Design, pose: &Pose) -> Manipulator {
+    let tips = design.rotary().ok().flatten().and_then(|platform| {
+        let angles = platform.ik(pose).ok()?;
+        platform.at(&angles).ok()
+    });
+    tips.unwrap_or_else(|| design.manipulator().clone())
+}
+
+/// Width of the names of figures and of the columns of designs.
+const WIDTHS: (usize, usize) = (34, 18);
+
+/// A line for every figure, a column for every design.
+fn text(answer: &CompareAnswer) -> String {
+    let (first, wide) = WIDTHS;
+    let mut out = String::new();
+    for (k, design) in answer.designs.iter().enumerate() {
+        let _ = writeln!(out, "{}: {} ({})", k + 1, design.name, design.path);
+    }
+    let _ = write!(out, "\n{:first$}", "figure");
+    for k in 1..=answer.designs.len() {
+        let _ = write!(out, " {k:>wide$}");
+    }
+    out.push('\n');
+    for column in answer.columns() {
+        let unit = if column.unit.is_empty() { String::new() } else { format!(" [{}]", column.unit) };
+        let _ = write!(out, "{:first$}", format!("{}{unit}", column.title));
+        for cell in &column.cells {
+            let shown = match cell {
+                None => "-".to_string(),
+                Some(FigureCell::Word(word)) => word.clone(),
+                Some(FigureCell::Number(x, violated)) => {
+                    format!("{}{}", if *violated { "!" } else { "" }, significant(*x))
+                }
+            };
+            let _ = write!(out, " {shown:>wide$}");
+        }
+        out.push('\n');
+    }
+    let _ = writeln!(out, "\n{}", answer.verdicts().join("\n"));
+    let _ = writeln!(out, "{}", answer.yardstick());
+    for design in &answer.designs {
+        if let Some(why) = &design.no_tolerance {
+            let _ = writeln!(out, "{} has no joint tolerance: {why}", design.name);
+        }
+    }
+    for path in &answer.paths {
+        let _ = writeln!(out, "wrote {path}");
+    }
+    out
+}
+
+/// A line for every design.
+fn csv(answer: &CompareAnswer) -> String {
+    let columns = answer.columns();
+    let mut header = vec!["name".to_string(), "path".to_string()];
+    header.extend(
+        columns
+            .iter()
+            .map(|c| if c.unit.is_empty() { c.title.clone() } else { format!("{} [{}]", c.title, c.unit) }),
+    );
+    let mut out = csv_line(&header);
+    for (row, design) in answer.designs.iter().enumerate() {
+        let mut cells = vec![design.name.clone(), design.path.clone()];
+        cells.extend(columns.iter().map(|c| match &c.cells[row] {
+            None => String::new(),
+            Some(FigureCell::Word(word)) => word.clone(),
+            Some(FigureCell::Number(x, _)) => number(*x),
+        }));
+        out.push_str(&csv_line(&cells));
+    }
+    out
+}

@@ -1,0 +1,69 @@
+//! `equipod design convert`: a design in the other notation, in another unit of length, or as parameters of a motion-simulator program.
+
+use std::path::PathBuf;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::output::Answer;
+use crate::app::records::ConvertAnswer;
+use crate::files::design::{Format, RigSheet, SheetDialect};
+
+/// Arguments of `design convert`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json), or `-` for standard input
+    design: PathBuf,
+    /// File to write; .json gives JSON, .toml and `-` (standard output) give TOML
+    #[arg(short, long, value_name = "FILE")]
+    output: OutputPath,
+    /// Write all lengths in this unit: um, mm, cm, m, in or ft
+    #[arg(long, value_name = "UNIT")]
+    units: Option<String>,
+    /// Write the parameters of a motion-simulator program in place of a design: `motion4sim` (and `FlyPT Mover`), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
+    #[arg(long, value_name = "DIALECT")]
+    dialect: Option<SheetDialect>,
+}
+
+/// Reads, checks and writes the design. Comments of the input are not kept.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let extension = args.output.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    let format = match extension.as_deref() {
+        // a sheet is none of both, and its name is what its reader wants
+        _ if args.dialect.is_some() => Format::Toml,
+        _ if files::is_standard(&args.output) => Format::Toml,
+        Some("toml") => Format::Toml,
+        Some("json") => Format::Json,
+        _ => {
+            let message = format!("{}: the extension does not tell the format", args.output.display());
+            let failure = Failure::refused("convert::unknown_format", message);
+            return Err(failure.with_help("end the name in .toml or .json"));
+        }
+    };
+    let mut design = context.load_with_cranks(&args.design)?;
+    if let Some(units) = &args.units {
+        design = design.in_units(units).map_err(|why| {
+            Failure::refused("convert::units", why.to_string())
+                .with_help("`units` of the design and --units each name one of um, mm, cm, m, in, ft")
+        })?;
+    }
+    match args.dialect {
+        Some(dialect) => {
+            if Context::coupled_of(&design)?.is_some() {
+                let message = format!("{}: a sheet has ideal joints", design.name);
+                let help = "without `offset` and `screw_lead` the sheet has the machine with ideal joints";
+                return Err(Failure::refused("design::not_ideal", message).with_help(help));
+            }
+            let cranks = Context::cranks_of(&design)?;
+            let sheet = RigSheet::of(&design, cranks.as_ref()).map_err(|why| {
+                Failure::refused("convert::no_sheet", why.to_string()).with_help(why.help())
+            })?;
+            files::write_text(&args.output, &sheet.text(dialect, &design))?;
+        }
+        None => files::write_design(&args.output, &design)?,
+    }
+    let output = args.output.display().to_string();
+    let text = format!("wrote {output}\n");
+    Ok(Answer::new(Exit::Yes, ConvertAnswer { name: design.name, output, format }, text))
+}

@@ -1,0 +1,33 @@
+//! `equipod design`: design files and their schema.
+
+mod convert;
+mod presets;
+mod schema;
+
+use clap::Subcommand;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+
+/// Commands about design files.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Write a design in the other notation, TOML or JSON
+    Convert(convert::Args),
+    /// List designs of real hardware with their sources, or write one of them
+    Presets(presets::Args),
+    /// Print the JSON Schema of design files, or of the answers with --json
+    Schema(schema::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
+        match self {
+            Self::Convert(args) => convert::run(args, context),
+            Self::Presets(args) => presets::run(args),
+            Self::Schema(args) => schema::run(args),
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! `equipod equivalents family`: every platform equivalent to an octahedral design.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use crate::app::cli::commands::{GENERAL, NEAREST};
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::output::Answer;
+use crate::app::entrance::leg_map;
+use crate::app::equivalents::{Original, Origins};
+use crate::app::records::{FamilyAnswer, InstanceRecord, PatternPlace, PatternRecord};
+use crate::files::design::Design;
+use crate::platform::manipulator::{Body, Octahedral};
+use crate::synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
+
+/// Arguments of `equivalents family`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design (.toml or .json) that is octahedral, or made from an octahedral platform by offsets along the sides of its triangles
+    design: PathBuf,
+    /// Write the graph of topologies for Graphviz
+    #[arg(long, value_name = "FILE")]
+    dot: Option<OutputPath>,
+    /// Write a drawing of the topologies
+    #[arg(long, value_name = "FILE")]
+    svg: Option<OutputPath>,
+    /// Report only this pattern, for instance S123456 (no shared joint) or V23456S1
+    #[arg(long, value_name = "ID")]
+    pattern: Option<String>,
+    /// Fractions of the edges at which the moved joints sit, one for each inner point
+    #[arg(
+        long,
+        value_name = "T1,..",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        requires = "pattern"
+    )]
+    offsets: Option<Vec<f64>>,
+    /// Write the platform of the pattern as a design
+    #[arg(short, long, value_name = "FILE", requires = "offsets")]
+    output: Option<OutputPath>,
+}
+
+/// Lists the class, or one pattern of it.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let original = original(&design)?;
+    let family = Family::octahedral();
+    if let Some(path) = &args.dot {
+        files::write_text(path, &family.to_dot())?;
+    }
+    if let Some(path) = &args.svg {
+        files::write_text(path, &family.to_svg())?;
+    }
+    let wanted = args.pattern.as_deref().map(parse_pattern).transpose()?;
+    let members: Vec<&FamilyMember> =
+        family.members().iter().filter(|m| wanted.as_ref().is_none_or(|p| m.pattern == *p)).collect();
+    let mut answer = FamilyAnswer::new(&design.name, &original, &family, &members);
+    let mut built = None;
+    if let (Some(pattern), Some(offsets)) = (&wanted, &args.offsets) {
+        let (record, found) = realise(args, pattern, &design, &original, offsets)?;
+        (answer.instance, built) = (Some(record), Some(found));
+    }
+    let mut text = summary(&answer);
+    if wanted.is_some() {
+        answer.patterns.iter().for_each(|p| describe(&mut text, p, &answer));
+    } else {
+        list_topologies(&mut text, &answer);
+    }
+    if let Some(r) = &answer.instance {
+        let _ = writeln!(text, "\nat these offsets det A = {}", r.determinant.0);
+    }
+    if let Some(map) = original.map.as_ref().filter(|map| map.relation == Relation::Undecided) {
+        text = format!("{} is made from an octahedral platform {}\n\n{text}", design.name, map.explanation());
+    }
+    // what is asked of a design that is made from the platform holds as far as the design does
+    let of_design = original.map.as_ref().map_or(Relation::Equivalent, |map| map.relation);
+    let exit = match (of_design, built.as_ref().map(|map| map.relation)) {
+        (_, Some(Relation::Singular | Relation::Unrelated)) => Exit::No,
+        (Relation::Equivalent, None | Some(Relation::Equivalent)) => Exit::Yes,
+        _ => Exit::Inconclusive,
+    };
+    if let Some(path) = &args.output {
+        let written = built.as_ref().is_some_and(LegMapOutcome::is_regular_within_rounding);
+        let _ = match exit {
+            _ if written => writeln!(text, "wrote {}", path.display()),
+            Exit::No => writeln!(text, "no design is written: the platform is architecturally singular"),
+            _ => writeln!(text, "no design is written: the platform may be architecturally singular"),
+        };
+    }
+    Ok(Answer::new(exit, answer, text))
+}
+
+/// The octahedral platform that a design is or is made of; a design that is proved to be equivalent to none is the answer no.
+fn original(design: &Design) -> Result<Original, Failure> {
+    let no = |code, message: String| Failure::new(Exit::No, code, message);
+    let original = match Original::behind(design) {
+        Origins::Of(original) => *original,
+        Origins::Refuted(map) => {
+            let message = format!(
+                "{} is not equivalent to the octahedral platform of its triangles: {}",
+                design.name,
+                map.explanation()
+            );
+            return Err(no("family::not_equivalent", message).with_help(NEAREST));
+        }
+        Origins::None => {
+            let why = Octahedral::recognise(design.manipulator());
+            let why = why.err().map_or_else(String::new, |e| format!(": {e}"));
+            let message =
+                format!("{} is neither octahedral nor made from an octahedral platform{why}", design.name);
+            return Err(Failure::refused("family::not_octahedral", message).with_help(format!(
+                "the class is that of a design with three joints on each body and two legs at each joint, or with its joints on the sides of two triangles; {NEAREST} {GENERAL}"
+            )));
+        }
+    };
+    if original.map.as_ref().is_some_and(|map| map.relation == Relation::Singular) {
+        let message = format!(
+            "{} is made from an octahedral platform, but singular: it is equivalent to none",
+            design.name
+        );
+        return Err(no("family::singular", message).with_help("`equipod check DESIGN` says why"));
+    }
+    Ok(original)
+}
+
+fn parse_pattern(text: &str) -> Result<Pattern, Failure> {
+    text.parse().map_err(|e| {
+        Failure::refused("family::bad_pattern", format!("`{text}`: {e}"))
+            .with_help("take an \"id\" from the patterns of `equipod equivalents family DESIGN --json`")
+    })
+}
+
+/// Builds the platform and writes it where asked, unless it is singular.
+fn realise(
+    args: &Args,
+    pattern: &Pattern,
+    design: &Design,
+    original: &Original,
+    offsets: &[f64],
+) -> Result<(InstanceRecord, LegMapOutcome), Failure> {
+    let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
+    let (built, map) = original.equivalent(pattern, offsets).map_err(|e| refused(&e))?;
+    let record = InstanceRecord::new(pattern, offsets, &built, &map).map_err(|e| refused(&e))?;
+    let found = leg_map(design, &built)
+        .map_err(|e| Failure::new(Exit::Inconclusive, "family::breakdown", e.to_string()))?;
+    if let Some(path) = args.output.as_ref().filter(|_| found.is_regular_within_rounding()) {
+        files::write_design(path, &built)?;
+    }
+    Ok((record, found))
+}
+
+fn summary(r: &FamilyAnswer) -> String {
+    let (mut text, c) = (format!("platforms equivalent to {}\n\n", r.name), &r.counts);
+    let lines = [
+        ("patterns", c.patterns, None),
+        ("patterns up to symmetry", c.classes, Some(c.classes_exchange)),
+        ("topologies", c.topologies, Some(c.topologies_exchange)),
+        ("topologies, one offset at a time", c.sequential_topologies, Some(c.sequential_topologies_exchange)),
+    ];
+    for (what, count, exchange) in lines {
+        let _ = write!(text, "{count:>5}  {what}");
+        let _ = match exchange {
+            Some(n) => writeln!(text, " ({n} when base and platform may be exchanged)"),
+            None => writeln!(text),
+        };
+    }
+    text
+}
+
+fn list_topologies(text: &mut String, r: &FamilyAnswer) {
+    text.push_str("\ntopology  base  platform  shared  patterns  sequential  example\n");
+    for t in &r.topologies {
+        let patterns = r.patterns.iter().filter(|p| p.topology == t.topology).count();
+        let _ = writeln!(
+            text,
+            "{:>8}  {:>4}  {:>8}  {:>6}  {patterns:>8}  {:<10}  {}",
+            t.topology,
+            t.base_joints,
+            t.platform_joints,
+            t.shared_joints,
+            if t.sequential { "yes" } else { "no" },
+            t.example
+        );
+    }
+}
+
+fn describe(text: &mut String, pattern: &PatternRecord, r: &FamilyAnswer) {
+    let _ = writeln!(text, "\npattern {}", pattern.id);
+    for (k, leg) in pattern.legs.iter().enumerate() {
+        let formula = match &leg.place {
+            PatternPlace::Vertex {} => format!("s{}", k + 1),
+            PatternPlace::Inner { side, offset: t, between: [k, n] } => {
+                format!("(1 - {t}) s{k} + {t} s{n} - {t} (1 - {t}) d{side}^2")
+            }
+        };
+        let _ = writeln!(text, "  leg {}  {:<4} {:<4}  s' = {formula}", k + 1, leg.base, leg.platform);
+    }
+    for (k, d) in r.edge_lengths.iter().enumerate() {
+        let body = if k % 2 == 0 { Body::Base } else { Body::Platform };
+        let _ = writeln!(text, "  d{} = {} ({body})", k + 1, d.0);
+    }
+    let _ = writeln!(text, "  det A = {}", pattern.determinant);
+    let zeros = if pattern.zeros.is_empty() { "never".into() } else { pattern.zeros.join(" or ") };
+    let _ = writeln!(text, "  singular where {zeros}");
+}

@@ -1,0 +1,45 @@
+//! `equipod equivalents`: the platforms equivalent to a design, and what makes them so.
+
+pub(in crate::app::cli::commands) mod components;
+mod family;
+mod map;
+pub(in crate::app::cli::commands) mod r#move;
+pub(in crate::app::cli::commands) mod nearest;
+pub(in crate::app::cli::commands) mod topologies;
+
+use clap::Subcommand;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+
+/// Commands about equivalent designs.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// List every platform equivalent to an octahedral design, or write one of them
+    Family(family::Args),
+    /// List the families of legs that can be moved without changing the platform
+    Components(components::Args),
+    /// List the ways to share joints that can hold a platform, or name that of a design
+    Topologies(topologies::Args),
+    /// Move legs along their families, or search for an equivalent platform with given properties
+    Move(r#move::Args),
+    /// Find the octahedral platform nearest to a design, with the error it would make
+    Nearest(nearest::Args),
+    /// Compute the affine map between the squared leg lengths of two designs
+    Map(map::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
+        match self {
+            Self::Family(args) => family::run(args, context),
+            Self::Components(args) => components::run(args, context),
+            Self::Topologies(args) => topologies::run(args, context),
+            Self::Move(args) => r#move::run(args, context),
+            Self::Nearest(args) => nearest::run(args, context),
+            Self::Map(args) => map::run(args, context),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The moves asked for on the command line.
+
+use crate::app::cli::failure::Failure;
+use crate::platform::manipulator::LegIndex;
+
+const FORM: &str = "a move is LEG:FAMILY:T[,U,..], for instance 1:3:0.25 or 1:P1:P4-P5:0.25";
+
+/// A family as it is named.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Along {
+    /// Its number in `equipod equivalents components`, from 1.
+    Number(usize),
+    /// The joints that span its flats, not yet looked up: `P1:P4-P5`.
+    Between(String),
+}
+
+/// One move.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Request {
+    pub(super) leg: LegIndex,
+    pub(super) along: Along,
+    pub(super) parameters: Vec<f64>,
+}
+
+/// All moves asked for, in order.
+pub(super) fn requests(
+    leg: Option<&str>,
+    along: Option<&str>,
+    to: Option<&str>,
+    moves: &[String],
+) -> Result<Vec<Request>, Failure> {
+    let mut out = Vec::new();
+    if let (Some(leg), Some(along), Some(to)) = (leg, along, to) {
+        out.push(request(leg, along, to)?);
+    }
+    for text in moves {
+        let Some((leg, (along, to))) =
+            text.split_once(':').and_then(|(leg, rest)| Some((leg, rest.rsplit_once(':')?)))
+        else {
+            return Err(Failure::refused("move::bad_move", format!("`{text}` is not a move")).with_help(FORM));
+        };
+        out.push(request(leg, along, to)?);
+    }
+    Ok(out)
+}
+
+fn request(leg: &str, along: &str, to: &str) -> Result<Request, Failure> {
+    let bad = |message: String| Failure::refused("move::bad_move", message).with_help(FORM);
+    let parameters: Result<Vec<f64>, Failure> = to
+        .split(',')
+        .map(|x| match x.trim().parse::<f64>() {
+            Ok(x) if x.is_finite() => Ok(x),
+            _ => Err(bad(format!("the parameter `{x}` is not a finite number"))),
+        })
+        .collect();
+    let along = along.trim();
+    let along = along.parse().map_or_else(|_| Along::Between(along.to_string()), Along::Number);
+    Ok(Request { leg: self::leg(leg)?, along, parameters: parameters? })
+}
+
+/// A leg by its number from 1.
+pub(super) fn leg(text: &str) -> Result<LegIndex, Failure> {
+    let number = text.trim().parse::<usize>().ok().and_then(|n| n.checked_sub(1));
+    number.and_then(LegIndex::new).ok_or_else(|| {
+        let message = format!("`{text}` is not a leg: they are numbered 1 to 6");
+        Failure::refused("move::no_such_leg", message)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moves_in_one_word_and_in_three() {
+        let list = requests(None, None, None, &["1:3:0.25".into(), "6:P1:P4-P5:-0.5,2".into()]).unwrap();
+        assert_eq!((list[0].along.clone(), list[0].parameters.clone()), (Along::Number(3), vec![0.25]));
+        assert_eq!((list[1].leg.get(), list[1].along.clone()), (5, Along::Between("P1:P4-P5".into())));
+        assert_eq!(list[1].parameters, [-0.5, 2.0]);
+        assert_eq!(requests(Some("1"), Some("3"), Some("0.25"), &[]).unwrap()[0], list[0]);
+        for bad in ["1:0.25", "x:1:0.2", "7:1:0.2", "0:1:0.2", "1:2:", "1:2:nan", "1"] {
+            assert!(requests(None, None, None, &[bad.to_string()]).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The wishes on the command line.
+
+use nalgebra::Point3;
+
+use crate::app::cli::failure::Failure;
+use crate::app::cli::poses;
+use crate::files::design::Design;
+use crate::platform::manipulator::{Body, LegIndex, inverse_condition, jacobian};
+use crate::synthesis::relocate::search::{Hole, MoveSearchOptions, Wishes};
+
+/// What an equivalent platform is to fulfil.
+#[derive(Debug, Default, clap::Args)]
+pub(in crate::app::cli::commands) struct WishArgs {
+    /// Search: every joint holds one leg
+    #[arg(long)]
+    no_shared_joints: bool,
+    /// Search: no two legs meet, taken as straight segments at the home pose
+    #[arg(long)]
+    no_crossing: bool,
+    /// Search: least distance between two legs; the leg diameter of the design when absent, else 0
+    #[arg(long, value_name = "D", requires = "no_crossing")]
+    clearance: Option<f64>,
+    /// Search: a joint of the body lies here, base:X,Y,Z or platform:X,Y,Z; repeat the option for several
+    #[arg(long, value_name = "BODY:X,Y,Z")]
+    hole: Vec<String>,
+    /// Search: the joint of this name moves here, with one of its legs; repeat the option for several
+    #[arg(long, value_name = "NAME=X,Y,Z")]
+    joint: Vec<String>,
+    /// Search: least distance between two joints of one body; that of the design when absent, else a hundredth of its size
+    #[arg(long, value_name = "D")]
+    spacing: Option<f64>,
+    /// Search: least inverse condition number of the Jacobian; a tenth of the design's when absent
+    #[arg(long, value_name = "X")]
+    conditioning: Option<f64>,
+    /// Search: greatest distance of a joint from the centre of its body, in sizes of the design; 1.5 when absent
+    #[arg(long, value_name = "X")]
+    reach: Option<f64>,
+    /// Search: judge all poses of the workspace of the design, not only the home pose
+    #[arg(long)]
+    workspace: bool,
+    /// Search: number of platforms that are listed; 5 when absent
+    #[arg(long, value_name = "N")]
+    count: Option<usize>,
+}
+
+/// Share of the size that two joints keep apart when nothing else is said.
+const SPACING_SHARE: f64 = 0.01;
+/// Share of the design's own inverse condition number that is asked for.
+const CONDITIONING_SHARE: f64 = 0.1;
+/// Default of `--reach`.
+const REACH: f64 = 1.5;
+
+impl WishArgs {
+    /// The first wish that is there.
+    pub(super) fn first_given(&self) -> Option<&'static str> {
+        let given = [
+            (self.no_shared_joints, "--no-shared-joints"),
+            (self.no_crossing, "--no-crossing"),
+            (!self.hole.is_empty(), "--hole"),
+            (!self.joint.is_empty(), "--joint"),
+            (self.spacing.is_some(), "--spacing"),
+            (self.conditioning.is_some(), "--conditioning"),
+            (self.reach.is_some(), "--reach"),
+            (self.workspace, "--workspace"),
+            (self.count.is_some(), "--count"),
+        ];
+        given.into_iter().find(|(is, _)| *is).map(|(_, name)| name)
+    }
+
+    /// The one wish that no joint is shared, everything else by default.
+    pub(in crate::app::cli::commands) fn no_shared_joints() -> Self {
+        Self { no_shared_joints: true, ..Self::default() }
+    }
+
+    /// The wishes, with defaults from the design.
+    pub(in crate::app::cli::commands) fn wishes(&self, design: &Design) -> Result<Wishes, Failure> {
+        let asked =
+            self.no_shared_joints || self.no_crossing || !self.hole.is_empty() || !self.joint.is_empty();
+        if !asked && self.spacing.is_none() && self.conditioning.is_none() && self.reach.is_none() {
+            return Err(Failure::refused("move::no_wish", "a search needs a wish").with_help(
+                "--no-shared-joints, --no-crossing, --hole, --joint, --spacing, --conditioning, --reach",
+            ));
+        }
+        let m = design.manipulator();
+        let (size, hardware) = (m.size(), design.hardware);
+        let home = poses::home(design);
+        let poses = if self.workspace { design.workspace.sample(&home) } else { vec![home] };
+        let length = design.characteristic_length();
+        let own = poses.iter().map(|p| inverse_condition(&jacobian(m, p, length))).fold(f64::MAX, f64::min);
+        let housings = Body::BOTH.into_iter().flat_map(|body| (0..6).map(move |leg| (body, leg)));
+        let widths =
+            housings.filter_map(|(body, leg)| hardware.housing(body, leg)).map(|h| h.greatest_width());
+        let spacing = self.spacing.or(widths.reduce(f64::max)).or(design.optimize.min_joint_distance);
+        let mut holes = Vec::new();
+        for text in &self.hole {
+            holes.push(hole(text)?);
+        }
+        for text in &self.joint {
+            holes.push(joint(text, design)?);
+        }
+        Ok(Wishes {
+            no_shared_joints: self.no_shared_joints,
+            spacing: spacing.unwrap_or(SPACING_SHARE * size),
+            clearance: self
+                .no_crossing
+                .then(|| self.clearance.or(hardware.leg_body.map(|b| b.diameter)).unwrap_or(0.0)),
+            holes,
+            conditioning: self.conditioning.unwrap_or(CONDITIONING_SHARE * own),
+            reach: self.reach.unwrap_or(REACH) * size,
+            poses,
+            characteristic_length: length,
+        })
+    }
+
+    pub(in crate::app::cli::commands) fn options(&self, seed: u64) -> MoveSearchOptions {
+        let default = MoveSearchOptions::default();
+        MoveSearchOptions { seed, count: self.count.unwrap_or(default.count), ..default }
+    }
+}
+
+fn point(text: &str, whole: &str) -> Result<Point3<f64>, Failure> {
+    let values: Option<Vec<f64>> =
+        text.split(',').map(|x| x.trim().parse::<f64>().ok().filter(|x| x.is_finite())).collect();
+    match values.as_deref() {
+        Some([x, y, z]) => Ok(Point3::new(*x, *y, *z)),
+        _ => Err(Failure::refused(
+            "move::bad_hole",
+            format!("`{whole}`: `{text}` is not three finite numbers"),
+        )
+        .with_help("--hole base:X,Y,Z or --joint NAME=X,Y,Z, in the frame of the body")),
+    }
+}
+
+fn hole(text: &str) -> Result<Hole, Failure> {
+    let named = text.split_once(':').and_then(|(body, place)| Some((body.parse().ok()?, place)));
+    let Some((body, place)) = named else {
+        return Err(Failure::refused("move::bad_hole", format!("`{text}` names no body"))
+            .with_help("base:X,Y,Z or platform:X,Y,Z"));
+    };
+    Ok(Hole { body, point: point(place, text)?, legs: Vec::new() })
+}
+
+/// `NAME=X,Y,Z`: the legs at the joint NAME are those of which one has to go there.
+fn joint(text: &str, design: &Design) -> Result<Hole, Failure> {
+    let (name, place) = text.rsplit_once('=').unwrap_or((text, ""));
+    let names = design.leg_names();
+    let legs = |body: Body| LegIndex::all().filter(|l| body.of(names[l.get()]) == name).collect::<Vec<_>>();
+    let (base, platform) = (legs(Body::Base), legs(Body::Platform));
+    let (body, legs) = match (base.is_empty(), platform.is_empty()) {
+        (false, true) => (Body::Base, base),
+        (true, false) => (Body::Platform, platform),
+        (false, false) => {
+            let message = format!("`{name}` is a joint of both bodies");
+            return Err(Failure::refused("move::ambiguous_joint", message).with_help("use --hole BODY:X,Y,Z"));
+        }
+        (true, true) => {
+            let known: Vec<&String> = design.base_names().iter().chain(design.platform_names()).collect();
+            let known: Vec<&str> = known.into_iter().map(String::as_str).collect();
+            return Err(Failure::refused("move::no_such_joint", format!("no leg has a joint `{name}`"))
+                .with_help(format!("joints: {}", known.join(", "))));
+        }
+    };
+    Ok(Hole { body, point: point(place, text)?, legs })
+}

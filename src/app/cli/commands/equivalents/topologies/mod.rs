@@ -1,0 +1,240 @@
+//! `equipod equivalents topologies`: the joint-sharing topologies, their numbers of poses, pictures and designs.
+
+mod rearrangements;
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use nalgebra::Point3;
+
+use crate::app::bench::{Class, LengthsFrom, Planar, problem};
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::output::Answer;
+use crate::app::records::{
+    RearrangementRecord, RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord,
+    VirtualLegsRecord,
+};
+use crate::files::design::Design;
+use crate::files::plot::{TopologyFigure, topology_diagram, topology_sheet};
+use crate::fk::distance::{ClosureDegrees, generic_degrees};
+use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
+use crate::num::Purpose;
+use crate::platform::manipulator::{Manipulator, default_home};
+use crate::platform::topology::{NamedTopology, Recognised, Sequence, catalogue, recognise};
+
+/// Arguments of `equivalents topologies`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json): name its topology only
+    design: Option<PathBuf>,
+    /// Number of random members of each topology that are solved to count its poses
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    members: u64,
+    /// Write a picture of all topologies that are listed
+    #[arg(long, value_name = "FILE")]
+    svg: Option<OutputPath>,
+    /// Write a representative design (T01.toml, ...) and a picture (T01.svg, ...) of each into this folder
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<OutputPath>,
+    /// Say also what equivalent rearrangement can do for each, with bodies in space or in a plane: the fewest shared joints, octahedral or not; with -o, write the designs that show it
+    #[arg(long)]
+    rearrangements: bool,
+}
+
+/// A topology with what was computed.
+struct TopologyEntry {
+    named: NamedTopology,
+    sequence: Sequence,
+    decoupled: bool,
+    poses: u32,
+    proved: bool,
+    /// Of the closure polynomial of a random member, where at most one virtual leg is needed.
+    closure: Option<ClosureDegrees>,
+}
+
+/// Lists the catalogue, or the topology of one design.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let mut wanted = catalogue();
+    let count = wanted.len();
+    let (mut of_design, mut by_virtual_legs) = (None, None);
+    if let Some(path) = &args.design {
+        let design = context.load(path)?;
+        let found = recognised(&design)?;
+        of_design = Some(RecognisedRecord {
+            name: design.name.clone(),
+            id: found.topology.id(),
+            topology: found.topology.name(),
+            exchanged: found.exchanged,
+        });
+        wanted = vec![found.topology];
+    } else {
+        by_virtual_legs = Some(VirtualLegsRecord::of(&wanted));
+    }
+    let moved = if args.rearrangements { Some(rearrangements::cases(&wanted)?) } else { None };
+    let entries = wanted.into_iter().map(|t| entry(t, args.members, context.seed()));
+    let entries = entries.collect::<Result<Vec<TopologyEntry>, Failure>>()?;
+    write_files(args, &entries)?;
+    if let Some(list) = &moved {
+        args.output.iter().try_for_each(|folder| rearrangements::write(folder, list))?;
+    }
+    let exit = if entries.iter().all(|e| e.proved) { Exit::Yes } else { Exit::Inconclusive };
+    let answer = TopologiesAnswer {
+        count,
+        design: of_design,
+        by_virtual_legs,
+        members: args.members,
+        topologies: entries.iter().map(record).collect(),
+        rearrangements: moved.map(|list| list.iter().map(RearrangementRecord::from).collect()),
+    };
+    let text = text(&answer);
+    Ok(Answer::new(exit, answer, text))
+}
+
+fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<TopologyEntry, Failure> {
+    let t = named.topology();
+    let mut votes: BTreeMap<u32, (u64, bool)> = BTreeMap::new();
+    for k in 0..members {
+        let class = Class::Topology { topology: named, planar: Planar::Neither };
+        let internal =
+            |e: &dyn std::fmt::Display| Failure::internal(format!("{}, member {k}: {e}", named.id()));
+        let member = problem(class, LengthsFrom::Pose, seed, k).map_err(|e| internal(&e))?;
+        let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
+        let found =
+            Homotopy.solve(&member.manipulator, &member.squares, &options).map_err(|e| internal(&e))?;
+        let vote = votes.entry(found.count_with_multiplicity()).or_default();
+        vote.0 += 1;
+        vote.1 |= matches!(found.completeness, Completeness::Proved { .. });
+    }
+    // a proved count is that of all generic members; without one, what was found most often
+    let best = votes.into_iter().max_by_key(|(count, (times, proved))| (*proved, *times, *count));
+    let (poses, (_, proved)) = best.unwrap_or_default();
+    let sequence = t.trilateration();
+    let closure = generic_degrees(&t.legs(), &sequence, seed).ok();
+    Ok(TopologyEntry { named, sequence, decoupled: t.is_decoupled(), poses, proved, closure })
+}
+
+fn record(e: &TopologyEntry) -> TopologyRecord {
+    (&TopologyFindings {
+        named: e.named,
+        sequence: &e.sequence,
+        decoupled: e.decoupled,
+        poses: e.poses,
+        proved: e.proved,
+        closure: e.closure.as_ref(),
+    })
+        .into()
+}
+
+fn text(r: &TopologiesAnswer) -> String {
+    let mut text = String::new();
+    if let Some(d) = &r.design {
+        let turned = if d.exchanged { ", base and platform exchanged" } else { "" };
+        let _ = writeln!(text, "{}: {} {}{turned}\n", d.name, d.id, d.topology);
+    }
+    text.push_str(
+        "id   name  legs                                    poses  proved  closure degree  virtual legs\n",
+    );
+    for t in &r.topologies {
+        let joined = |pairs: &[[String; 2]]| pairs.iter().map(|p| p.concat()).collect::<Vec<_>>().join(" ");
+        let closure = t.closure_degree.zip(t.closure_degree_before);
+        let _ = writeln!(
+            text,
+            "{:<4} {:<5} {:<39} {:>5}  {:<6}  {:<14}  {}{}{}",
+            t.id,
+            t.name,
+            joined(&t.legs),
+            t.finite_roots,
+            if t.finite_roots_proved { "yes" } else { "no" },
+            closure.map_or("-".to_string(), |(degree, before)| format!("{degree} from {before}")),
+            t.virtual_legs,
+            if t.virtual_legs == 0 { String::new() } else { format!(": {}", joined(&t.virtual_leg_joints)) },
+            if t.decoupled { " (decoupled)" } else { "" },
+        );
+    }
+    if let Some(list) = &r.rearrangements {
+        rearrangements::table(&mut text, list);
+    }
+    text
+}
+
+fn figure(e: &TopologyEntry) -> TopologyFigure {
+    let legs = match e.sequence.virtual_legs.len() {
+        0 => "trilaterable".to_string(),
+        1 if e.decoupled => "decoupled".to_string(),
+        1 => "1 virtual leg".to_string(),
+        n => format!("{n} virtual legs"),
+    };
+    TopologyFigure { topology: e.named, caption: format!("{} poses, {legs}", e.poses) }
+}
+
+fn sheet(entries: &[TopologyEntry]) -> String {
+    let figures: Vec<TopologyFigure> = entries.iter().map(figure).collect();
+    topology_sheet("Joint-sharing topologies of six-legged platforms", &figures)
+}
+
+/// The picture alone: of the topology of a design, or of all.
+pub(in crate::app::cli::commands) fn drawing(
+    design: Option<&Design>,
+    members: u64,
+    seed: u64,
+) -> Result<String, Failure> {
+    let wanted = match design {
+        Some(design) => vec![recognised(design)?.topology],
+        None => catalogue(),
+    };
+    let entries: Result<Vec<TopologyEntry>, Failure> =
+        wanted.into_iter().map(|t| entry(t, members, seed)).collect();
+    Ok(sheet(&entries?))
+}
+
+fn recognised(design: &Design) -> Result<Recognised, Failure> {
+    recognise(design.manipulator()).map_err(|why| {
+        let message = format!("{} has none of the {} topologies: {why}", design.name, catalogue().len());
+        Failure::new(Exit::No, "topologies::always_singular", message)
+    })
+}
+
+fn write_files(args: &Args, entries: &[TopologyEntry]) -> Result<(), Failure> {
+    if let Some(path) = &args.svg {
+        files::write_text(path, &sheet(entries))?;
+    }
+    let Some(folder) = &args.output else { return Ok(()) };
+    files::make_folder(folder)?;
+    for e in entries {
+        let file = |ending: &str| folder.join(format!("{}.{ending}", e.named.id()));
+        files::write_text(&file("svg"), &topology_diagram(&figure(e)))?;
+        files::write_text(&file("toml"), &representative(e)?.to_toml())?;
+    }
+    Ok(())
+}
+
+/// A member with its joints near two circles, thousandths of the base radius, at its default home pose.
+fn representative(e: &TopologyEntry) -> Result<Design, Failure> {
+    let t = e.named.topology();
+    let layout = t.layout();
+    // the same for every seed: the file belongs to the topology
+    let mut rng = Purpose::REPRESENTATIVES.item(0x34, e.named.number() as u64);
+    let mut ring = |angles: &[f64], radius: f64| -> Vec<Point3<f64>> {
+        let mut off = || rng.uniform(-0.12, 0.12);
+        let joint = |angle: &f64| {
+            let (sine, cosine) = (angle + off()).sin_cos();
+            let (r, z) = (radius * (1.0 + off()), off());
+            Point3::new(r * cosine, r * sine, z).map(|x| (1000.0 * x).round() / 1000.0)
+        };
+        angles.iter().map(joint).collect()
+    };
+    let (base, platform) = (ring(&layout.base, 1.0), ring(&layout.platform, 0.6));
+    let internal = |error: &dyn std::fmt::Display| Failure::internal(format!("{}: {error}", e.named.id()));
+    let m = Manipulator::try_new(base, platform, t.legs()).map_err(|e| internal(&e))?;
+    let home = default_home(&m);
+    let squares = home.squared_lengths(&m).ok_or_else(|| internal(&"the home pose has no leg lengths"))?;
+    let mut design = Design::new(format!("{} ({})", e.named.id(), e.named.name()), "1", m);
+    design.source = Some("made by equipod equivalents topologies".to_string());
+    design.description = Some(format!("representative of a joint-sharing topology with {} poses", e.poses));
+    design.lengths = Some(squares.lengths());
+    Ok(design)
+}

@@ -1,0 +1,65 @@
+//! What equivalent rearrangement can do for the topologies that are listed.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files;
+use crate::app::records::RearrangementRecord;
+use crate::files::design::Design;
+use crate::platform::manipulator::default_home;
+use crate::platform::topology::NamedTopology;
+use crate::synthesis::rearrangement::{Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement};
+
+/// All cases of these topologies.
+pub(super) fn cases(list: &[NamedTopology]) -> Result<Vec<Rearrangement>, Failure> {
+    let all = list.iter().flat_map(|t| PlanarBodies::of(*t).into_iter().map(|planar| (*t, planar)));
+    all.map(|(t, planar)| rearrangement(t, planar).map_err(|e| Failure::internal(e.to_string()))).collect()
+}
+
+/// The table in words.
+pub(super) fn table(text: &mut String, list: &[RearrangementRecord]) {
+    text.push_str("\nid   name  base   platform  shared joints  merged ends  octahedral         families of replaceable legs\n");
+    for r in list {
+        let _ = writeln!(
+            text,
+            "{:<4} {:<5} {:<6} {:<9} {:<14} {:<12} {:<18} {}",
+            r.id,
+            r.name,
+            r.base,
+            r.platform,
+            format!("{} -> {}", r.shared_joints, r.fewest_shared_joints),
+            format!("{} -> {}", r.merged_ends, r.fewest_merged_ends),
+            r.octahedral_reason.as_deref().unwrap_or("yes"),
+            r.family_names,
+        );
+    }
+}
+
+/// Writes the member, the equivalent design with fewest shared joints, and the octahedral one where there is one.
+pub(super) fn write(folder: &Path, list: &[Rearrangement]) -> Result<(), Failure> {
+    for r in list {
+        let [base, platform] = r.planar.names();
+        let stem = format!("{}-{base}-{platform}", r.topology.id());
+        let octahedral = match &r.octahedral {
+            Reduction::Octahedral(design) => Some(("octahedral", design)),
+            Reduction::Not(_) => None,
+        };
+        let designs = [("member", &r.member), ("fewest", &r.fewest)].into_iter().chain(octahedral);
+        for (name, arrangement) in designs {
+            let title = format!("{} ({}), {base} {platform}: {name}", r.topology.id(), r.topology.name());
+            let text = design(&title, arrangement)?.to_toml();
+            files::write_text(&folder.join(format!("{stem}-{name}.toml")), &text)?;
+        }
+    }
+    Ok(())
+}
+
+fn design(title: &str, arrangement: &Arrangement) -> Result<Design, Failure> {
+    let m = arrangement.manipulator().map_err(|e| Failure::internal(format!("{title}: {e}")))?;
+    let lengths = default_home(&m).squared_lengths(&m).map(|s| s.lengths());
+    let mut design = Design::new(title.to_string(), "1", m);
+    design.source = Some("made by equipod equivalents topologies --rearrangements".to_string());
+    design.lengths = lengths;
+    Ok(design)
+}

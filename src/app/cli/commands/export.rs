@@ -1,0 +1,179 @@
+//! `equipod export`: files for other programs.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::output::Answer;
+use crate::app::cli::requirements;
+use crate::app::entrance::exporting::octahedral_of_controllers;
+use crate::app::records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord, Number};
+use crate::files::design::Design;
+use crate::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
+
+/// Arguments of `export`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json)
+    design: PathBuf,
+    /// Formats, separated by commas, or `all`
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',', required = true, value_parser = PossibleValuesParser::new(names()))]
+    to: Vec<String>,
+    /// Folder to write into; it is made where it does not exist
+    #[arg(short, long, value_name = "DIR")]
+    output: OutputPath,
+    /// Unit of length of the design, where its label is not one: um, mm, cm, m, in, ft
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
+    /// Thickness of the plates, design units
+    #[arg(long, value_name = "LENGTH")]
+    thickness: Option<f64>,
+    /// Distance of the outline of a plate from the hull of its joints, design units
+    #[arg(long, value_name = "LENGTH")]
+    margin: Option<f64>,
+    /// Diameter of the holes under the joints, design units
+    #[arg(long, value_name = "LENGTH")]
+    hole_diameter: Option<f64>,
+    /// Diameter of the balls, design units
+    #[arg(long, value_name = "LENGTH")]
+    ball_diameter: Option<f64>,
+    /// Mass of the platform with its payload in the simulation, kilograms
+    #[arg(long, value_name = "KG")]
+    mass: Option<f64>,
+    /// Let the simulator carry the weight of all bodies
+    #[arg(long)]
+    gravity_compensation: bool,
+}
+
+/// The names `--to` takes.
+fn names() -> Vec<&'static str> {
+    ExportFormat::ALL.map(ExportFormat::name).into_iter().chain(["all"]).collect()
+}
+
+fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
+    let unit = args.unit.as_deref().map(LengthUnit::of).transpose();
+    let unit = unit.map_err(|e| Failure::refused("export::unknown_unit", format!("--unit: {e}")))?;
+    let options = ExportOptions {
+        unit,
+        thickness: args.thickness,
+        margin: args.margin,
+        hole: args.hole_diameter,
+        ball: args.ball_diameter,
+        mass: args.mass,
+        gravity_compensation: args.gravity_compensation,
+    };
+    Export::of(design, &options).map_err(|why| refusal(&why))
+}
+
+fn refusal(why: &NoExport) -> Failure {
+    match why {
+        NoExport::Unit(e) => {
+            Failure::refused("export::unknown_unit", format!("the units of the design cannot be used: {e}"))
+                .with_help("`--unit mm` says what one unit of the design is")
+        }
+        other => Failure::refused("export::bad_size", other.to_string()),
+    }
+}
+
+/// A design for all formats, sizes by the design and by rule.
+///
+/// # Errors
+/// Exit 2: units that are no lengths, sizes that nothing can be made of.
+pub(super) fn plain(design: &Design) -> Result<Export, Failure> {
+    Export::of(design, &ExportOptions::default()).map_err(|why| match why {
+        NoExport::Unit(_) => refusal(&why).with_help("name a unit of length, such as `units = \"mm\"`"),
+        other => refusal(&other),
+    })
+}
+
+/// The formats asked for, each once, in the order of the list.
+fn wanted(args: &Args) -> Vec<&'static dyn Writer> {
+    let all = args.to.iter().any(|t| t == "all");
+    let asked = |f: &ExportFormat| all || args.to.iter().any(|t| t == f.name());
+    ExportFormat::ALL.into_iter().filter(asked).map(ExportFormat::writer).collect()
+}
+
+fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
+    Ok(files::write_into(folder, &file.name, &file.text)?.display().to_string())
+}
+
+/// Writes every format that can hold the design; exit 1 when one cannot.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load_with_cranks(&args.design)?;
+    let coupled = Context::coupled_of(&design)?.is_some();
+    if coupled && !wanted(args).iter().any(|f| f.takes_coupled()) {
+        // refused with the place in the file: no format asked for holds such joints
+        context.load(&args.design)?;
+    }
+    let simulated = args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name());
+    if !simulated {
+        for option in ["mass", "gravity_compensation"] {
+            context.no_effect(option, "only the simulator's format, mjcf, holds masses")?;
+        }
+    }
+    let mut export = model(args, &design)?;
+    let controller = wanted(args).iter().any(|f| f.name() == ExportFormat::C.name());
+    if controller && export.cranks.is_none() && !coupled {
+        export = export.with_octahedral(octahedral_of_controllers(&design));
+    }
+    files::make_folder(&args.output)?;
+    let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), String::new());
+    for format in wanted(args) {
+        let (files, outcome) = match export.files(format) {
+            Ok(made) => {
+                let paths = made.iter().map(|f| write(&args.output, f));
+                let paths = paths.collect::<Result<Vec<_>, _>>()?;
+                for path in &paths {
+                    let _ = writeln!(text, "wrote {path}");
+                }
+                if !format.leaves_out().is_empty() {
+                    let _ = writeln!(text, "  {} leaves out {}", format.name(), format.leaves_out());
+                }
+                (paths, FormatOutcome::Written { leaves_out: format.leaves_out().into() })
+            }
+            Err(why) => {
+                exit = Exit::No;
+                let _ = writeln!(text, "{} not written: {why}", format.name());
+                (Vec::new(), FormatOutcome::Refused { refused: why.to_string() })
+            }
+        };
+        let (name, purpose) = (format.name().into(), format.purpose().into());
+        formats.push(FormatRecord { format: name, purpose, files, outcome });
+    }
+    // what is assessed are legs that change their lengths
+    let assessment = if design.has_cranks() { None } else { AssessAnswer::of(&design, context.seed()) };
+    let lead = if design.has_cranks() {
+        format!("{} has cranks: `equipod ik` says what remains of their limits at a pose\n", design.name)
+    } else {
+        requirements::lead(&design.name, assessment.as_ref())
+    };
+    let text = format!("{lead}\n{text}");
+    let mut text = text;
+    let mut record = ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats);
+    if simulated {
+        record.assumptions = simulator_assumptions(&design);
+    }
+    text.push_str("sizes\n");
+    for c in &record.sizes {
+        let Number(x) = c.value;
+        let value = if x < 1e-3 { format!("{x:.4e}") } else { format!("{x:.6}") };
+        let _ = writeln!(text, "  {:<36} {value:>12} {:<13} {}", c.what, c.unit, c.from);
+    }
+    for line in &record.assumptions {
+        let _ = writeln!(text, "{line}");
+    }
+    Ok(Answer::new(exit, record, text))
+}
+
+/// What the model of the simulator takes of masses because the design doesn't say it.
+fn simulator_assumptions(design: &Design) -> Vec<String> {
+    if design.moving_payload().is_some() {
+        return design.mass_assumptions();
+    }
+    vec!["The design has no [payload]: the platform is a ball in the middle of its joints.".to_owned()]
+}

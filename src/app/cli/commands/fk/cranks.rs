@@ -1,0 +1,229 @@
+//! `equipod fk DESIGN --angles`: poses for given angles of cranks.
+//!
+//! With the cranks at these angles their tips are base joints and the rods legs of known lengths: what is solved and certified is the platform on the tips, rounded to doubles.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::near::{self, Machine};
+use super::{Args, Table, exit_of, failure_of, render, threads};
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::numbers;
+use crate::app::cli::output::Answer;
+use crate::app::cli::poses;
+use crate::app::cli::rows::{self, TableName};
+use crate::app::records::{
+    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
+};
+use crate::files::design::{Design, SeriesKind, SeriesRow, TimeSeries};
+use crate::fk::{self, FkOptions, FkSolutions};
+use crate::machine::rotary::{RotaryFkError, RotaryPlatform, RotaryTracker};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Manipulator;
+
+/// Six angles in degrees.
+type AnglesDeg = [f64; 6];
+
+const BAD_ANGLES: &str = "fk::bad_angles";
+
+/// Angles of one line, or of a table.
+fn given(option: Option<&str>, context: &Context) -> Result<TimeSeries<AnglesDeg>, Failure> {
+    let Some(text) = option else {
+        return Err(Failure::refused(
+            "fk::no_angles",
+            "the legs are rods on cranks, and --angles was not given",
+        )
+        .with_help("give --angles a1,a2,a3,a4,a5,a6 in degrees, or --angles FILE.csv"));
+    };
+    let six =
+        |line: &str| numbers::parse::<6>(line).ok_or_else(|| format!("`{line}` is not six finite angles"));
+    if text.contains(',') || text.parse::<f64>().is_ok() {
+        let value = six(text).map_err(|message| {
+            Failure::refused(BAD_ANGLES, format!("--angles: {message}"))
+                .with_help("give six angles in degrees separated by commas, or a CSV file")
+        })?;
+        let rows = vec![SeriesRow { line: 0, time: None, value }];
+        return Ok(TimeSeries { time_name: None, rows, guesses: Vec::new() });
+    }
+    let form = "six angles in degrees a line: a1,a2,a3,a4,a5,a6";
+    rows::read(SeriesKind::Angles, TableName { path: Path::new(text), code: BAD_ANGLES, form }, context, six)
+}
+
+/// Poses for the angles of the options.
+pub(super) fn run(
+    args: &Args,
+    (design, platform): (&Design, &RotaryPlatform),
+    context: &Context,
+) -> Result<Answer, Failure> {
+    context.no_effect(
+        "lengths",
+        "the rods of a design with cranks have one length; poses are asked for by --angles",
+    )?;
+    let series = given(args.angles.as_deref(), context)?;
+    let table = Table { wanted: args.csv, all: args.all, time_name: series.time_name.clone() };
+    // a line of the command has no number, those of a table count from 1
+    let one = series.rows.len() == 1 && series.rows[0].line == 0;
+    let machine = CrankMachine { design, platform, home: poses::home(design), seed: context.seed() };
+    let (exits, outcomes, mut text) = if let Some(start) = &args.near {
+        context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
+        let start = poses::parse(start, design, "--near", "fk::bad_pose")?;
+        machine.follow(&series.rows, &start)?
+    } else {
+        if one {
+            context.no_effect(
+                "threads",
+                "one set of angles is solved on one thread, the rows of a CSV file on many",
+            )?;
+        }
+        let method = args.method.method();
+        let options = FkOptions { seed: machine.seed, method, ..FkOptions::default() };
+        let solve = |i: usize| machine.solve(&series.rows[i].value, &options);
+        let solved = fk::in_order(series.rows.len(), threads(args.threads), &solve);
+        if let (true, Some(Err(failure))) = (one, solved.first()) {
+            return Err(failure.clone());
+        }
+        let exits = solved.iter().map(|s| s.as_ref().map_or_else(|f| f.exit, |(exit, _)| *exit)).collect();
+        let outcome = |found: Result<(Exit, FkOneAnswer), Failure>| match found {
+            Ok((_, answer)) => FkRowOutcome::Solved(Box::new(answer)),
+            Err(failure) => FkRowOutcome::Failed(RowFailure { error: (&failure).into() }),
+        };
+        (exits, solved.into_iter().map(outcome).collect(), String::new())
+    };
+    let exit = exits.into_iter().fold(Exit::Yes, Exit::max);
+    let answer = machine.answer(one, &series.rows, outcomes);
+    match &answer {
+        FkAnswer::One(answer) => {
+            text.push_str(&render::text(&design.name, &answer.solved));
+            text.push_str(&render::elbows(&answer.solved));
+            text.push_str(&beyond_limits(answer, ""));
+            text.push_str(&symmetric(answer));
+        }
+        FkAnswer::Rows(answer) => {
+            if args.near.is_none() {
+                text.push_str("line  method         finite  real  complete\n");
+                text.extend(answer.rows.iter().map(render::table_row));
+            }
+            for row in &answer.rows {
+                if let FkRowOutcome::Solved(answer) = &row.outcome {
+                    text.push_str(&beyond_limits(answer, &format!("line {}: ", row.line)));
+                }
+            }
+        }
+    }
+    let text = table.text(design, &answer).unwrap_or(text);
+    Ok(Answer::new(exit, answer, text))
+}
+
+/// The cranks that are beyond their limits at the angles given, with words before them; nothing where there are none.
+fn beyond_limits(answer: &FkOneAnswer, before: &str) -> String {
+    let legs: Vec<String> = answer.outside.iter().map(ToString::to_string).collect();
+    if legs.is_empty() {
+        return String::new();
+    }
+    let (crank, is) = if legs.len() == 1 { ("crank of leg", "is") } else { ("cranks of legs", "are") };
+    format!("{before}the {crank} {} {is} beyond `angle_deg`\n", legs.join(", "))
+}
+
+/// What a theorem says of symmetric tips.
+fn symmetric(answer: &FkOneAnswer) -> String {
+    let Some(count) = answer.symmetric_finite else { return String::new() };
+    let certified = answer.solved.solutions.iter().filter(|s| s.certified).count();
+    let listed = if certified == count {
+        "that many are certified here; poses that the tips as doubles have besides are due to rounding"
+    } else {
+        "not all of them are certified here"
+    };
+    format!(
+        "Tips and joints have the symmetry of three turns, to rounding: the exactly symmetric platform has {count} finite poses, and {listed}.\n"
+    )
+}
+
+/// A machine with cranks, of which poses are asked for.
+struct CrankMachine<'a> {
+    design: &'a Design,
+    platform: &'a RotaryPlatform,
+    home: Pose,
+    seed: u64,
+}
+
+impl CrankMachine<'_> {
+    fn solve(&self, degrees: &AnglesDeg, options: &FkOptions) -> Result<(Exit, FkOneAnswer), Failure> {
+        let angles = degrees.map(f64::to_radians);
+        let found: FkSolutions = self.platform.fk(&angles, options).map_err(|why| match why {
+            RotaryFkError::Fk(why) => failure_of(&why),
+            other => Failure::refused(BAD_ANGLES, other.to_string()),
+        })?;
+        let tips = self.tips(&angles)?;
+        let solved = SolvedRecord::from(&found).with_real_poses(&tips, &self.home);
+        let solved = solved.with_elbows(self.platform, &angles);
+        let symmetric_finite = self.platform.symmetric_pose_count(&angles);
+        let answer = FkOneAnswer { symmetric_finite, ..solved.into() };
+        Ok((exit_of(&found), answer.with_angles(self.platform, &angles, *degrees)))
+    }
+
+    fn tips(&self, angles: &[f64; 6]) -> Result<Manipulator, Failure> {
+        self.platform.at(angles).map_err(|why| Failure::refused(BAD_ANGLES, why.to_string()))
+    }
+
+    /// Follows one pose from the angles that the cranks have there. A row that is not tracked leaves the next to start from the last tracked pose.
+    fn follow(
+        &self,
+        rows: &[SeriesRow<AnglesDeg>],
+        start: &Pose,
+    ) -> Result<(Vec<Exit>, Vec<FkRowOutcome>, String), Failure> {
+        let angles = self.platform.ik(start).map_err(|why| {
+            Failure::refused("fk::bad_pose", format!("--near: the cranks do not hold this pose: {why}"))
+                .with_help("give a pose that `equipod ik` finds angles for")
+        })?;
+        let mut tracker = RotaryTracker::new(self.platform.clone(), *start, angles);
+        let one = rows.len() == 1 && rows[0].line == 0;
+        let (mut exits, mut outcomes) = (Vec::new(), Vec::new());
+        let mut text = String::new();
+        if !one {
+            text.push_str("line  outcome           segments  inverse condition  position\n");
+        }
+        for row in rows {
+            let from = tracker.pose();
+            let angles = row.value.map(f64::to_radians);
+            let found = tracker.step(&angles);
+            let outcome = found.map_err(|why| Failure::refused(BAD_ANGLES, why.to_string()))?;
+            let tips = self.tips(&angles)?;
+            let machine = Machine {
+                m: &tips,
+                home: self.home,
+                characteristic_length: self.design.characteristic_length(),
+            };
+            let mut record = near::record(&machine, self.platform.rods(), &from, &outcome, self.seed);
+            record.solved = record.solved.with_elbows(self.platform, &angles);
+            record = record.with_angles(self.platform, &angles, row.value);
+            exits.push(near::exit_of(&outcome));
+            if one {
+                text.push_str(&near::sentence(&machine, &outcome));
+            } else {
+                let _ = writeln!(text, "{}", near::line(row.line, &machine, &outcome));
+            }
+            outcomes.push(FkRowOutcome::Solved(Box::new(record)));
+        }
+        Ok((exits, outcomes, text))
+    }
+
+    fn answer(&self, one: bool, rows: &[SeriesRow<AnglesDeg>], outcomes: Vec<FkRowOutcome>) -> FkAnswer {
+        let row = |(row, outcome): (&SeriesRow<AnglesDeg>, FkRowOutcome)| FkRowRecord {
+            line: row.line,
+            time: row.time,
+            lengths: self.platform.rods().get(),
+            angles_deg: Some(row.value),
+            outcome,
+        };
+        let mut rows: Vec<FkRowRecord> = rows.iter().zip(outcomes).map(row).collect();
+        match rows.pop() {
+            Some(FkRowRecord { outcome: FkRowOutcome::Solved(answer), .. }) if one => FkAnswer::One(answer),
+            last => {
+                rows.extend(last);
+                FkAnswer::Rows(FkRowsAnswer { rows })
+            }
+        }
+    }
+}

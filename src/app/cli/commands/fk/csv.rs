@@ -1,0 +1,121 @@
+//! Poses as a table that other programs read without options: one pose a row, units in the names of the columns.
+
+use crate::app::cli::table::{column_unit, csv_line, number};
+use crate::app::records::{CompletenessWord, FkAnswer, FkOneAnswer, FkRowOutcome, SideWord, SolutionRecord};
+use crate::files::design::Design;
+
+/// Cells of a pose between its number and the completeness.
+const BESIDE_COMPLETENESS: usize = 14;
+
+/// What `--csv` asks for.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Table {
+    /// Whether it was asked for.
+    pub(super) wanted: bool,
+    /// Complex poses too.
+    pub(super) all: bool,
+    /// The column of times of the lengths.
+    pub(super) time_name: Option<String>,
+}
+
+impl Table {
+    /// The table, where it was asked for.
+    pub(super) fn text(&self, design: &Design, answer: &FkAnswer) -> Option<String> {
+        if !self.wanted {
+            return None;
+        }
+        let many = matches!(answer, FkAnswer::Rows(_));
+        let mut out = csv_line(&self.header(&design.units, many));
+        match answer {
+            FkAnswer::One(one) => self.poses(&mut out, &[], one),
+            FkAnswer::Rows(answer) => {
+                for (k, row) in answer.rows.iter().enumerate() {
+                    let mut before = vec![(k + 1).to_string()];
+                    if self.time_name.is_some() {
+                        before.push(row.time.map(number).unwrap_or_default());
+                    }
+                    match &row.outcome {
+                        FkRowOutcome::Solved(one) => self.poses(&mut out, &before, one),
+                        FkRowOutcome::Failed(_) => self.nothing(&mut out, &before, "failed"),
+                    }
+                }
+            }
+        }
+        Some(out)
+    }
+
+    fn header(&self, units: &str, many: bool) -> Vec<String> {
+        let unit = column_unit(units);
+        let mut names: Vec<String> = Vec::new();
+        if many {
+            names.push("row".into());
+            names.extend(self.time_name.clone());
+        }
+        names.extend(["pose", "nearest_home", "mode"].map(String::from));
+        names.extend(["x", "y", "z"].map(|axis| format!("{axis}_{unit}")));
+        let angles = ["roll_deg", "pitch_deg", "yaw_deg", "qw", "qx", "qy", "qz"];
+        names.extend(angles.into_iter().chain(["real", "certified", "completeness"]).map(String::from));
+        if self.all {
+            for part in ["", "_im"] {
+                names.extend(["x", "y", "z"].map(|axis| format!("p{axis}{part}_{unit}")));
+                names.extend((1..=3).flat_map(|i| (1..=3).map(move |j| format!("r{i}{j}{part}"))));
+            }
+        }
+        names
+    }
+
+    /// A row for each pose that is not known to be complex, the real ones from the nearest to home on; with `all` the complex ones after them.
+    fn poses(&self, out: &mut String, before: &[String], one: &FkOneAnswer) {
+        let far = |s: &SolutionRecord| s.real_pose.map_or(f64::INFINITY, |p| p.distance_from_home);
+        let points = one.solved.solution_set.witness_points().iter().chain(&one.solved.solutions);
+        let mut shown: Vec<&SolutionRecord> = points.filter(|s| self.all || s.real != Some(false)).collect();
+        shown.sort_by(|a, b| far(a).total_cmp(&far(b)));
+        let completeness = match one.solved.completeness {
+            CompletenessWord::Proved => "proved",
+            CompletenessWord::Modular => "modular",
+            CompletenessWord::Unproved => "unproved",
+        };
+        if shown.is_empty() {
+            self.nothing(out, before, completeness);
+        }
+        for (k, solution) in shown.into_iter().enumerate() {
+            let number = (k + 1).to_string();
+            let cells = before.iter().cloned().chain([number]).chain(self.pose(solution, completeness));
+            out.push_str(&csv_line(&cells.collect::<Vec<_>>()));
+        }
+    }
+
+    /// The line of lengths without a pose: nothing but what is known of them.
+    fn nothing(&self, out: &mut String, before: &[String], completeness: &str) {
+        let blank = |n: usize| vec![String::new(); n];
+        let mut cells = [before.to_vec(), blank(1 + BESIDE_COMPLETENESS), vec![completeness.into()]].concat();
+        cells.extend(if self.all { blank(24) } else { Vec::new() });
+        out.push_str(&csv_line(&cells));
+    }
+
+    /// The cells of a pose after its number; those that only real poses have are empty for the others.
+    fn pose(&self, solution: &SolutionRecord, completeness: &str) -> Vec<String> {
+        let mut cells = Vec::new();
+        if let Some(pose) = &solution.real_pose {
+            let mode = pose.mode.map_or("", |side| match side {
+                SideWord::Above => "above",
+                SideWord::Below => "below",
+            });
+            cells.extend([pose.nearest_home.to_string(), mode.to_string()]);
+            let values = pose.position.iter().chain(&pose.rpy_deg).chain(&pose.quat_wxyz);
+            cells.extend(values.map(|x| number(*x)));
+        } else {
+            cells.push("false".to_string());
+            cells.extend(vec![String::new(); 11]);
+        }
+        cells.push(solution.real.map_or("undecided", |real| if real { "true" } else { "false" }).into());
+        cells.extend([solution.certified.to_string(), completeness.to_string()]);
+        if self.all {
+            let (p, r) = (&solution.pose.position, &solution.pose.rotation);
+            for (p, r) in [(&p.re, &r.re), (&p.im, &r.im)] {
+                cells.extend(p.iter().chain(r.iter().flatten()).map(|x| number(x.0)));
+            }
+        }
+        cells
+    }
+}

@@ -1,0 +1,94 @@
+//! `fk --near` where joints are not ideal: the pose for lengths of drives.
+
+use super::Table;
+use super::lengths::{Given, ShownLengths};
+use super::near::{self, Followed, Machine, Proof};
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::numbers::listed;
+use crate::app::cli::output::Answer;
+use crate::app::records::{DriveSolutionRecord, NearWord};
+use crate::files::design::Design;
+use crate::fk::Reality;
+use crate::machine::coupled::{CoupledLegs, CoupledOutcome, CoupledStatus, CoupledTracker};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::LegLengths;
+
+/// Refuses what takes the lengths of drives for distances of joints.
+pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {
+    if !design.hardware.is_coupled() {
+        return Ok(());
+    }
+    let message =
+        "the joints are not ideal, and all poses for given lengths are found for distances of joints only";
+    let help = "give --near POSE to follow one pose, or remove `offset` and `screw_lead` from the file for the machine with ideal joints";
+    Err(Failure::refused("design::not_ideal", message.to_string()).with_help(help))
+}
+
+/// Follows one pose from `start`. A row without a pose leaves the next to start from the last one.
+pub(super) fn run(
+    design: &Design,
+    legs: CoupledLegs,
+    given: &Given,
+    start: Pose,
+    seed: u64,
+    table: &Table,
+) -> Answer {
+    let machine = Machine::of(design);
+    let mut tracker = CoupledTracker::new(legs, start);
+    near::followed(design, given, table, "line  position, and what is proved of it", |drives, number| {
+        one(&machine, &mut tracker, drives, number, seed)
+    })
+}
+
+fn one(
+    machine: &Machine<'_>,
+    tracker: &mut CoupledTracker,
+    given: &ShownLengths,
+    number: usize,
+    seed: u64,
+) -> Followed {
+    let from = tracker.pose();
+    let drives = given.distances;
+    let found = tracker.step(&drives.get());
+    let distances = LegLengths::try_new(found.distances).unwrap_or(drives);
+    // certificates are about distances; what is proved of the lengths of drives stands in the record of the drives
+    let proof = match found.status {
+        CoupledStatus::Proved(_) => Proof::Of(Some(Reality::Real)),
+        CoupledStatus::Unproved => Proof::Of(Some(Reality::Undecided)),
+        _ => Proof::Of(None),
+    };
+    let mut record = near::record_with(machine, &distances, (&from, &found.near), proof, seed);
+    let solution = DriveSolutionRecord::new(&given.shown, &found);
+    if let (Some(near), Some(why)) = (&mut record.near, &solution.reason)
+        && near.outcome == NearWord::Tracked
+    {
+        (near.outcome, near.reason) = (NearWord::Lost, Some(why.clone()));
+    }
+    let sentence = sentence(&found, &solution);
+    record.drives = Some(solution);
+    let exit = if matches!(found.status, CoupledStatus::Proved(_)) { Exit::Yes } else { Exit::Inconclusive };
+    Followed { exit, record, line: format!("{number:>4}  {sentence}"), sentence: sentence + "\n" }
+}
+
+fn sentence(found: &CoupledOutcome, solution: &DriveSolutionRecord) -> String {
+    let at = listed(found.near.pose().position.iter().copied(), 6);
+    match found.status {
+        CoupledStatus::Proved(bound) => format!(
+            "{at}: proved, the pose with these lengths of drives is within {:.1e} and {:.1e} degrees; {} step(s)",
+            bound.position,
+            bound.angle.to_degrees(),
+            found.steps
+        ),
+        CoupledStatus::Unproved => {
+            format!(
+                "{at}: UNPROVED, the corrections settled after {} step(s) and no bound of the error is proved",
+                found.steps
+            )
+        }
+        _ => {
+            let why = solution.reason.as_deref().unwrap_or_default();
+            format!("NO POSE after {} step(s): {why}; factor {:.2}", found.steps, found.factor)
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Leg lengths from the command line, a CSV file or the design.
+
+use std::path::Path;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::rows::{self, TableName};
+use crate::files::design::{Design, SeriesKind, SeriesRow, TimeSeries};
+use crate::platform::manipulator::LegLengths;
+
+/// Lengths as the legs show them, and the distances of their joints: less the offsets of a calibration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::app::cli::commands) struct ShownLengths {
+    pub(in crate::app::cli::commands) shown: [f64; 6],
+    pub(in crate::app::cli::commands) distances: LegLengths,
+}
+
+/// Lengths of one line of a table.
+pub(in crate::app::cli::commands) type Row = SeriesRow<ShownLengths>;
+
+/// One problem or many.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::app::cli::commands) enum Given {
+    One(ShownLengths),
+    Rows(TimeSeries<ShownLengths>),
+}
+
+/// `--lengths`, else the lengths of the design.
+pub(in crate::app::cli::commands) fn given(
+    option: Option<&str>,
+    design: &Design,
+    context: &Context,
+) -> Result<Given, Failure> {
+    let offsets = design.leg_offsets();
+    let bad = |option: &str, message: &str| {
+        Failure::refused("fk::bad_lengths", format!("{option}: {message}"))
+            .with_help("give six lengths separated by commas, or a CSV file")
+    };
+    let Some(text) = option else {
+        let own = design.lengths.ok_or_else(|| {
+            Failure::refused("fk::no_lengths", "the design has no `lengths` and --lengths was not given")
+                .with_help("give --lengths l1,l2,l3,l4,l5,l6 or --lengths FILE.csv")
+        })?;
+        return ShownLengths::new(own.get(), &offsets)
+            .map(Given::One)
+            .map_err(|why| bad("`lengths` of the design", &why));
+    };
+    if text.contains(',') || text.parse::<f64>().is_ok() {
+        return six(text, &offsets).map(Given::One).map_err(|message| bad("--lengths", &message));
+    }
+    rows(Path::new(text), &offsets, context).map(Given::Rows)
+}
+
+impl ShownLengths {
+    fn new(shown: [f64; 6], offsets: &[f64; 6]) -> Result<Self, String> {
+        let distances = LegLengths::try_new(std::array::from_fn(|i| shown[i] - offsets[i]));
+        let of_calibration = if offsets.iter().any(|d| *d != 0.0) {
+            " (the length shown, less the offset of the calibration)"
+        } else {
+            ""
+        };
+        let distances = distances.map_err(|why| format!("{why}{of_calibration}"))?;
+        Ok(Self { shown, distances })
+    }
+}
+
+/// Six comma-separated lengths.
+pub(in crate::app::cli::commands) fn six(text: &str, offsets: &[f64; 6]) -> Result<ShownLengths, String> {
+    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+    let fields: [&str; 6] =
+        fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of six", f.len()))?;
+    let mut values = [0.0; 6];
+    for (i, field) in fields.iter().enumerate() {
+        values[i] = field.parse().map_err(|_| format!("value {}, `{field}`, is not a number", i + 1))?;
+    }
+    ShownLengths::new(values, offsets)
+}
+
+/// A table with six lengths a line.
+fn rows(path: &Path, offsets: &[f64; 6], context: &Context) -> Result<TimeSeries<ShownLengths>, Failure> {
+    let form = "six lengths a line: l1,l2,l3,l4,l5,l6";
+    rows::read(SeriesKind::Lengths, TableName { path, code: "fk::bad_lengths", form }, context, |text| {
+        six(text, offsets)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::design::InvalidSeries;
+
+    #[test]
+    fn csv_takes_a_header_comments_and_names_all_bad_lines() {
+        let good = "l1,l2,l3,l4,l5,l6\n\n# note\n1,2,3,4,5,6\n 6, 5,4,3,2,1.5 \r\n";
+        let found = SeriesKind::Lengths.read(good.as_bytes(), |text| six(text, &[0.0; 6])).unwrap().rows;
+        assert_eq!(found.iter().map(|r| r.line).collect::<Vec<_>>(), [4, 5]);
+        assert!((found[1].value.shown[5] - 1.5).abs() < 1e-15);
+        let bad = "1,2,3,4,5,6\n1,2,3\n1,2,x,4,5,6\n1,2,3,4,5,-6\n1,2,3,4,5,inf\n";
+        let why =
+            SeriesKind::Lengths.read(bad.as_bytes(), |text| six(text, &[0.0; 6])).unwrap_err().to_string();
+        for line in ["line 2: 3 values", "line 3: value 3, `x`", "line 4: ", "line 5: "] {
+            assert!(why.contains(line), "{why}");
+        }
+        let header_alone = SeriesKind::Lengths.read(b"a,b\n", |text| six(text, &[0.0; 6]));
+        assert_eq!(header_alone, Err(InvalidSeries::Empty), "a header alone is no data");
+    }
+
+    #[test]
+    fn the_design_provides_lengths_when_the_option_is_absent() {
+        let context = Context::silent();
+        let mut design: Design = include_str!("../../../../../designs/rbt-octahedral.toml").parse().unwrap();
+        design.lengths = None;
+        assert_eq!(given(None, &design, &context).unwrap_err().code, "fk::no_lengths");
+        design.lengths = Some(LegLengths::try_new([1.0; 6]).unwrap());
+        let given = |option| given(option, &design, &context);
+        let own = ShownLengths::new([1.0; 6], &[0.0; 6]).unwrap();
+        assert_eq!(given(None).unwrap(), Given::One(own));
+        assert_eq!(given(Some("1,2,3")).unwrap_err().code, "fk::bad_lengths");
+        assert_eq!(given(Some("no-such-file.csv")).unwrap_err().code, "file::not_readable");
+    }
+
+    #[test]
+    fn joints_are_as_far_apart_as_a_leg_shows_less_its_offset() {
+        let offsets = [0.5, -0.25, 0.0, 9.0, -9.0, 3.0];
+        let given = six("1,1,1,10,-8,4", &offsets).unwrap();
+        assert_eq!((given.shown[4], given.distances.get()), (-8.0, [0.5, 1.25, 1.0, 1.0, 1.0, 1.0]));
+        let why = six("1,1,1,1,1,1", &offsets).unwrap_err();
+        assert!(why.contains("-8") && why.contains("less the offset of the calibration"), "{why}");
+    }
+}

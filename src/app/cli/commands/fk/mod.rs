@@ -1,0 +1,205 @@
+//! `equipod fk`: all poses for given leg lengths, or for given angles of cranks.
+
+mod cranks;
+mod csv;
+mod drives;
+pub(super) mod lengths;
+mod near;
+mod render;
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+use crate::app::cli::poses;
+use crate::app::records::{
+    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
+};
+use crate::fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{LegLengths, Manipulator};
+
+use self::csv::Table;
+use self::lengths::Given;
+
+/// Arguments of `fk`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json), or `-` for standard input
+    design: PathBuf,
+    /// Six lengths, or a table with six columns (`-` for standard input) and times where it has them; those of the design when absent
+    #[arg(long, value_name = "L1,..,L6|FILE")]
+    lengths: Option<String>,
+    /// Six angles of cranks in degrees, or a table with six columns (`-` for standard input), where the legs are rods on cranks
+    #[arg(long, value_name = "A1,..,A6|FILE", allow_hyphen_values = true, conflicts_with = "lengths")]
+    angles: Option<String>,
+    /// Method of solution; auto takes the best one for the design
+    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
+    method: MethodArg,
+    /// Worker threads for the rows of a CSV file, one for each processor when absent; the answer does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Follow one real pose from this one, row by row for a CSV file: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "method")]
+    near: Option<String>,
+    /// Write a CSV table with one real pose a row, the one nearest to home first
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+    /// With --csv, write the complex poses as well
+    #[arg(long, requires = "csv")]
+    all: bool,
+}
+
+/// `--method`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum MethodArg {
+    Auto,
+    Octic,
+    Homotopy,
+    Trilateration,
+    Sylvester,
+    Template,
+}
+
+impl MethodArg {
+    /// The method of the library, `None` for its own choice.
+    pub(super) fn method(self) -> Option<Method> {
+        match self {
+            Self::Auto => None,
+            Self::Octic => Some(Method::Octic),
+            Self::Homotopy => Some(Method::Homotopy),
+            Self::Trilateration => Some(Method::Trilateration),
+            Self::Sylvester => Some(Method::Sylvester),
+            Self::Template => Some(Method::Template),
+        }
+    }
+}
+
+/// Solves one problem or one for each row.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let method = args.method.method();
+    let design = context.load_with_cranks(&args.design)?;
+    if let Some(platform) = Context::cranks_of(&design)? {
+        return cranks::run(args, (&design, &platform), context);
+    }
+    context.no_effect("angles", "the legs change their lengths, and the design has no cranks")?;
+    if args.near.is_none() {
+        drives::refuse_without_start(&design)?;
+    }
+    let given = lengths::given(args.lengths.as_deref(), &design, context)?;
+    let table = Table { wanted: args.csv, all: args.all, time_name: None };
+    if let Some(text) = &args.near {
+        context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
+        let start = poses::parse(text, &design, "--near", "fk::bad_pose")?;
+        if let Some(legs) = Context::coupled_of(&design)? {
+            return Ok(drives::run(&design, legs, &given, start, context.seed(), &table));
+        }
+        return Ok(near::run(&design, &given, start, context.seed(), &table));
+    }
+    let (m, home) = (design.manipulator(), poses::home(&design));
+    let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
+    match given {
+        Given::One(l) => {
+            context.no_effect(
+                "threads",
+                "one set of lengths is solved on one thread, the rows of a CSV file on many",
+            )?;
+            let solutions = solve(method, m, &l.distances, &options)?;
+            let exit = exit_of(&solutions);
+            let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &home));
+            let mut text = render::text(&design.name, &answer.solved);
+            if args.method == MethodArg::Trilateration {
+                let found = ClosureRecord::new(&design, &fk::closure(m, &l.distances.squared(), &solutions));
+                text.push_str(&render::closure(&found));
+                answer.closure = Some(found);
+            }
+            let answer = FkAnswer::One(Box::new(answer));
+            let text = table.text(&design, &answer).unwrap_or(text);
+            Ok(Answer::new(exit, answer, text))
+        }
+        Given::Rows(series) => {
+            let table = Table { time_name: series.time_name, ..table };
+            let (exit, answer, text) =
+                many(method, (m, &home), &series.rows, &options, threads(args.threads));
+            let text = table.text(&design, &answer).unwrap_or(text);
+            Ok(Answer::new(exit, answer, text))
+        }
+    }
+}
+
+fn threads(asked: Option<u16>) -> Threads {
+    asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
+}
+
+/// Every row for itself: one that cannot be solved carries an `"error"` and does not stop the others.
+fn many(
+    method: Option<Method>,
+    (m, home): (&Manipulator, &Pose),
+    rows: &[lengths::Row],
+    options: &FkOptions,
+    threads: Threads,
+) -> (Exit, FkAnswer, String) {
+    let squares: Vec<_> = rows.iter().map(|row| row.value.distances.squared()).collect();
+    let solver = fk::solver(method);
+    let results = fk::solve_batch(solver.as_ref(), m, &squares, options, threads);
+    // forty poses with all their numbers take as long to put into records as to find
+    let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i], (m, home)));
+    let exit = solved.iter().map(|(exit, _)| *exit).fold(Exit::Yes, Exit::max);
+    let rows: Vec<FkRowRecord> = solved.into_iter().map(|(_, record)| record).collect();
+    let mut text = String::from("line  method         finite  real  complete\n");
+    text.extend(rows.iter().map(render::table_row));
+    (exit, FkAnswer::Rows(FkRowsAnswer { rows }), text)
+}
+
+/// Exit code and record of one row.
+fn solved_row(
+    row: &lengths::Row,
+    result: &BatchResult,
+    (m, home): (&Manipulator, &Pose),
+) -> (Exit, FkRowRecord) {
+    let (exit, outcome) = match result {
+        Ok(s) => {
+            let solved = SolvedRecord::from(s).with_real_poses(m, home);
+            (exit_of(s), FkRowOutcome::Solved(Box::new(solved.into())))
+        }
+        Err(error) => {
+            let failure = failure_of(error);
+            (failure.exit, FkRowOutcome::Failed(RowFailure { error: (&failure).into() }))
+        }
+    };
+    (
+        exit,
+        FkRowRecord { line: row.line, time: row.time, lengths: row.value.shown, angles_deg: None, outcome },
+    )
+}
+
+fn solve(
+    method: Option<Method>,
+    m: &Manipulator,
+    lengths: &LegLengths,
+    options: &FkOptions,
+) -> Result<FkSolutions, Failure> {
+    let solver = fk::solver(method);
+    solver.solve(m, &lengths.squared(), options).map_err(|e| failure_of(&e))
+}
+
+pub(super) fn failure_of(error: &FkError) -> Failure {
+    match error {
+        FkError::NotApplicable { .. } => {
+            Failure::refused("fk::not_applicable", error.to_string()).with_help("take --method auto")
+        }
+        FkError::Contradiction { .. } => Failure::internal(error.to_string()),
+        FkError::Breakdown { .. } => Failure::new(Exit::Inconclusive, "fk::breakdown", error.to_string())
+            .with_help("try another --method or --seed"),
+    }
+}
+
+/// 0 when the answer is whole, 3 when poses may be missing.
+fn exit_of(solutions: &FkSolutions) -> Exit {
+    if solutions.is_complete() { Exit::Yes } else { Exit::Inconclusive }
+}

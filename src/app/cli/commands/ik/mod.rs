@@ -1,0 +1,176 @@
+//! `equipod ik`: the leg lengths at given poses, or the angles of cranks.
+
+mod cranks;
+
+use std::path::PathBuf;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+use crate::app::cli::table::{column_unit, csv_line, number};
+use crate::app::cli::{poses, rows};
+use crate::app::records::{IkAnswer, IkRecord, IkRowsAnswer, Number};
+use crate::files::design::{Design, SeriesRow, TimeSeries};
+use crate::machine::requirements::Terms;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::LegLengths;
+
+/// Arguments of `ik`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json), or `-` for standard input
+    design: PathBuf,
+    /// A table with a pose a line (`-` for standard input), and times where it has them
+    #[arg(conflicts_with = "pose")]
+    poses: Option<PathBuf>,
+    /// A pose, as often as there are poses: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`; home when absent
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true)]
+    pose: Vec<String>,
+    /// Columns for swing and angles of the joints (of cranks: transmissions and torques), the inverse condition number and the margins besides; --json has them anyway
+    #[arg(long)]
+    details: bool,
+}
+
+const BAD_POSE: &str = "ik::bad_pose";
+
+/// Lengths are distances of joints with the offsets of a calibration: every pose has them. Where joints are not ideal the lengths of the drives stand beside the distances.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load_with_cranks(&args.design)?;
+    let (series, one) = match &args.poses {
+        Some(path) => (rows::poses(path, BAD_POSE, context)?, false),
+        None => (named(&args.pose, &design)?, args.pose.len() < 2),
+    };
+    let from_table = args.poses.is_some();
+    if let Some(platform) = Context::cranks_of(&design)? {
+        return Ok(cranks::run((&design, &platform), &series, (one, from_table), args.details));
+    }
+    let required = design.requirements();
+    let terms = Terms::new(design.manipulator(), &required, &poses::home(&design));
+    let coupled = Context::coupled_of(&design)?;
+    let known = design.machine_uncertainty();
+    let record = |row: &SeriesRow<Pose>| {
+        let record = record(&design, &terms, row, from_table)?;
+        let Some(legs) = &coupled else {
+            return Ok(match &known {
+                Some(known) => record.with_uncertainty(&design, known, &row.value),
+                None => record,
+            });
+        };
+        let states = legs.states(&row.value).map_err(|why| {
+            let message = format!("pose {}: the drives have no lengths: {why}", row.line);
+            Failure::refused("ik::no_drive_length", message)
+        })?;
+        let distances = distances(&design, row)?.get();
+        Ok(record.with_drives(&design, &terms, &row.value, (&distances, &states)))
+    };
+    let mut records = series.rows.iter().map(record).collect::<Result<Vec<_>, _>>()?;
+    let text = table(&design, series.time_name.as_deref(), &records, args.details);
+    let answer = match records.pop() {
+        Some(last) if one => IkAnswer::One(Box::new(last)),
+        last => IkAnswer::Rows(IkRowsAnswer { rows: records.into_iter().chain(last).collect() }),
+    };
+    Ok(Answer::new(Exit::Yes, answer, text))
+}
+
+/// The poses of the options, home when there are none.
+fn named(texts: &[String], design: &Design) -> Result<TimeSeries<Pose>, Failure> {
+    let pose = |text: &String| poses::parse(text, design, "--pose", BAD_POSE);
+    let mut all = texts.iter().map(pose).collect::<Result<Vec<_>, _>>()?;
+    if all.is_empty() {
+        all.push(poses::home(design));
+    }
+    let row = |(k, value): (usize, Pose)| SeriesRow { line: k + 1, time: None, value };
+    Ok(TimeSeries {
+        time_name: None,
+        rows: all.into_iter().enumerate().map(row).collect(),
+        guesses: Vec::new(),
+    })
+}
+
+fn record(
+    design: &Design,
+    terms: &Terms<'_>,
+    row: &SeriesRow<Pose>,
+    from_table: bool,
+) -> Result<IkRecord, Failure> {
+    Ok(IkRecord {
+        line: from_table.then_some(row.line),
+        time: row.time,
+        ..IkRecord::new(design, terms, &row.value, distances(design, row)?.get())
+    })
+}
+
+/// Distances of the joints at a pose.
+fn distances(design: &Design, row: &SeriesRow<Pose>) -> Result<LegLengths, Failure> {
+    row.value.lengths(design.manipulator()).ok_or_else(|| {
+        let message = format!("pose {} is so far away that lengths overflow double precision", row.line);
+        Failure::refused(BAD_POSE, message)
+    })
+}
+
+/// What `--details` adds to the lengths: names of columns and values, the same for every pose.
+fn details(record: &IkRecord, units: &str) -> Vec<(String, f64)> {
+    let mut out = Vec::new();
+    let joints = &record.joints;
+    let mut list = |name: &str, values: &[Number; 6]| {
+        out.extend(values.iter().enumerate().map(|(i, x)| (format!("{name}_{}_deg", i + 1), x.0)));
+    };
+    list("base_swing", &joints.base_swing_deg);
+    list("platform_swing", &joints.platform_swing_deg);
+    for (name, pairs) in [
+        ("base_universal", &joints.base_universal_deg),
+        ("platform_universal", &joints.platform_universal_deg),
+    ] {
+        list(&format!("{name}_x"), &pairs.map(|p| p[0]));
+        list(&format!("{name}_y"), &pairs.map(|p| p[1]));
+    }
+    if let Some(drives) = &record.drives {
+        list("twist", &drives.twists_deg.map(Number));
+    }
+    out.push(("inverse_condition".into(), record.inverse_condition.0));
+    if let Some(wrench) = &record.flexures {
+        for (name, values) in [("flexure_force", &wrench.force), ("flexure_torque", &wrench.torque)] {
+            out.extend(["x", "y", "z"].iter().zip(values).map(|(axis, x)| (format!("{name}_{axis}"), x.0)));
+        }
+    }
+    if let Some(found) = &record.uncertainty {
+        out.push((format!("deviation_position_{}", column_unit(units)), found.position.0));
+        out.push(("deviation_rotation_deg".into(), found.rotation_deg.0));
+    }
+    for m in &record.margins {
+        out.push((format!("margin_{}_{}", m.name.code(), column_unit(&m.unit)), m.margin.0));
+    }
+    out
+}
+
+/// The lengths, a pose a line, in the order given.
+fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord], with_details: bool) -> String {
+    let unit = column_unit(&design.units);
+    let limited = design.hardware.leg_length.is_some();
+    let mut header: Vec<String> = time_name.map(str::to_string).into_iter().collect();
+    // what a controller commands comes first, and is what `fk --near` reads of the table
+    if records.first().is_some_and(|r| r.drives.is_some()) {
+        header.extend((1..=6).map(|leg| format!("drive_length_{leg}_{unit}")));
+    }
+    header.extend((1..=6).map(|leg| format!("leg_{leg}_{unit}")));
+    header.extend(limited.then(|| "within_limits".to_string()));
+    if let Some(first) = records.first().filter(|_| with_details) {
+        header.extend(details(first, &design.units).into_iter().map(|(name, _)| name));
+    }
+    let mut out = csv_line(&header);
+    for record in records {
+        let mut cells: Vec<String> = Vec::new();
+        if time_name.is_some() {
+            cells.push(record.time.map(number).unwrap_or_default());
+        }
+        cells.extend(record.drives.iter().flat_map(|drives| drives.lengths).map(number));
+        cells.extend(record.lengths.map(number));
+        cells.extend(record.within_limits.map(|within| within.to_string()));
+        if with_details {
+            cells.extend(details(record, &design.units).into_iter().map(|(_, value)| number(value)));
+        }
+        out.push_str(&csv_line(&cells));
+    }
+    out
+}

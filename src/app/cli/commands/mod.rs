@@ -1,0 +1,143 @@
+//! One file or folder per command, in folders as the commands are grouped.
+//!
+//! To add the command `foo`:
+//! 1. write `commands/foo.rs` with `#[derive(Debug, clap::Args)] pub(crate) struct Args` (doc comments are
+//!    the help texts) and `pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>`;
+//!    `design/convert.rs` is the smallest example. A command of a group is a file of its folder;
+//! 2. add `mod foo;`, one line to [`Command`] and one to [`Command::run`] below, or to those of the group;
+//! 3. give it a place and an example in `cli/guide.rs`, from which `--help` is made;
+//! 4. describe it in `docs/cli.md` and test the process in `tests/it/cli_foo.rs`.
+//!
+//! Load designs with [`Context::load`], take the seed from [`Context::seed`], write files with
+//! `files::write_text`. What the command found is a record (`src/app/records`), from which its text is made; numbers
+//! that may be infinite or not a number are `records::Number`. Print nothing: the record and its text are the [`Answer`],
+//! why there is none is the [`Failure`].
+
+mod assess;
+mod bench;
+mod build;
+mod calibrate;
+mod check;
+mod compare;
+mod design;
+mod equivalents;
+mod explore;
+mod export;
+mod fk;
+mod ik;
+mod limits;
+mod motion;
+mod new;
+mod optimize;
+mod plot;
+mod report;
+mod shell;
+mod singular;
+mod sweep;
+mod verify;
+mod view;
+
+use clap::Subcommand;
+
+use super::context::Context;
+use super::failure::Failure;
+use super::output::Answer;
+use super::reference;
+
+/// Where a command for octahedral designs can go on from another one.
+const NEAREST: &str = "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform, with the error it would make, and this command takes that file;";
+
+/// What can be done with a design that is not octahedral.
+const GENERAL: &str = "every design is taken by `equipod explore`, `equipod check`, `equipod assess`, `equipod fk` and `equipod view`; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move` with --search and a wish such as --spacing finds equivalents of it";
+
+/// The commands, in the order of the guide.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Write a design from a few sizes, from corners, from a table of points or from a model
+    New(new::Args),
+    /// Find all poses, real and complex, for given leg lengths
+    Fk(fk::Args),
+    /// Compute the leg lengths at given poses
+    Ik(ik::Args),
+    /// Compute how far the platform may move from a pose, and the nearest allowed pose
+    Limits(limits::Args),
+    /// Compute and change the platforms equivalent to a design
+    #[command(subcommand)]
+    Equivalents(equivalents::Command),
+    /// Decide whether two designs are kinematically equivalent
+    Verify(verify::Args),
+    /// Run the whole analysis of a design and write it into a folder
+    Explore(explore::Args),
+    /// Decide whether a design meets its requirements at all poses of its workspace
+    Assess(assess::Args),
+    /// Set designs side by side: margins, forces, stiffness, sizes, tolerances
+    Compare(compare::Args),
+    /// Compute forces, speeds and powers of the legs along a trajectory or standard manoeuvres
+    Motion(motion::Args),
+    /// Find the best platform under the requirements of a design
+    Optimize(optimize::Args),
+    /// Decide whether a design is architecturally singular, and explain why
+    Check(check::Args),
+    /// Find singular poses and self-motions
+    #[command(subcommand)]
+    Singular(singular::Command),
+    /// Round joints to a grid of holes and budget their tolerances
+    #[command(subcommand)]
+    Build(build::Command),
+    /// Compute many designs from a plan, in shards that may be interrupted
+    #[command(subcommand)]
+    Sweep(sweep::Command),
+    /// Find the joints and leg offsets of a machine from measured poses and lengths
+    Calibrate(calibrate::Args),
+    /// Write files for CAD, simulators, machine controls, tables and drawings
+    Export(export::Args),
+    /// Convert design files, start from designs of real hardware, print schemas
+    #[command(subcommand)]
+    Design(design::Command),
+    /// Draw one picture as SVG; `equipod plot --help` lists the figures
+    Plot(plot::Args),
+    /// Write a design as one live HTML page
+    View(view::Args),
+    /// Write a folder of results as one HTML page
+    Report(report::Args),
+    /// Solve random problems, validate the answers by independent code, count and time them
+    Bench(bench::Args),
+    /// Print completion scripts and write manual pages
+    #[command(subcommand)]
+    Shell(shell::Command),
+    /// Write the options of all commands into the manual
+    #[command(hide = true)]
+    Reference(reference::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
+        match self {
+            Self::New(args) => new::run(args, context),
+            Self::Fk(args) => fk::run(args, context),
+            Self::Ik(args) => ik::run(args, context),
+            Self::Limits(args) => limits::run(args, context),
+            Self::Equivalents(command) => command.run(context),
+            Self::Verify(args) => verify::run(args, context),
+            Self::Explore(args) => explore::run(args, context),
+            Self::Assess(args) => assess::run(args, context),
+            Self::Compare(args) => compare::run(args, context),
+            Self::Motion(args) => motion::run(args, context),
+            Self::Optimize(args) => optimize::run(args, context),
+            Self::Check(args) => check::run(args, context),
+            Self::Singular(command) => command.run(context),
+            Self::Build(command) => command.run(context),
+            Self::Sweep(command) => command.run(context),
+            Self::Calibrate(args) => calibrate::run(args, context),
+            Self::Export(args) => export::run(args, context),
+            Self::Design(command) => command.run(context),
+            Self::Plot(args) => plot::run(args, context),
+            Self::View(args) => view::run(args, context),
+            Self::Report(args) => report::run(args, context),
+            Self::Bench(args) => bench::run(args, context),
+            Self::Shell(command) => command.run(),
+            Self::Reference(args) => reference::run(args),
+        }
+    }
+}

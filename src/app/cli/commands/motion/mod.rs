@@ -1,0 +1,281 @@
+//! `equipod motion`: forces, speeds, accelerations and powers of the legs along a trajectory or standard manoeuvres.
+
+mod render;
+
+use std::path::{Path, PathBuf};
+
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::output::Answer;
+use crate::app::cli::{poses, rows};
+use crate::app::entrance::{MotionMasses, MotionReport, PlatformMotion};
+use crate::app::records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
+use crate::files::design::Design;
+use crate::files::export::LengthUnit;
+use crate::machine::dynamics::{InvalidManoeuvre, Manoeuvre, PathEnds, PosePath};
+use crate::machine::requirements::{ForceUnit, Load};
+use crate::platform::geom::Pose;
+
+/// Arguments of `motion`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json) with the tables home, payload and hardware
+    design: PathBuf,
+    /// A table with a time in seconds and a pose a line (`-` for standard input)
+    trajectory: Option<PathBuf>,
+    /// A sine about a pose, as often as there are some: x, y, z (design units), roll, pitch or yaw (degrees), amplitude and frequency
+    #[arg(long, value_name = "AXIS:AMPLITUDE:HERTZ", allow_hyphen_values = true)]
+    sine: Vec<String>,
+    /// An acceleration from rest at a pose, design units or degrees per second squared, as often as there are some
+    #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
+    accelerate: Vec<String>,
+    /// Stiffness matrix and natural frequencies at the pose of --about
+    #[arg(long)]
+    stiffness: bool,
+    /// The pose of sines, accelerations and the stiffness: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
+    about: String,
+    /// A load of the design that acts all the time besides the weight, by its name
+    #[arg(long, value_name = "NAME")]
+    load: Option<String>,
+    /// The platform rests at the first pose of the trajectory and at the last
+    #[arg(long)]
+    at_rest: bool,
+    /// Number of steps between two poses of the trajectory
+    #[arg(long, value_name = "N", default_value_t = STEPS, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    steps: u32,
+    /// Number of instants in the period of a sine
+    #[arg(long, value_name = "N", default_value_t = SAMPLES, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
+    samples: u32,
+    /// Unit of length of the design, where its label is not one: um, mm, cm, m, in, ft
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
+    /// Write all instants as a table
+    #[arg(long, value_name = "FILE")]
+    csv: Option<OutputPath>,
+}
+
+/// The motions that a command asks for.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::app::cli::commands) struct ChosenMotions<'a> {
+    trajectory: Option<&'a Path>,
+    sine: &'a [String],
+    accelerate: &'a [String],
+    at_rest: bool,
+    /// The pose that manoeuvres are about, as it is written.
+    about: &'a str,
+    steps: u32,
+    samples: u32,
+}
+
+impl<'a> ChosenMotions<'a> {
+    /// These, about home and with the usual numbers of instants.
+    pub(in crate::app::cli::commands) fn new(
+        trajectory: Option<&'a Path>,
+        sine: &'a [String],
+        accelerate: &'a [String],
+    ) -> Self {
+        Self { trajectory, sine, accelerate, at_rest: false, about: "home", steps: STEPS, samples: SAMPLES }
+    }
+
+    fn of(args: &'a Args) -> Self {
+        let Args { at_rest, about, steps, samples, .. } = args;
+        let chosen = Self::new(args.trajectory.as_deref(), &args.sine, &args.accelerate);
+        Self { at_rest: *at_rest, about, steps: *steps, samples: *samples, ..chosen }
+    }
+
+    /// Whether there is none.
+    pub(in crate::app::cli::commands) fn is_empty(&self) -> bool {
+        self.trajectory.is_none() && self.sine.is_empty() && self.accelerate.is_empty()
+    }
+
+    /// The motions with their names, in the order of the answer.
+    pub(in crate::app::cli::commands) fn motions(
+        &self,
+        design: &Design,
+        context: &Context,
+    ) -> Result<Vec<(String, PlatformMotion)>, Failure> {
+        let mut out = Vec::new();
+        if let Some(path) = self.trajectory {
+            let ends = if self.at_rest { PathEnds::AtRest } else { PathEnds::Free };
+            let motion = PlatformMotion::Path(trajectory(path, ends, context)?, self.steps as usize);
+            out.push((files::shown(path), motion));
+        }
+        let about = about(self.about, design)?;
+        for text in self.sine {
+            let sine = Manoeuvre::sine(text).map_err(|e| no_manoeuvre("--sine", &e))?;
+            out.push((format!("sine {text}"), PlatformMotion::Manoeuvre(sine, about, self.samples as usize)));
+        }
+        for text in self.accelerate {
+            let start = Manoeuvre::acceleration(text).map_err(|e| no_manoeuvre("--accelerate", &e))?;
+            out.push((format!("accelerate {text}"), PlatformMotion::Manoeuvre(start, about, 1)));
+        }
+        Ok(out)
+    }
+}
+
+/// Steps between two poses of a trajectory.
+const STEPS: u32 = 10;
+/// Instants in the period of a sine.
+const SAMPLES: u32 = 360;
+
+const BAD_TRAJECTORY: &str = "motion::bad_trajectory";
+
+/// Exit 1 where a limit is exceeded at an instant looked at, or forces are not determined.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load_ideal(&args.design)?;
+    refuse_without_effect(args, &design, context)?;
+    let chosen = ChosenMotions::of(args);
+    let motions = chosen.motions(&design, context)?;
+    if chosen.is_empty() && !args.stiffness {
+        let help = "give a table of times and poses, --sine z:50:1 or --accelerate x:2000";
+        return Err(Failure::refused("motion::no_motion", "there is no motion to look at").with_help(help));
+    }
+    let masses = masses(args, &design)?;
+    let found: Vec<(String, MotionReport)> =
+        motions.iter().map(|(name, motion)| (name.clone(), design.along(motion, masses.as_ref()))).collect();
+    let stiffness = stiffness(args, &design, masses.as_ref())?;
+    if let Some(path) = &args.csv {
+        files::write_text(path, &render::csv(&design, &found))?;
+    }
+    let records: Vec<MotionRunRecord> =
+        found.iter().map(|(name, report)| MotionRunRecord::new(&design, name.clone(), report)).collect();
+    let answer = MotionAnswer {
+        name: design.name.clone(),
+        met: records.iter().all(|r| r.met),
+        length_unit: design.units.clone(),
+        force_unit: force_unit(&design).label().into(),
+        assumptions: design.mass_assumptions(),
+        motions: records,
+        stiffness,
+        csv: args.csv.as_ref().map(|path| path.display().to_string()),
+    };
+    let exit = if answer.met { Exit::Yes } else { Exit::No };
+    let text = render::text(&answer);
+    Ok(Answer::new(exit, answer, text))
+}
+
+fn force_unit(design: &Design) -> ForceUnit {
+    design.force_units.unwrap_or(ForceUnit::Newton)
+}
+
+fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Result<(), Failure> {
+    if args.trajectory.is_none() {
+        context.no_effect("at_rest", "there is no trajectory")?;
+        context.no_effect("steps", "there is no trajectory")?;
+    }
+    if ChosenMotions::of(args).is_empty() {
+        context.no_effect("csv", "there is no motion")?;
+        context.no_effect("load", "there is no motion")?;
+    }
+    if args.sine.is_empty() {
+        context.no_effect("samples", "there is no sine")?;
+    }
+    if args.sine.is_empty() && args.accelerate.is_empty() && !args.stiffness {
+        context.no_effect(
+            "about",
+            "there is neither a sine nor an acceleration, and no stiffness is asked for",
+        )?;
+    }
+    if design.moving_payload().is_none() {
+        for option in ["load", "unit"] {
+            context.no_effect(option, "the design has no payload, so that no forces are computed")?;
+        }
+    }
+    Ok(())
+}
+
+fn about(text: &str, design: &Design) -> Result<Pose, Failure> {
+    poses::parse(text, design, "--about", "motion::bad_pose")
+}
+
+/// The stiffness at the pose asked for.
+fn stiffness(
+    args: &Args,
+    design: &Design,
+    masses: Option<&MotionMasses>,
+) -> Result<Option<StiffnessRecord>, Failure> {
+    if !args.stiffness {
+        return Ok(None);
+    }
+    if design.has_cranks() {
+        let message =
+            "the legs are rods on cranks, and stiffness is computed of legs that change their lengths";
+        return Err(Failure::refused("motion::no_stiffness", message).with_help(
+            "leave out --stiffness; `equipod ik` gives the torques that hold the loads at a pose",
+        ));
+    }
+    let found = design.stiffness_at(&about(&args.about, design)?, masses).ok_or_else(|| {
+        Failure::refused("motion::no_stiffness", "the design does not say how stiff its legs are")
+            .with_help("add leg_stiffness to [hardware], force units per design unit")
+    })?;
+    Ok(Some(StiffnessRecord::new(&found)))
+}
+
+fn no_manoeuvre(option: &str, why: &InvalidManoeuvre) -> Failure {
+    let help = "an axis is x, y, z, roll, pitch or yaw: --sine z:50:1, --accelerate yaw:90";
+    Failure::refused("motion::bad_manoeuvre", format!("{option}: {why}")).with_help(help)
+}
+
+/// The motion through the poses of a table.
+fn trajectory(path: &Path, ends: PathEnds, context: &Context) -> Result<PosePath, Failure> {
+    let series = rows::poses(path, BAD_TRAJECTORY, context)?;
+    let shown = files::shown(path);
+    let Some(name) = &series.time_name else {
+        let message = format!("{shown} has no column of times");
+        let help = "name a column `t` or `time_s` in the first line, with times in seconds";
+        return Err(Failure::refused("motion::no_times", message).with_help(help));
+    };
+    let letters: String = name.to_lowercase().chars().filter(char::is_ascii_alphanumeric).collect();
+    let in_milliseconds = letters.ends_with("ms") || letters.ends_with("milliseconds");
+    if in_milliseconds {
+        context.note_guesses(&shown, &["The times are in milliseconds, as the header says.".into()]);
+    }
+    let second = if in_milliseconds { 1e-3 } else { 1.0 };
+    let times: Vec<f64> = series.rows.iter().filter_map(|row| row.time).map(|t| t * second).collect();
+    let all: Vec<Pose> = series.rows.iter().map(|row| row.value).collect();
+    PosePath::through(&times, &all, ends).map_err(|why| {
+        let line = why.row().and_then(|row| series.rows.get(row)).map(|row| format!("line {}: ", row.line));
+        let message = format!("{shown}: {}{why}", line.unwrap_or_default());
+        Failure::refused(BAD_TRAJECTORY, message)
+            .with_help("give poses in the order of time, close enough to each other to follow the motion")
+    })
+}
+
+/// What forces are computed from; none without a payload.
+fn masses(args: &Args, design: &Design) -> Result<Option<MotionMasses>, Failure> {
+    if design.moving_payload().is_none() {
+        return Ok(None);
+    }
+    let metres = metres(args.unit.as_deref(), design)?;
+    let load = args.load.as_deref().map(|name| load(design, name)).transpose()?;
+    Ok(design.motion_masses(metres, load))
+}
+
+/// Metres in a unit of the design, or in the one of `--unit`.
+pub(in crate::app::cli::commands) fn metres(label: Option<&str>, design: &Design) -> Result<f64, Failure> {
+    let unit = match label {
+        Some(label) => LengthUnit::of(label)
+            .map_err(|e| Failure::refused("motion::unknown_unit", format!("--unit: {e}")))?,
+        None => LengthUnit::of(&design.units).map_err(|e| {
+            let message = format!("the units of the design cannot be used: {e}");
+            Failure::refused("motion::unknown_unit", message)
+                .with_help("`--unit mm` says what one unit of the design is")
+        })?,
+    };
+    Ok(unit.metres)
+}
+
+fn load(design: &Design, name: &str) -> Result<Load, Failure> {
+    design.loads.iter().find(|l| l.name == name).cloned().ok_or_else(|| {
+        let names: Vec<&str> = design.loads.iter().map(|l| l.name.as_str()).collect();
+        let help = if names.is_empty() {
+            "the design has none: add [[loads]]".to_string()
+        } else {
+            format!("its loads are {}", names.join(", "))
+        };
+        Failure::refused("motion::no_such_load", format!("`{name}` is no load of the design")).with_help(help)
+    })
+}

@@ -1,0 +1,107 @@
+//! The questions of `equipod new` on a terminal.
+
+use std::io::{BufRead, Write};
+
+use crate::app::cli::files::OutputPath;
+use crate::files::design::HexapodSizes;
+
+/// What was answered.
+#[derive(Debug, PartialEq)]
+pub(super) struct Asked {
+    pub(super) sizes: HexapodSizes,
+    pub(super) units: String,
+    pub(super) output: OutputPath,
+}
+
+/// Asks for sizes until they can be those of a hexapod; `None`: the answers ended.
+pub(super) fn ask(input: &mut impl BufRead, output: &mut impl Write) -> Option<Asked> {
+    let mut session = Questions { input, output };
+    session.say("A hexapod with threefold symmetry; an empty answer takes the value in brackets.")?;
+    let units = session.text("Unit of length", "mm")?;
+    let sizes = loop {
+        let sizes = HexapodSizes {
+            radius: [
+                session.number("Radius of the circle of the base joints", "500")?,
+                session.number("Radius of the circle of the platform joints", "300")?,
+            ],
+            spread_deg: [
+                session.number("Angle between the two joints of a pair on the base, in degrees", "20")?,
+                session.number("Angle between the two joints of a pair on the platform, in degrees", "20")?,
+            ],
+            height: session.number("Height of the platform above the base at home", "400")?,
+        };
+        match sizes.check() {
+            Ok(()) => break sizes,
+            Err(why) => session.say(&format!("That is no hexapod: {why}."))?,
+        }
+    };
+    let output = session.text("File to write", "hexapod.toml")?;
+    Some(Asked { sizes, units, output: std::ffi::OsString::from(output).into() })
+}
+
+struct Questions<'a, I, O> {
+    input: &'a mut I,
+    output: &'a mut O,
+}
+
+impl<I: BufRead, O: Write> Questions<'_, I, O> {
+    fn say(&mut self, line: &str) -> Option<()> {
+        writeln!(self.output, "{line}").ok()
+    }
+
+    fn text(&mut self, question: &str, default: &str) -> Option<String> {
+        write!(self.output, "{question} [{default}]: ").ok()?;
+        self.output.flush().ok()?;
+        let mut answer = String::new();
+        // at the end of the input nothing is read, not even the end of a line
+        let read = self.input.read_line(&mut answer).ok()?;
+        let answer = answer.trim();
+        match (read, answer) {
+            (0, _) => None,
+            (_, "") => Some(default.into()),
+            _ => Some(answer.into()),
+        }
+    }
+
+    fn number(&mut self, question: &str, default: &str) -> Option<f64> {
+        loop {
+            let answer = self.text(question, default)?;
+            match answer.replace(',', ".").parse() {
+                Ok(x) => return Some(x),
+                Err(_) => self.say(&format!("`{}` is not a number.", answer.escape_debug()))?,
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn answered(answers: &str) -> (Option<Asked>, String) {
+        let mut output = Vec::new();
+        let asked = ask(&mut answers.as_bytes(), &mut output);
+        (asked, String::from_utf8(output).unwrap())
+    }
+
+    #[test]
+    fn empty_answers_take_the_defaults_and_slips_are_asked_again() {
+        let (asked, _) = answered("\n\n\n\n\n\n\n");
+        let meant = HexapodSizes { radius: [500.0, 300.0], spread_deg: [20.0, 20.0], height: 400.0 };
+        assert_eq!(
+            asked.unwrap(),
+            Asked {
+                sizes: meant,
+                units: "mm".into(),
+                output: std::ffi::OsString::from("hexapod.toml").into()
+            }
+        );
+        let (asked, said) = answered("in\nten\n10\n6,5\n130\n20\n8\n10\n6.5\n30\n20\n8\nmine.toml\n");
+        assert_eq!(
+            asked.unwrap().sizes,
+            HexapodSizes { radius: [10.0, 6.5], spread_deg: [30.0, 20.0], height: 8.0 }
+        );
+        assert!(said.contains("`ten` is not a number.") && said.contains("That is no hexapod"), "{said}");
+        assert_eq!(answered("mm\n500\n").0, None);
+    }
+}

@@ -1,0 +1,312 @@
+//! `equipod new`: a design from a few sizes, from corners, from a table of points, from a sheet of parameters or from a model.
+
+mod ask;
+
+use std::fmt::Write as _;
+use std::io::{IsTerminal, stderr, stdin};
+use std::path::PathBuf;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::output::Answer;
+use crate::app::records::{NewAnswer, PresetFile};
+use crate::files::design::{
+    Design, Format, HexapodSizes, InvalidPointTable, PointTable, RigSheet, SheetDialect, octahedral_toml,
+    parse_with_cranks, with_lengths,
+};
+use crate::platform::geom::{Angles, Pose};
+use crate::synthesis::singularity::Architecture;
+
+use self::ask::Asked;
+
+/// Arguments of `new`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Radius of the circle of the base joints
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    base_radius: Option<f64>,
+    /// Radius of the circle of the platform joints
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    platform_radius: Option<f64>,
+    /// Angle between the two joints of a pair on the base, seen from the centre, in degrees; 0 for one joint of two legs
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    base_spread: Option<f64>,
+    /// The same angle on the platform
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    platform_spread: Option<f64>,
+    /// Height of the platform frame above the base frame at home
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    height: Option<f64>,
+    /// Three corners of the base and three of the platform, each as x,y/x,y/x,y or with z: an octahedral platform
+    #[arg(
+        long,
+        num_args = 2,
+        value_names = ["BASE", "PLATFORM"],
+        allow_hyphen_values = true,
+        conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "points"]
+    )]
+    corners: Option<Vec<String>>,
+    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any usual notation, the pins of `genhexkins`, or a model of `MuJoCo`
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread"]
+    )]
+    points: Option<PathBuf>,
+    /// The parameters of a motion-simulator program (`-` for standard input): lines `L1 = 900` to `L4`, and `middle` and `range` of legs, or `crank`, `rod`, `middle_angle` and `crank_angle_1` to `crank_angle_6`; --dialect says whose
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "height", "corners", "points"]
+    )]
+    sheet: Option<PathBuf>,
+    /// Whose parameters --sheet has: `motion4sim` (and `FlyPT Mover`), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
+    #[arg(long, value_name = "DIALECT", requires = "sheet")]
+    dialect: Option<SheetDialect>,
+    /// Label of the length unit; that of the table, else mm, when absent
+    #[arg(long, value_name = "UNIT")]
+    units: Option<String>,
+    /// Name of the design
+    #[arg(long, value_name = "NAME", default_value = "hexapod")]
+    name: String,
+    /// File to write, .toml or .json; standard output when absent
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<OutputPath>,
+}
+
+/// A design with the file that says how it is meant.
+struct Made {
+    design: Design,
+    toml: String,
+    guesses: Vec<String>,
+}
+
+const UNIT: &str = "mm";
+
+/// Makes the design, tells its home and its lengths there, and writes it.
+pub(crate) fn run(args: &Args, context: &Context) -> Result<Answer, Failure> {
+    let units = args.units.as_deref();
+    let (made, asked_output) = match (&args.points, &args.corners) {
+        _ if args.sheet.is_some() => (from_sheet(args)?, None),
+        (Some(path), _) => (from_table(args, path, context)?, None),
+        (None, Some(corners)) => (from_corners(args, corners)?, None),
+        (None, None) if nothing_given(args) => {
+            let Asked { sizes, units, output } = asked()?;
+            (from_sizes(&sizes, &args.name, &units)?, Some(output))
+        }
+        (None, None) => (from_sizes(&sizes(args)?, &args.name, units.unwrap_or(UNIT))?, None),
+    };
+    let output = args.output.clone().or(asked_output);
+    finish(made, output.as_ref(), context)
+}
+
+fn nothing_given(args: &Args) -> bool {
+    let sizes = [args.base_radius, args.platform_radius, args.base_spread, args.platform_spread, args.height];
+    sizes.iter().all(Option::is_none)
+}
+
+/// The ways to say what is wanted, for those who said nothing or too little.
+const WAYS: &str = "give --base-radius, --platform-radius, --base-spread, --platform-spread and --height; or --corners BASE PLATFORM and --height; or --points FILE; or --sheet FILE and --dialect";
+
+/// Questions on a terminal.
+fn asked() -> Result<Asked, Failure> {
+    if !stdin().is_terminal() {
+        let message = "nothing says what the new design is, and there is no terminal to ask on";
+        return Err(Failure::refused("new::nothing_given", message).with_help(WAYS));
+    }
+    ask::ask(&mut stdin().lock(), &mut stderr().lock()).ok_or_else(|| {
+        Failure::refused("new::nothing_given", "the questions were not answered").with_help(WAYS)
+    })
+}
+
+fn sizes(args: &Args) -> Result<HexapodSizes, Failure> {
+    let missing =
+        |option: &str| Failure::refused("new::missing", format!("{option} is missing")).with_help(WAYS);
+    let sizes = HexapodSizes {
+        radius: [
+            args.base_radius.ok_or_else(|| missing("--base-radius"))?,
+            args.platform_radius.ok_or_else(|| missing("--platform-radius"))?,
+        ],
+        spread_deg: [
+            args.base_spread.ok_or_else(|| missing("--base-spread"))?,
+            args.platform_spread.ok_or_else(|| missing("--platform-spread"))?,
+        ],
+        height: args.height.ok_or_else(|| missing("--height"))?,
+    };
+    Ok(sizes)
+}
+
+fn bad(why: impl Into<String>) -> Failure {
+    Failure::refused("new::bad_sizes", why).with_help("choose other sizes")
+}
+
+fn from_sizes(sizes: &HexapodSizes, name: &str, units: &str) -> Result<Made, Failure> {
+    sizes.check().map_err(|why| bad(why.to_string()))?;
+    read_back(sizes.to_toml(name, units))
+}
+
+/// The design that a text of this command says.
+fn read_back(toml: String) -> Result<Made, Failure> {
+    match parse_with_cranks(&toml, Format::Toml) {
+        Ok((design, _)) => Ok(Made { design, toml, guesses: Vec::new() }),
+        Err(violations) => Err(Failure::bad_design("the new design".into(), toml, violations)),
+    }
+}
+
+/// The parameters of a program.
+fn from_sheet(args: &Args) -> Result<Made, Failure> {
+    let path = args.sheet.as_deref().unwrap_or(std::path::Path::new("-"));
+    let Some(dialect) = args.dialect else {
+        let message =
+            "--sheet needs --dialect: programs disagree on which of L3 and L4 is the long side of the base";
+        let help = "--dialect motion4sim where L4 is the long side (Motion4Sim, FlyPT Mover), --dialect dr-sim-manager where L3 is";
+        return Err(Failure::refused("new::no_dialect", message).with_help(help));
+    };
+    let shown = files::shown(path);
+    let toml = RigSheet::read(&files::read_table(path)?, dialect)
+        .and_then(|sheet| sheet.to_toml(&args.name, args.units.as_deref().unwrap_or(UNIT)))
+        .map_err(|why| Failure::refused("new::bad_sheet", format!("{shown}: {why}")).with_help(why.help()))?;
+    read_back(toml)
+}
+
+fn from_corners(args: &Args, texts: &[String]) -> Result<Made, Failure> {
+    let height =
+        args.height.ok_or_else(|| Failure::refused("new::missing", "--height is missing").with_help(WAYS))?;
+    let [base, platform] = texts else {
+        return Err(bad("--corners takes the corners of the base and those of the platform"));
+    };
+    let corners = [corners(base)?, corners(platform)?];
+    read_back(octahedral_toml(&corners, &args.name, args.units.as_deref().unwrap_or(UNIT), height))
+}
+
+/// `x,y/x,y/x,y`, each with or without z.
+fn corners(text: &str) -> Result<[[f64; 3]; 3], Failure> {
+    let corner = |part: &str| {
+        let numbers: Option<Vec<f64>> = part.split(',').map(|f| f.trim().parse().ok()).collect();
+        match numbers?[..] {
+            [x, y] => Some([x, y, 0.0]),
+            [x, y, z] => Some([x, y, z]),
+            _ => None,
+        }
+    };
+    let all: Option<Vec<[f64; 3]>> = text.split('/').map(corner).collect();
+    all.and_then(|list| list.try_into().ok()).ok_or_else(|| {
+        Failure::refused("new::bad_corners", format!("--corners: `{text}` is not three corners"))
+            .with_help("write three corners of two or three numbers: 0,0/12,0/6,10.4")
+    })
+}
+
+/// A table or a model that gives no design.
+fn bad_points(shown: &str, why: &InvalidPointTable) -> Failure {
+    let (code, help) = match why {
+        InvalidPointTable::Mjcf(_) => (
+            "new::bad_mjcf",
+            "legs are slide joints between a joint of the base and one of the platform, or spatial tendons from a site of the base to one of the platform",
+        ),
+        InvalidPointTable::Step => (
+            "new::bad_step",
+            "measure the twelve joint centres in the CAD program and write them as a table: a row for each leg, x, y, z of its base end and of its platform end",
+        ),
+        _ => (
+            "new::bad_table",
+            "a table has six rows with x, y, z of the base end and of the platform end of a leg, or twelve rows with a point each",
+        ),
+    };
+    Failure::refused(code, format!("{shown}: {why}")).with_help(help)
+}
+
+fn from_table(args: &Args, path: &std::path::Path, context: &Context) -> Result<Made, Failure> {
+    let shown = files::shown(path);
+    let mut table = PointTable::read(&files::read_table(path)?).map_err(|why| bad_points(&shown, &why))?;
+    if let (Some(asked), Some(said)) = (&args.units, &table.units)
+        && asked != said
+    {
+        table.guesses.push(format!(
+            "The numbers are in {asked}, as --units says, and not in {said}: nothing is converted."
+        ));
+    }
+    let units = args.units.clone().or(table.units.clone()).unwrap_or_else(|| {
+        table.guesses.push(format!("The lengths are in {UNIT}: give --units where they are not."));
+        UNIT.into()
+    });
+    let mut design = table.design(&args.name, &units).map_err(|why| bad_points(&shown, &why.into()))?;
+    if let Some(height) = args.height {
+        design.home = Some(Pose::new([0.0, 0.0, height], Angles::default()));
+    } else if design.home.is_none() {
+        design.home = Some(design.home_or_default());
+        table.guesses.push(
+            "Home is chosen above the centre of the base, at a height of its radius: give --height for another.".into(),
+        );
+    }
+    context.note_guesses(&shown, &table.guesses);
+    Ok(Made { toml: design.to_toml(), design, guesses: table.guesses })
+}
+
+/// Adds the lengths at home, and writes the file.
+fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<Answer, Failure> {
+    let Made { mut design, toml, guesses } = made;
+    let home = design.home_or_default();
+    let mut lengths =
+        home.lengths(design.manipulator()).ok_or_else(|| bad("the lengths at home overflow"))?.get();
+    let mut toml = toml;
+    let mut singular = false;
+    if let Some(platform) = Context::cranks_of(&design)? {
+        // rods have their length everywhere, and their lines begin at the tips of the cranks
+        lengths = platform.legs().map(|leg| leg.rod);
+    } else {
+        design.lengths = home.lengths(design.manipulator());
+        toml = with_lengths(&toml, lengths);
+        singular = Architecture::of(design.manipulator()).is_singular() == Some(true);
+    }
+    let singular_home = design.singular_at(&home);
+    if let Some(found) = &singular_home {
+        context.note(&format!("{found}. Choose another height, turn or size."));
+    }
+    let (file, text) = match output {
+        None => (PresetFile::Given { text: toml.clone() }, toml),
+        Some(path) => {
+            match Format::of_path(path) {
+                Format::Toml => files::write_text(path, &toml)?,
+                Format::Json => files::write_design(path, &design)?,
+            }
+            let shown = path.display().to_string();
+            let text = summary(&shown, &design, &home, lengths, singular);
+            (PresetFile::Written { output: shown }, text)
+        }
+    };
+    let answer = NewAnswer {
+        name: design.name,
+        units: design.units,
+        file,
+        home: (&home).into(),
+        lengths,
+        architecturally_singular: singular,
+        singular_home: singular_home.map(|home| home.evidence.into()),
+        guesses,
+    };
+    let exit = if singular_home.is_none() { Exit::Yes } else { Exit::No };
+    Ok(Answer::new(exit, answer, text))
+}
+
+fn summary(path: &str, design: &Design, home: &Pose, lengths: [f64; 6], singular: bool) -> String {
+    let (p, units) = (home.position, &design.units);
+    let [roll, pitch, yaw] = home.angles().degrees();
+    let mut out = format!("wrote {path}\n");
+    let _ = writeln!(
+        out,
+        "home: x {:.3}, y {:.3}, z {:.3} {units}; roll {roll:.3}, pitch {pitch:.3}, yaw {yaw:.3} degrees",
+        p.x, p.y, p.z
+    );
+    let listed = lengths.map(|l| format!("{l:.3}")).join(", ");
+    let _ = writeln!(
+        out,
+        "{}: {listed} {units}",
+        if design.has_cranks() { "rods" } else { "leg lengths at home" }
+    );
+    if singular {
+        out.push_str("ARCHITECTURALLY SINGULAR: the leg lines are dependent at every pose; `equipod check` explains why\n");
+    }
+    out
+}

@@ -1,0 +1,112 @@
+//! Picture, table, JSON and text of a locus.
+
+use std::fmt::Write as _;
+
+use num_complex::Complex64;
+
+use super::{Between, Found, Row};
+use crate::app::records::{
+    LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord, Number,
+};
+use crate::files::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
+use crate::fk::{FkRoot, Reality};
+
+pub(super) fn picture(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {
+    let without = rows.iter().filter(|r| r.status() != LocusWord::Isolated).count();
+    let mut note = format!("{} lengths", rows.len());
+    if without > 0 {
+        let _ = write!(note, ", {without} of them without isolated poses");
+    }
+    let incomplete = rows.iter().filter(|r| !r.complete()).count();
+    if incomplete > 0 {
+        let _ = write!(note, ", {incomplete} of them perhaps with poses missing");
+    }
+    locus_chart(&LocusFigure {
+        title: format!("{name}: squared distance of {} and {} at all poses", between.base, between.platform),
+        note,
+        quantity: format!("|{} {}|\u{b2}", between.base, between.platform),
+        parameter: format!("length of leg {leg}"),
+        steps: steps.to_vec(),
+    })
+}
+
+/// One line a pose; lengths without isolated poses have one line with their status and no value.
+pub(super) fn csv(answer: &LocusAnswer) -> String {
+    let mut out = String::from("step,length,status,re,im,real,certified\n");
+    for row in &answer.rows {
+        let (k, length, status) = (row.step, row.length.0, row.status.as_str());
+        for v in &row.values {
+            let real = v.real.map_or_else(|| "undecided".to_string(), |real| real.to_string());
+            let _ = writeln!(out, "{k},{length},{status},{},{},{real},{}", v.re.0, v.im.0, v.certified);
+        }
+        if row.values.is_empty() {
+            let _ = writeln!(out, "{k},{length},{status},,,,");
+        }
+    }
+    out
+}
+
+fn values(found: &Found) -> Vec<LocusValueRecord> {
+    let value = |(root, v): (&FkRoot, &Complex64)| LocusValueRecord {
+        re: Number(v.re),
+        im: Number(v.im),
+        real: match root.reality {
+            Reality::Real => Some(true),
+            Reality::NonReal => Some(false),
+            Reality::Undecided => None,
+        },
+        certified: root.certified(),
+        multiplicity: root.multiplicity,
+    };
+    found.solutions.roots.iter().zip(&found.values).map(value).collect()
+}
+
+pub(super) fn record(leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> LocusAnswer {
+    let row = |(step, row): (usize, &Row)| LocusRowRecord {
+        step,
+        length: Number(row.length),
+        status: row.status(),
+        all_paths_accounted: row.complete(),
+        method: row.found.as_ref().map(|f| f.solutions.method),
+        values: row.found.as_ref().map_or_else(Vec::new, values),
+    };
+    LocusAnswer {
+        leg,
+        between: [between.base.clone(), between.platform.clone()],
+        rows: rows.iter().enumerate().map(row).collect(),
+        meetings: locus_meetings(steps).iter().map(LocusMeetingRecord::from).collect(),
+    }
+}
+
+pub(super) fn text(name: &str, r: &LocusAnswer) -> String {
+    let [base, platform] = &r.between;
+    let mut out = format!(
+        "{name}: squared distance of {base} and {platform} while the length of leg {} varies\n\n\
+         lengths              poses  real  status\n",
+        r.leg
+    );
+    // lengths in a row with the same numbers are one line
+    let key = |r: &LocusRowRecord| {
+        let real = r.values.iter().filter(|v| v.real == Some(true)).count();
+        (r.values.len(), real, r.status, r.all_paths_accounted)
+    };
+    for group in r.rows.chunk_by(|a, b| key(a) == key(b)) {
+        let (poses, real, status, complete) = key(&group[0]);
+        let ends = (group[0].length.0, group[group.len() - 1].length.0);
+        let doubt = if complete { "" } else { " (poses may be missing)" };
+        let _ = writeln!(
+            out,
+            "{:>9.5} {:>9.5}  {poses:>5}  {real:>4}  {}{doubt}",
+            ends.0,
+            ends.1,
+            status.as_str()
+        );
+    }
+    if !r.meetings.is_empty() {
+        out.push_str("\ndouble values on the real axis, about:\n   length      value\n");
+        for m in &r.meetings {
+            let _ = writeln!(out, "{:>9.5}  {:>9.5}", m.length.0, m.value.0);
+        }
+    }
+    out
+}

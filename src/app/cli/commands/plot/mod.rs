@@ -1,0 +1,140 @@
+//! `equipod plot`: one picture, as SVG.
+
+mod determinant;
+mod front;
+mod locus;
+mod modes;
+mod pair;
+mod swept;
+mod workspace;
+
+use std::path::{Path, PathBuf};
+
+use super::equivalents::{components, topologies};
+use super::singular::{motion, poses as singular_poses};
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::freedoms::Freedoms;
+use crate::app::cli::output::Answer;
+use crate::app::cli::poses;
+use crate::app::records::{FigureWord, PictureRecord, PlotAnswer};
+use crate::files::plot::singular_slice;
+
+/// Arguments of `plot`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    figure: Figure,
+    /// Write the picture to this file; it goes to standard output when absent
+    #[arg(short, long, value_name = "FILE", global = true)]
+    output: Option<OutputPath>,
+}
+
+/// What is drawn.
+#[derive(Debug, clap::Subcommand)]
+enum Figure {
+    /// Draw all assembly modes at given leg lengths, mirror images side by side
+    Modes(modes::Args),
+    /// Draw the curves of replaceable joints in two planes (conics, cubics, lines)
+    Components {
+        /// Design file (.toml or .json)
+        design: PathBuf,
+        /// Draw only this pair of planes: its number in the answer of `equivalents components`, counted from 1
+        #[arg(long, value_name = "K")]
+        pair: Option<usize>,
+        /// What counts as zero, relative to the size of the body
+        #[arg(long, value_name = "X", default_value_t = 1e-9)]
+        tolerance: f64,
+    },
+    /// Draw the sign of det A over two of the six offsets
+    Det(determinant::Args),
+    /// Draw how the squared length of a virtual leg moves at all poses while one leg length varies
+    Locus(locus::Args),
+    /// Draw two designs at the same pose side by side, with their leg map
+    Pair(pair::Args),
+    /// Draw a front that `optimize` found with `mode = "pareto"`
+    Pareto(front::Args),
+    /// Draw the longest self-motion, animated
+    SelfMotion(motion::CurveQuestion),
+    /// Draw where det J vanishes over two freedoms of the platform
+    SingularPoses {
+        /// Design file (.toml or .json)
+        design: PathBuf,
+        /// Pose in the middle of the picture
+        #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
+        pose: String,
+        /// Two freedoms on the axes: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
+        #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
+        slice: Freedoms,
+    },
+    /// Draw columns of the table of a sweep: colours or lines over two, the distribution of one, parallel axes, points, a front
+    Sweep(swept::Args),
+    /// Draw the ways to share joints: that of a design, or all of them
+    Topologies {
+        /// Design file (.toml or .json): name its topology only
+        design: Option<PathBuf>,
+        /// Number of random members of each topology that are solved to count its poses
+        #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
+        members: u64,
+    },
+    /// Draw the poses within all limits over two freedoms, and the limits that end them
+    Workspace(workspace::Args),
+}
+
+/// What drawing gives: most figures are the picture alone, some come with their values.
+enum Drawn {
+    Picture(FigureWord, String),
+    Answer(Answer),
+}
+
+impl Figure {
+    fn draw(&self, output: Option<&Path>, context: &mut Context) -> Result<Drawn, Failure> {
+        let seed = context.seed();
+        let (word, svg) = match self {
+            Self::Locus(args) => return locus::run(args, output, context).map(Drawn::Answer),
+            Self::Modes(args) => (FigureWord::Modes, modes::draw(args, context)?),
+            Self::Components { design, pair, tolerance } => {
+                let svg = components::drawing(&context.load(design)?, *pair, *tolerance, seed)?;
+                (FigureWord::Components, svg)
+            }
+            Self::Det(args) => (FigureWord::Det, determinant::draw(args, context)?),
+            Self::Pair(args) => (FigureWord::Pair, pair::draw(args, context)?),
+            Self::Pareto(args) => (FigureWord::Pareto, front::draw(args)?),
+            Self::SelfMotion(question) => (FigureWord::SelfMotion, motion::drawing(question, context)?),
+            Self::SingularPoses { design, pose, slice } => {
+                let design = context.load(design)?;
+                let pose = poses::parse(pose, &design, "--pose", "plot::bad_pose")?;
+                // the picture needs the shape of the box only
+                let options = singular_poses::box_options(None, 0, &design, seed)?;
+                let figure = singular_poses::slice::figure(&design, *slice, &pose, &options);
+                (FigureWord::SingularPoses, singular_slice(&figure))
+            }
+            Self::Sweep(args) => (FigureWord::Sweep, swept::draw(args)?),
+            Self::Topologies { design, members } => {
+                let design = design.as_deref().map(|path| context.load(path)).transpose()?;
+                (FigureWord::Topologies, topologies::drawing(design.as_ref(), *members, seed)?)
+            }
+            Self::Workspace(args) => (FigureWord::Workspace, workspace::draw(args, context)?),
+        };
+        Ok(Drawn::Picture(word, svg))
+    }
+}
+
+/// Draws, and writes the file or the picture itself.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let (figure, svg) = match args.figure.draw(args.output.as_deref(), context)? {
+        Drawn::Answer(answer) => return Ok(answer),
+        Drawn::Picture(figure, svg) => (figure, svg),
+    };
+    let (picture, text) = if let Some(path) = &args.output {
+        files::write_text(path, &svg)?;
+        let output = path.display().to_string();
+        let text = format!("{output}\n");
+        (PictureRecord::Written { output }, text)
+    } else {
+        (PictureRecord::Given { svg: svg.clone() }, svg)
+    };
+    Ok(Answer::new(Exit::Yes, PlotAnswer { figure, picture }, text))
+}

@@ -1,0 +1,30 @@
+//! `equipod plot modes`.
+
+use std::path::PathBuf;
+
+use crate::app::cli::commands::{explore, fk};
+use crate::app::cli::context::Context;
+use crate::app::cli::failure::Failure;
+use crate::fk::FkOptions;
+
+/// Arguments of `plot modes`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Design file (.toml or .json)
+    design: PathBuf,
+    /// Six lengths; those of the design when absent, else those of its home pose
+    #[arg(long, value_name = "L1,..,L6")]
+    lengths: Option<String>,
+}
+
+pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
+    let mut design = context.load(&args.design)?;
+    if let Some(text) = &args.lengths {
+        let six = fk::lengths::six(text, &design.leg_offsets()).map(|given| given.distances);
+        design.lengths = Some(six.map_err(|m| {
+            Failure::refused("plot::bad_lengths", format!("--lengths: {m}"))
+                .with_help("give six lengths separated by commas")
+        })?);
+    }
+    explore::modes_picture(&design, &FkOptions { seed: context.seed(), ..FkOptions::default() })
+}

@@ -1,0 +1,238 @@
+//! `equipod plot workspace`.
+
+use std::path::PathBuf;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::freedoms::{Freedoms, PoseGrid};
+use crate::app::cli::numbers;
+use crate::app::cli::poses;
+use crate::files::design::Design;
+use crate::files::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};
+use crate::machine::requirements::{Limit, Limits, Region};
+use crate::platform::geom::{Pose, turn_between};
+
+/// Rotations shown each way where neither option nor design says more, degrees.
+const DEGREES: f64 = 90.0;
+
+/// Arguments of `plot workspace`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Design file (.toml or .json) with its limits in the table hardware
+    design: PathBuf,
+    /// Two freedoms on the axes: x, y, z (reachable positions at a fixed orientation), rx, ry, rz (reachable orientations at a position; rotation
+    /// vector in the base frame)
+    #[arg(long, value_name = "A,B", default_value = "x,y", value_parser = Freedoms::parse)]
+    slice: Freedoms,
+    /// Pose in the middle of the picture, which fixes the other four freedoms; the legs are mounted for the home pose of the design
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
+    pose: String,
+    /// Half widths of the picture, design units or degrees; the size of the design and 90 degrees when absent
+    #[arg(long, value_name = "A,B", value_parser = half_widths)]
+    half_widths: Option<[f64; 2]>,
+    /// Number of poses along each side of the picture
+    #[arg(long, value_name = "N", default_value_t = 181, value_parser = clap::value_parser!(u16).range(2..=1001))]
+    resolution: u16,
+}
+
+fn half_widths(text: &str) -> Result<[f64; 2], String> {
+    let both = numbers::parse(text).filter(|half: &[f64; 2]| half.iter().all(|x| *x > 0.0));
+    both.ok_or_else(|| "give two positive numbers separated by a comma".into())
+}
+
+pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
+    let design = context.load(&args.design)?;
+    let m = design.manipulator();
+    let pose = poses::parse(&args.pose, &design, "--pose", "plot::bad_pose")?;
+    let default = || args.slice.places().map(|k| if k < 3 { m.size() } else { DEGREES });
+    let grid = PoseGrid {
+        freedoms: args.slice,
+        middle: pose,
+        half: args.half_widths.unwrap_or_else(default),
+        side: usize::from(args.resolution),
+    };
+    let required = design.requirements();
+    let limits = Limits::new(m, &required, &poses::home(&design));
+    let found: Vec<_> = grid.poses().map(|pose| limits.at(&pose)).collect();
+    // what ends the workspace somewhere in the picture, in the order of the kinds
+    let missed = found.iter().filter(|p| p.share.is_nan() || p.share <= 0.0).filter_map(|p| p.limit);
+    let mut names: Vec<Kind> = missed.map(Kind::of).collect();
+    names.sort_unstable();
+    names.dedup();
+    let [across, up] = grid.axes(&design);
+    Ok(workspace_slice(&WorkspaceFigure {
+        title: format!("Workspace of \u{201c}{}\u{201d}", design.name),
+        notes: notes(&design, &limits),
+        across,
+        up,
+        side: grid.side,
+        margins: found.iter().map(|p| p.share).collect(),
+        worst: found.iter().map(|p| p.limit.and_then(|l| names.binary_search(&Kind::of(l)).ok())).collect(),
+        limits: names.iter().map(|k| WorkspaceLimit { code: k.code(), name: k.words() }).collect(),
+        required: required_section(&design, &grid),
+        home: (grid.centre(), if args.pose == "home" { "home".into() } else { "pose".into() }),
+    }))
+}
+
+/// A kind of limit, whichever leg it is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Requirement(crate::machine::requirements::TermKind),
+    Singular,
+}
+
+impl Kind {
+    fn of(limit: Limit) -> Self {
+        match limit {
+            Limit::Term(term) => Self::Requirement(term.kind),
+            Limit::Singular => Self::Singular,
+        }
+    }
+
+    fn code(self) -> &'static str {
+        match self {
+            Self::Requirement(kind) => kind.code(),
+            Self::Singular => "singular",
+        }
+    }
+
+    fn words(self) -> String {
+        match self {
+            Self::Requirement(kind) => kind.code().replace('_', " "),
+            Self::Singular => "beyond a singular pose".into(),
+        }
+    }
+}
+
+/// Freedoms of a pose that differ by less, in shares of the half widths of the picture, are the same.
+const SAME: f64 = 1e-6;
+/// Corners of the line that stands for an ellipse.
+const ELLIPSE: usize = 96;
+
+/// Translation and rotation vector (radians) from home to a pose, base frame.
+fn from_home(home: &Pose, pose: &Pose) -> [f64; 6] {
+    let d = pose.position - home.position;
+    let w = turn_between(&home.rotation, &pose.rotation);
+    [d.x, d.y, d.z, w.x, w.y, w.z]
+}
+
+/// What of the workspace of the design lies in the slice; `None` where it asks for none.
+fn required_section(design: &Design, grid: &PoseGrid) -> Option<RequiredSection> {
+    if design.workspace.is_empty() {
+        return None;
+    }
+    let home = poses::home(design);
+    let space = design.workspace.space(&home);
+    let widths: [f64; 6] = std::array::from_fn(|k| {
+        if k < 3 { space.translation[k] } else { space.rotation_deg[k - 3].to_radians() }
+    });
+    let [across, up] = grid.freedoms.places();
+    let middle = from_home(&home, &grid.middle);
+    let at_home = middle.iter().all(|x| *x == 0.0);
+    let outline = match () {
+        () if !design.workspace.has_box() => None,
+        () if at_home => Some(SectionOutline::Through(section_at_home(space.region, &widths, grid))),
+        // a rotation vector and a rotation about another pose do not add: the section is the zero line of a function
+        () => Some(SectionOutline::Zero(
+            grid.poses().map(|pose| inside(space.region, &widths, &from_home(&home, &pose))).collect(),
+        )),
+    };
+    let scale = |k: usize| if k < 3 { design.manipulator().size() } else { 1.0 };
+    let in_slice = |pose: &Pose| {
+        let x = from_home(&grid.middle, pose);
+        let fixed = (0..6).filter(|k| *k != across && *k != up).all(|k| x[k].abs() <= SAME * scale(k));
+        let centre = grid.centre();
+        let place = |k: usize, middle: f64| middle + if k < 3 { x[k] } else { x[k].to_degrees() };
+        let at = (place(across, centre.0), place(up, centre.1));
+        let shown = (at.0 - centre.0).abs() <= grid.half[0] && (at.1 - centre.1).abs() <= grid.half[1];
+        (fixed && shown).then_some(at)
+    };
+    let poses = space.poses.iter().chain(&space.trajectory).filter_map(in_slice).collect();
+    Some(RequiredSection { outline, poses })
+}
+
+/// The section of the region through home: a rectangle, or an ellipse where both freedoms belong to one ellipsoid.
+fn section_at_home(region: Region, widths: &[f64; 6], grid: &PoseGrid) -> Vec<(f64, f64)> {
+    let [across, up] = grid.freedoms.places();
+    let shown = |k: usize| if k < 3 { widths[k] } else { widths[k].to_degrees() };
+    let (a, b, centre) = (shown(across), shown(up), grid.centre());
+    let round = region == Region::Ellipsoid && (across < 3) == (up < 3);
+    let corners: Vec<(f64, f64)> = if round {
+        (0..ELLIPSE).map(|k| (std::f64::consts::TAU * k as f64 / ELLIPSE as f64).sin_cos()).collect()
+    } else {
+        vec![(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+    };
+    corners.into_iter().map(|(s, t)| (centre.0 + a * s, centre.1 + b * t)).collect()
+}
+
+/// Positive inside the region; a freedom without a width is inside at home only.
+fn inside(region: Region, widths: &[f64; 6], x: &[f64; 6]) -> f64 {
+    let share = |k: usize| match widths[k] {
+        w if w > 0.0 => (x[k] / w).abs(),
+        _ if x[k].abs() <= SAME * widths.iter().fold(0.0, |m: f64, w| m.max(*w)) => 0.0,
+        _ => f64::MAX.sqrt(),
+    };
+    let norm = |range: std::ops::Range<usize>| match region {
+        Region::Ellipsoid => range.map(|k| share(k).powi(2)).sum::<f64>().sqrt(),
+        Region::Box => range.map(share).fold(0.0, f64::max),
+    };
+    1.0 - norm(0..3).max(norm(3..6))
+}
+
+fn notes(design: &Design, limits: &Limits<'_>) -> Vec<String> {
+    let mut out = vec![
+        "The other four freedoms are those of the marked pose. Of several limits the one missed by the largest share gives the colour.".to_string(),
+        "Evaluated at the points of the grid; nothing is proved between them.".to_string(),
+    ];
+    if !limits.judges_singularity() {
+        out.push("Home is singular: singular poses are not shown as a limit.".into());
+    }
+    if design.requirements() == crate::machine::requirements::Requirements::default() {
+        out.push(
+            "The design has no limits of its own: give leg_length, swing .. in the table hardware.".into(),
+        );
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Rotation3, Vector3};
+
+    use super::*;
+    use crate::app::cli::freedoms::Freedoms;
+    use crate::machine::requirements::TermKind;
+
+    #[test]
+    fn every_limit_has_its_colour() {
+        let known = |code: &str| crate::files::plot::LIMIT_FILLS.iter().any(|(c, _)| *c == code);
+        let kinds = TermKind::ALL;
+        assert!(kinds.into_iter().map(Kind::Requirement).chain([Kind::Singular]).all(|k| known(k.code())));
+        assert_eq!(kinds.len() + 1, crate::files::plot::LIMIT_FILLS.len());
+    }
+
+    /// The zero line of the function for other poses is the section that is drawn at home.
+    #[test]
+    fn the_boundary_of_the_region_is_where_the_function_is_zero() {
+        let widths = [2.0, 3.0, 0.0, 0.1, 0.2, 0.3];
+        let middle = Pose { rotation: Rotation3::identity(), position: Vector3::new(5.0, 6.0, 7.0) };
+        for region in [Region::Box, Region::Ellipsoid] {
+            for (slice, half) in [("x,y", [4.0, 4.0]), ("y,rz", [4.0, 30.0]), ("rx,ry", [20.0, 20.0])] {
+                let freedoms = Freedoms::parse(slice).unwrap();
+                let grid = PoseGrid { freedoms, middle, half, side: 3 };
+                let (centre, places) = (grid.centre(), freedoms.places());
+                for (a, b) in section_at_home(region, &widths, &grid) {
+                    for (share, sign) in [(0.98, 1.0), (1.02, -1.0)] {
+                        let mut x = [0.0; 6];
+                        for (k, d) in places.into_iter().zip([a - centre.0, b - centre.1]) {
+                            x[k] = share * if k < 3 { d } else { d.to_radians() };
+                        }
+                        assert!(inside(region, &widths, &x) * sign > 0.0, "{region:?} {slice} {a} {b}");
+                    }
+                }
+            }
+        }
+        // a freedom without a width is not left
+        assert!(inside(Region::Box, &widths, &[0.0, 0.0, 0.1, 0.0, 0.0, 0.0]) < 0.0);
+    }
+}

@@ -1,0 +1,24 @@
+//! `equipod shell completions`: completion scripts for shells.
+
+use clap_complete::Shell;
+
+use crate::app::cli::exit::Exit;
+use crate::app::cli::guide;
+use crate::app::cli::output::Answer;
+use crate::app::records::CompletionsAnswer;
+
+/// Arguments of `shell completions`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Shell the script is for
+    shell: Shell,
+}
+
+/// The script on standard output.
+pub(crate) fn run(args: &Args) -> Answer {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut guide::program(), "equipod", &mut script);
+    let text = String::from_utf8_lossy(&script).into_owned();
+    let record = CompletionsAnswer { shell: args.shell.to_string(), script: text.clone() };
+    Answer::new(Exit::Yes, record, text)
+}

@@ -1,0 +1,28 @@
+//! `equipod shell`: what a shell or a package of the program needs.
+
+mod completions;
+mod man;
+
+use clap::Subcommand;
+
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+
+/// Commands about the shell.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Print the completion script for a shell
+    Completions(completions::Args),
+    /// Write the manual pages of all commands
+    Man(man::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        match self {
+            Self::Completions(args) => Ok(completions::run(args)),
+            Self::Man(args) => man::run(args),
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! `equipod singular`: singular poses and self-motions of a design.
+
+pub(in crate::app::cli::commands) mod motion;
+pub(in crate::app::cli::commands) mod poses;
+
+use clap::Subcommand;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+
+/// Commands about singular poses.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Find the sign of det J at poses and along paths, and a box without singular poses
+    Poses(poses::Args),
+    /// Follow self-motions, which are curves of poses with constant leg lengths
+    Motion(motion::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
+        match self {
+            Self::Poses(args) => poses::run(args, context),
+            Self::Motion(args) => motion::run(args, context),
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! `equipod sweep best`: the best candidates as design files, side by side on one page.
+
+use std::cmp::Ordering;
+use std::path::PathBuf;
+
+use crate::app::cli::commands::report;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::numbers::significant;
+use crate::app::cli::output::Answer;
+use crate::app::cli::sweep_folder::SweepFolder;
+use crate::app::cli::swept_table::{Better, SweptTable};
+use crate::app::records::{SweepBestAnswer, SweepBestRecord};
+use crate::app::sweep::SweepCell;
+
+/// The page in the folder.
+const PAGE: &str = "report.html";
+/// Designs written, at most: the page compares all of them.
+const MOST: u64 = 50;
+/// Candidates looked at for each design that is asked for: several may be one design.
+const SPARE: usize = 20;
+
+/// Arguments of `sweep best`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Folder of the sweep
+    folder: PathBuf,
+    /// Column of numbers by which candidates are ranked
+    #[arg(long, value_name = "COLUMN")]
+    by: String,
+    /// Which of its values are the better ones
+    #[arg(long, value_enum, default_value_t = Better::High)]
+    better: Better,
+    /// Leave out rows for which this does not hold, as in a plan: "conditioning > 0.1"; as often as there are conditions
+    #[arg(long, value_name = "CONDITION")]
+    keep: Vec<String>,
+    /// Number of candidates
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=MOST))]
+    count: u64,
+    /// Folder for the designs and the page that compares them
+    #[arg(short, long, value_name = "DIR")]
+    output: OutputPath,
+}
+
+/// Ranks the rows, makes the designs again from plan and seed, and compares them.
+pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    let folder = SweepFolder::open(&args.folder)?;
+    let sweep = folder.sweep()?;
+    let table = SweptTable::open(&args.folder, &args.keep)?;
+    let by = table.column(&args.by)?;
+    let mut ranked: Vec<(f64, u64)> = Vec::new();
+    let (mut rows, count) = (0, args.count as usize);
+    let better = |a: &(f64, u64), b: &(f64, u64)| -> Ordering {
+        let order = match args.better {
+            Better::High => b.0.total_cmp(&a.0),
+            Better::Low => a.0.total_cmp(&b.0),
+        };
+        // of equal ones the first
+        order.then(a.1.cmp(&b.1))
+    };
+    table.each_row(|row| {
+        rows += 1;
+        let (SweepCell::Integer(k), Some(value)) = (&row[0], row[by].as_number()) else { return };
+        if value.is_nan() {
+            return;
+        }
+        ranked.push((value, k.cast_unsigned()));
+        // what is kept does not grow with the table
+        if ranked.len() >= 2 * SPARE * count {
+            ranked.sort_by(better);
+            ranked.truncate(SPARE * count);
+        }
+    })?;
+    ranked.sort_by(better);
+    ranked.truncate(SPARE * count);
+    let (mut candidates, mut paths, mut lines) = (Vec::new(), Vec::new(), Vec::new());
+    if !ranked.is_empty() {
+        files::make_folder(&args.output)?;
+        folder.write_poses(&sweep, &args.output)?;
+    }
+    let mut texts: Vec<String> = Vec::new();
+    for (value, k) in ranked {
+        if texts.len() == count {
+            break;
+        }
+        let text = sweep.design_text(k).map_err(|why| {
+            Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} makes no design: {why}"))
+        })?;
+        // candidates may differ in lengths and poses alone, which are not those of the design
+        if texts.contains(&text) {
+            continue;
+        }
+        let place = texts.len() + 1;
+        // the page has files in the order of their names
+        let path = args.output.join(format!("{place:02}-candidate-{k}.toml"));
+        files::write_text(&path, &text)?;
+        texts.push(text);
+        let output = path.display().to_string();
+        lines.push(format!("{output}  {} {}\n", args.by, significant(value)));
+        candidates.push(SweepBestRecord { candidate: k, value: value.into(), output });
+        paths.push(path);
+    }
+    if candidates.is_empty() {
+        let answer = SweepBestAnswer { column: args.by.clone(), rows, candidates, page: None };
+        return Ok(Answer::new(Exit::No, answer, "no row has a value and is kept\n".into()));
+    }
+    let page = args.output.join(PAGE);
+    files::write_text(&page, &report::page(report::read(&args.output, paths)?, Some(table.name)))?;
+    let page = page.display().to_string();
+    lines.push(format!("{page}\n"));
+    let answer = SweepBestAnswer { column: args.by.clone(), rows, candidates, page: Some(page) };
+    Ok(Answer::new(Exit::Yes, answer, lines.concat()))
+}

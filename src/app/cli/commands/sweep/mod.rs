@@ -1,0 +1,49 @@
+//! `equipod sweep`: many designs from a plan, as Parquet.
+
+mod best;
+mod design;
+mod merge;
+mod run;
+mod script;
+mod status;
+mod verify;
+
+use clap::Subcommand;
+
+use crate::app::cli::context::Context;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+
+/// Commands about sweeps.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Compute the candidates of a plan, or one shard of them; what is done already stays. `equipod sweep PLAN` is the same
+    Run(run::Args),
+    /// Say which shards are done, missing or damaged
+    Status(status::Args),
+    /// Put the parts of a sweep into one Parquet file
+    Merge(merge::Args),
+    /// Check the digests of all parts, and compute a random sample again, bit for bit
+    Verify(verify::Args),
+    /// Write the best candidates as design files, with a page that compares them
+    Best(best::Args),
+    /// Write a candidate as a design file
+    Design(design::Args),
+    /// Write a script that hands the shards to a cluster with Slurm
+    Script(script::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
+        match self {
+            Self::Run(args) => run::run(args, context),
+            Self::Status(args) => status::run(args),
+            Self::Merge(args) => merge::run(args),
+            Self::Verify(args) => verify::run(args, context),
+            Self::Best(args) => best::run(args),
+            Self::Design(args) => design::run(args),
+            Self::Script(args) => script::run(args, context),
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! `equipod verify`: are two designs kinematically equivalent?
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use crate::app::cli::alignment::{FrameArgs, same_units};
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+use crate::app::entrance::{SAMPLES, sample_plan};
+use crate::app::records::{SampleRecord, VerifyAnswer};
+use crate::fk::FkOptions;
+use crate::synthesis::Relation;
+use crate::verify::{Verdict, VerifyError, verify_mapped};
+
+/// Arguments of `verify`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json); its home pose and workspace give the sample poses
+    a: PathBuf,
+    /// Design file to compare with, in the same units and, without --align, in the same two frames
+    b: PathBuf,
+    /// Number of sets of leg lengths at which both designs are solved and compared
+    #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = at_least_one)]
+    samples: usize,
+    #[command(flatten)]
+    frames: FrameArgs,
+}
+
+pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n) if (1..=100_000).contains(&n) => Ok(n),
+        _ => Err("a whole number from 1 to 100000".to_owned()),
+    }
+}
+
+/// The leg map, forward kinematics of both at the samples, and the verdict.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let (a, b) = (context.load(&args.a)?, context.load(&args.b)?);
+    same_units(&a, &b, "verify::different_units")?;
+    let second = args.frames.apply(&a, &b, context)?;
+    let map = second.judged(a.manipulator()).map_err(|e| failure_of(&e.into()))?;
+    if let Some(none) = second.refuted()
+        && map.relation == Relation::Unrelated
+    {
+        let exit = if none { Exit::No } else { Exit::Inconclusive };
+        let explanation = second.explanation().unwrap_or_default();
+        let record = VerifyAnswer::unaligned(&map, none, explanation, second.record());
+        let text = format!("{} ~ {}: {}\n{}", a.name, b.name, record.verdict.as_str(), second.text());
+        return Ok(Answer::new(exit, record, text));
+    }
+    let plan = sample_plan(&a, args.samples, context.seed());
+    let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
+    let found = verify_mapped(a.manipulator(), &second.manipulator, map, &plan, &options)
+        .map_err(|e| failure_of(&e))?;
+    let record = VerifyAnswer::new(&found, &plan, second.record());
+    let text = second.text() + &text(&record, &a.name, &b.name);
+    Ok(Answer::new(exit_of(&found.verdict), record, text))
+}
+
+/// What the verdict means for the exit code.
+pub(crate) fn exit_of(verdict: &Verdict) -> Exit {
+    match verdict {
+        Verdict::Equivalent => Exit::Yes,
+        Verdict::NotEquivalent(_) | Verdict::Singular => Exit::No,
+        Verdict::Inconclusive(_) => Exit::Inconclusive,
+    }
+}
+
+/// A verification that could not be carried out.
+pub(crate) fn failure_of(error: &VerifyError) -> Failure {
+    match error {
+        VerifyError::Lengths { .. } => Failure::refused("verify::lengths", error.to_string())
+            .with_help("give design A a [home] pose and a [workspace] that the platform can reach"),
+        VerifyError::Contradiction { .. } => Failure::internal(error.to_string()),
+        VerifyError::LegMap(_) | VerifyError::ForwardKinematics { .. } | VerifyError::Cancelled => {
+            Failure::new(Exit::Inconclusive, "verify::breakdown", error.to_string())
+                .with_help("try another --seed")
+        }
+    }
+}
+
+/// The remark behind the row of a sample.
+fn remark(s: &SampleRecord) -> String {
+    let mut out = String::new();
+    for (platform, beyond) in [("A", s.beyond_precision_a), ("B", s.beyond_precision_b)] {
+        if beyond > 0 {
+            let _ = write!(out, "  {beyond} of {platform} beyond double precision");
+        }
+    }
+    if !(s.a.all_paths_accounted && s.b.all_paths_accounted) {
+        out.push_str("  poses may be missing");
+    }
+    out
+}
+
+/// What people read.
+fn text(v: &VerifyAnswer, a: &str, b: &str) -> String {
+    let mut out = format!("{a} ~ {b}: {}\n{}\n", v.verdict.as_str(), v.explanation);
+    if let Some(polynomial) = &v.map.det_of_shares {
+        let _ = writeln!(
+            out,
+            "singular offsets: with any shares t of the edges that the leg ends of B are on, det A = {polynomial}, and B is singular where it is zero"
+        );
+    }
+    if !v.samples.is_empty() {
+        out.push_str("\nsample  poses A  poses B  matched  real  certified  worst distance\n");
+    }
+    for (k, s) in v.samples.iter().enumerate() {
+        let _ = writeln!(
+            out,
+            "{:>6}  {:>7}  {:>7}  {:>7}  {:>4}  {:>4}+{:<4}  {:>14.1e}{}",
+            k + 1,
+            s.a.finite_count,
+            s.b.finite_count,
+            s.matched,
+            s.b.real_count,
+            s.a.certified_count,
+            s.b.certified_count,
+            s.worst_distance.0,
+            remark(s),
+        );
+    }
+    out
+}

@@ -1,0 +1,253 @@
+//! What a command is given besides its own arguments.
+
+use std::cell::Cell;
+use std::path::{Path, PathBuf};
+
+use clap::ArgMatches;
+use clap::parser::ValueSource;
+
+use super::diagnostic;
+use super::failure::Failure;
+use super::files;
+use super::rows;
+use crate::app::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
+use crate::files::design::{Design, Format, Violation, Warning, parse, parse_ideal, parse_with_cranks};
+use crate::machine::coupled::CoupledLegs;
+use crate::machine::rotary::RotaryPlatform;
+
+/// Options every command takes, before or after its name.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Global {
+    /// Write exactly one JSON document to standard output, errors included
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
+    /// Seed of all random numbers; the same input and seed give the same output
+    #[arg(long, global = true, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Write no warnings and no progress to standard error
+    #[arg(short, long, global = true)]
+    pub(crate) quiet: bool,
+}
+
+/// A warning and the file it is about.
+#[derive(Debug)]
+pub(crate) struct FileWarning {
+    pub(crate) path: String,
+    pub(crate) warning: Warning,
+}
+
+/// A design with its warnings, or what is wrong with its text.
+type DesignOrViolations = Result<(Design, Vec<Warning>), Vec<Violation>>;
+
+/// Global options and the warnings gathered on the way.
+#[derive(Debug)]
+pub(crate) struct Context {
+    seed: u64,
+    /// The command has asked for the seed: the answer may depend on it.
+    seed_taken: Cell<bool>,
+    json: bool,
+    quiet: bool,
+    /// Options that were typed, by their identifiers.
+    typed: Vec<String>,
+    warnings: Vec<FileWarning>,
+    /// The designs that were read: name and file.
+    designs: Vec<(String, String)>,
+}
+
+impl Context {
+    pub(crate) fn new(global: &Global, matches: &ArgMatches) -> Self {
+        let Global { json, seed, quiet } = *global;
+        Self {
+            seed,
+            seed_taken: Cell::new(false),
+            json,
+            quiet,
+            typed: typed(matches),
+            warnings: Vec::new(),
+            designs: Vec::new(),
+        }
+    }
+
+    /// That of a command without arguments, for tests.
+    #[cfg(test)]
+    pub(crate) fn silent() -> Self {
+        Self::new(&Global { json: false, seed: 1, quiet: true }, &ArgMatches::default())
+    }
+
+    /// Refuses an option that was typed although it has no effect for `reason`: nothing that was asked for is passed over.
+    ///
+    /// # Errors
+    /// Exit 2, `usage::no_effect`.
+    pub(crate) fn no_effect(&self, option: &str, reason: &str) -> Result<(), Failure> {
+        if !self.typed.iter().any(|id| id == option) {
+            return Ok(());
+        }
+        let option = option.replace('_', "-");
+        let failure =
+            Failure::refused("usage::no_effect", format!("--{option} has no effect here: {reason}"));
+        Err(failure.with_help(format!("leave out --{option}")))
+    }
+
+    /// `--seed`: the only source of randomness.
+    pub(crate) fn seed(&self) -> u64 {
+        self.seed_taken.set(true);
+        self.seed
+    }
+
+    /// What the answer was made from.
+    pub(crate) fn provenance(&self) -> ProvenanceRecord {
+        let texts = files::texts_read();
+        let source = |(name, path): &(String, String)| {
+            let text = texts.iter().find(|text| text.path == *path)?;
+            Some(DesignSourceRecord {
+                name: name.clone(),
+                path: Some(path.clone()),
+                sha256: text.sha256.clone(),
+            })
+        };
+        let is_design = |text: &FileSourceRecord| self.designs.iter().any(|(_, path)| *path == text.path);
+        ProvenanceRecord {
+            seed: self.seed_taken.get().then_some(self.seed),
+            designs: self.designs.iter().filter_map(source).collect(),
+            files: texts.iter().filter(|text| !is_design(text)).cloned().collect(),
+            ..ProvenanceRecord::default()
+        }
+    }
+
+    /// `--json`: for commands that would do needless work to render what is not shown.
+    pub(crate) fn json(&self) -> bool {
+        self.json
+    }
+
+    /// `--quiet`: no progress on standard error.
+    pub(crate) fn quiet(&self) -> bool {
+        self.quiet
+    }
+
+    pub(crate) fn warnings(&self) -> &[FileWarning] {
+        &self.warnings
+    }
+
+    /// Tells people something on standard error, with `--quiet` too: it belongs to the answer.
+    pub(crate) fn note(&self, words: &str) {
+        if !self.json {
+            diagnostic::print_note(words);
+        }
+    }
+
+    /// Tells people what was guessed about a table.
+    pub(crate) fn note_guesses(&self, table: &str, guesses: &[String]) {
+        for guess in guesses.iter().filter(|_| !self.quiet) {
+            diagnostic::print_note(&format!("{table}: {guess}"));
+        }
+    }
+
+    /// Reads and checks a design file, `-` for standard input; its warnings are shown and kept for the JSON document. Rods on cranks and joints that are not ideal are refused: a command that takes them asks for
+    /// [`Self::load_with_cranks`].
+    ///
+    /// # Errors
+    /// Exit 2 with all violations, or because the file cannot be read.
+    pub(crate) fn load(&mut self, path: &Path) -> Result<Design, Failure> {
+        self.read_design(path, parse).map(|read| read.design)
+    }
+
+    /// As [`Self::load`], with the texts that the design was read from, for commands that keep them.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub(crate) fn load_with_texts(&mut self, path: &Path) -> Result<ReadDesign, Failure> {
+        self.read_design(path, parse)
+    }
+
+    /// As [`Self::load`], for commands that know what to do with rods on cranks and with joints that are not ideal.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub(crate) fn load_with_cranks(&mut self, path: &Path) -> Result<Design, Failure> {
+        self.read_design(path, parse_with_cranks).map(|read| read.design)
+    }
+
+    /// As [`Self::load`], for commands that know what to do with rods on cranks, and take joints as ideal.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub(crate) fn load_ideal(&mut self, path: &Path) -> Result<Design, Failure> {
+        self.read_design(path, parse_ideal).map(|read| read.design)
+    }
+
+    /// The cranks of a design that has some.
+    ///
+    /// # Errors
+    /// Exit 2: cranks and joints that make no platform.
+    pub(crate) fn cranks_of(design: &Design) -> Result<Option<RotaryPlatform>, Failure> {
+        design.rotary().map_err(|why| Failure::refused("design::invalid", format!("{}: {why}", design.name)))
+    }
+
+    /// The legs of a design whose joints are not ideal.
+    ///
+    /// # Errors
+    /// Exit 2: drives that have no lengths at home, from where their turns count.
+    pub(crate) fn coupled_of(design: &Design) -> Result<Option<CoupledLegs>, Failure> {
+        if !design.hardware.is_coupled() {
+            return Ok(None);
+        }
+        let home = crate::app::cli::poses::home(design);
+        let refused = |why| Failure::refused("design::not_ideal", format!("{}: at home {why}", design.name));
+        CoupledLegs::new(design.manipulator(), &design.hardware, &home).map(Some).map_err(refused)
+    }
+
+    fn read_design(
+        &mut self,
+        path: &Path,
+        read: fn(&str, Format) -> DesignOrViolations,
+    ) -> Result<ReadDesign, Failure> {
+        let text = files::read_text(path)?;
+        let shown = files::shown(path);
+        match read(&text, format_of(path, &text)) {
+            Ok((mut design, warnings)) => {
+                for warning in warnings {
+                    if !self.quiet {
+                        diagnostic::print_warning(&shown, &text, &warning);
+                    }
+                    self.warnings.push(FileWarning { path: path.display().to_string(), warning });
+                }
+                let mut poses = None;
+                if let Some(trajectory) = &mut design.workspace.trajectory {
+                    // the name is relative to the folder of the design
+                    let table = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
+                    let bytes = files::read_table(&table)?;
+                    let read = rows::poses_of(&bytes, &table, "design::bad_trajectory", self)?;
+                    trajectory.poses = read.rows.into_iter().map(|row| row.value).collect();
+                    poses = Some((table, bytes));
+                }
+                self.designs.push((design.name.clone(), path.display().to_string()));
+                Ok(ReadDesign { design, text, poses })
+            }
+            Err(violations) => Err(Failure::bad_design(shown, text, violations)),
+        }
+    }
+}
+
+/// A design with the texts that it was read from.
+#[derive(Debug)]
+pub(crate) struct ReadDesign {
+    pub(crate) design: Design,
+    pub(crate) text: String,
+    /// The table of poses that its workspace names: its file, its bytes.
+    pub(crate) poses: Option<(PathBuf, Vec<u8>)>,
+}
+
+/// The notation of a design: by the name of the file or, on standard input, by its first character.
+pub(crate) fn format_of(path: &Path, text: &str) -> Format {
+    let begins = text.trim_start_matches('\u{feff}').trim_start();
+    if files::is_standard(path) && begins.starts_with('{') { Format::Json } else { Format::of_path(path) }
+}
+
+/// The options that were typed after the last command.
+fn typed(matches: &ArgMatches) -> Vec<String> {
+    if let Some((_, below)) = matches.subcommand() {
+        return typed(below);
+    }
+    let given = |id: &&clap::Id| matches.value_source(id.as_str()) == Some(ValueSource::CommandLine);
+    matches.ids().filter(given).map(ToString::to_string).collect()
+}

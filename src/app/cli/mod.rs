@@ -1,0 +1,169 @@
+//! The command line: the only place that reads files, prints and ends the process.
+//!
+//! Data goes to standard output, everything else to standard error. With `--json` standard output holds
+//! exactly one JSON document, for refusals and failures too. See `docs/cli.md`.
+
+mod alignment;
+mod args;
+mod commands;
+mod context;
+mod diagnostic;
+mod exit;
+mod failure;
+mod files;
+mod freedoms;
+mod guide;
+mod numbers;
+mod output;
+mod poses;
+mod progress;
+mod reference;
+mod requirements;
+mod rows;
+mod sweep_folder;
+mod swept_table;
+mod table;
+mod usage;
+
+use std::ffi::OsString;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::ExitCode;
+
+use clap::FromArgMatches;
+
+use self::args::Cli;
+use self::context::Context;
+use self::exit::Exit;
+use self::failure::Failure;
+use self::output::Output;
+use crate::num::rounding::check_arithmetic;
+
+/// Runs the program on its arguments and returns its exit code. Panics inside are caught and reported.
+pub fn main(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    ExitCode::from(status(args))
+}
+
+/// As [`main`]; the exit code as a number.
+pub fn status(args: impl IntoIterator<Item = OsString>) -> u8 {
+    let args: Vec<OsString> = args.into_iter().collect();
+    // clap knows about --json only when it understood everything, but its refusals must obey it too
+    let json = args.iter().skip(1).take_while(|a| *a != "--").any(|a| a == "--json");
+    guarded(json, || run(args, json)).code()
+}
+
+/// Runs `body`; a panic in it becomes a failure with exit 4, in JSON when asked.
+fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
+    std::panic::set_hook(Box::new(|info| diagnostic::print_note(&format!("internal: {info}"))));
+    catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|payload| {
+        let text = payload.downcast_ref::<&str>().map(ToString::to_string);
+        let text = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
+        Output::new(json).failure(&Failure::internal(format!("the program broke down: {text}")), None)
+    })
+}
+
+/// The notices of everything that is compiled in, as they come with the sources.
+const LICENCES: &str = include_str!("../../../THIRD-PARTY-LICENCES.txt");
+
+/// Whether `--licences` is all that is asked: like `--version` it needs no command.
+fn asks_for_licences(words: &[String]) -> bool {
+    let own = |w: &String| ["--json", "-q", "--quiet"].contains(&w.as_str());
+    words.iter().skip(1).filter(|w| !own(w)).eq(["--licences"])
+}
+
+/// `equipod sweep PLAN` is `equipod sweep run PLAN`: what a sweep is asked for most has the shortest name. A plan that is called as a command is `sweep run status`.
+fn sweep_run_in_full(mut args: Vec<OsString>) -> Vec<OsString> {
+    let mut rest = args.iter().enumerate().skip(1);
+    while let Some((at, word)) = rest.next() {
+        if word == "--seed" {
+            rest.next();
+        } else if word == "sweep" {
+            let next = rest.map(|(_, word)| word.to_string_lossy()).find(|word| !word.starts_with('-'));
+            if next.is_some_and(|word| !SWEEP_COMMANDS.contains(&word.as_ref())) {
+                args.insert(at + 1, "run".into());
+            }
+            break;
+        } else if !word.to_string_lossy().starts_with('-') {
+            break;
+        }
+    }
+    args
+}
+
+/// What `sweep` takes beside a plan.
+const SWEEP_COMMANDS: [&str; 8] = ["run", "status", "merge", "verify", "best", "design", "script", "help"];
+
+/// What clap has to say about the arguments: help and version, or why they are refused.
+fn told(output: Output, said: &clap::Error, words: &[String]) -> Exit {
+    if said.use_stderr() { output.failure(&usage::refusal(said, words), None) } else { output.help(said) }
+}
+
+fn run(args: Vec<OsString>, json: bool) -> Exit {
+    let mut args = args;
+    if args.len() < 2 {
+        // nothing was asked: say what can be
+        args.push("--help".into());
+    }
+    let args = sweep_run_in_full(args);
+    let words: Vec<String> = args.iter().map(|a| a.to_string_lossy().into_owned()).collect();
+    if asks_for_licences(&words) {
+        return Output::new(json).notices(LICENCES);
+    }
+    let matches = match guide::program().try_get_matches_from(args) {
+        Ok(matches) => matches,
+        Err(error) => return told(Output::new(json), &error, &words),
+    };
+    let cli = match Cli::from_arg_matches(&matches) {
+        Ok(cli) => cli,
+        Err(error) => return told(Output::new(json), &error.format(&mut guide::program()), &words),
+    };
+    let output = Output::new(cli.global.json);
+    if cli.licences {
+        let failure = Failure::refused("usage", "--licences is asked of the program, without a command");
+        return output.failure(&failure.with_help("`equipod --licences`"), None);
+    }
+    if let Err(unfit) = check_arithmetic() {
+        let help = "a library loaded into this process has switched the processor, as code compiled with `-ffast-math` does: start without it (LD_PRELOAD?)";
+        return output
+            .failure(&Failure::new(Exit::Internal, "arithmetic", unfit.to_string()).with_help(help), None);
+    }
+    files::begin();
+    if let Err(failure) = files::check_arguments(&matches, output.is_json()) {
+        return output.failure(&failure, None);
+    }
+    let mut context = Context::new(&cli.global, &matches);
+    let result = cli.command.run(&mut context);
+    match result {
+        Ok(answer) => output.answer(&answer, &context),
+        Err(failure) => output.failure(&failure, Some(&context)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sweep_of_a_plan_needs_no_further_word() {
+        let full = |line: &str| {
+            let words = std::iter::once("equipod").chain(line.split(' ')).map(Into::into).collect();
+            sweep_run_in_full(words).iter().skip(1).map(|w| w.to_string_lossy()).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(full("sweep plan.toml --shard 0/4 -o dir"), "sweep run plan.toml --shard 0/4 -o dir");
+        assert_eq!(full("--seed 5 --json sweep plan.toml"), "--seed 5 --json sweep run plan.toml");
+        for line in
+            ["sweep", "sweep --help", "sweep status dir", "sweep run status", "check sweep", "fk sweep a"]
+        {
+            assert_eq!(full(line), line);
+        }
+        let group = guide::program();
+        let group = group.find_subcommand("sweep").unwrap();
+        assert!(group.get_subcommands().all(|c| SWEEP_COMMANDS.contains(&c.get_name())));
+    }
+
+    #[test]
+    fn a_panic_is_an_internal_failure() {
+        assert_eq!(guarded(true, || panic!("boom {}", 1)), Exit::Internal);
+        assert_eq!(guarded(false, || Exit::No), Exit::No);
+        let _ = std::panic::take_hook();
+    }
+}

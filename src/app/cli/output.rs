@@ -1,0 +1,158 @@
+//! Answers and failures to standard output and standard error.
+
+use std::fmt::Debug;
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use super::context::{Context, FileWarning};
+use super::diagnostic;
+use super::exit::Exit;
+use super::failure::Failure;
+use super::files;
+use crate::app::records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord};
+
+/// What a command found: the record that `--json` prints, and the text that people read without it.
+#[derive(Debug)]
+pub(crate) struct Answer {
+    pub(crate) exit: Exit,
+    record: Box<dyn ErasedRecord>,
+    text: String,
+}
+
+impl Answer {
+    pub(crate) fn new(exit: Exit, record: impl Serialize + Debug + 'static, text: String) -> Self {
+        Self { exit, record: Box::new(record), text }
+    }
+}
+
+/// A record of whatever type that can be written as a document.
+trait ErasedRecord: Debug {
+    fn document(&self, context: &Context) -> Result<String, Failure>;
+}
+
+impl<T: Serialize + Debug> ErasedRecord for T {
+    fn document(&self, context: &Context) -> Result<String, Failure> {
+        document(self, context.provenance(), context.warnings())
+    }
+}
+
+/// Where results go.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Output {
+    json: bool,
+}
+
+impl Output {
+    pub(crate) fn new(json: bool) -> Self {
+        Self { json }
+    }
+
+    pub(crate) fn is_json(self) -> bool {
+        self.json
+    }
+
+    pub(crate) fn answer(self, answer: &Answer, context: &Context) -> Exit {
+        if !self.json {
+            let Some(file) = files::standard_output() else {
+                return write_out(&diagnostic::harmless(&answer.text), answer.exit);
+            };
+            // a file on standard output leaves what there is to say to standard error
+            if !context.quiet() {
+                let said = answer
+                    .text
+                    .lines()
+                    .filter(|line| !["wrote -", "-"].contains(line))
+                    .collect::<Vec<_>>()
+                    .join("\n");
+                diagnostic::print_note(&said);
+            }
+            return write_out(&file, answer.exit);
+        }
+        match answer.record.document(context) {
+            Ok(text) => write_out(&text, answer.exit),
+            Err(failure) => self.failure(&failure, Some(context)),
+        }
+    }
+
+    /// `context`: `None` before the arguments are understood.
+    pub(crate) fn failure(self, failure: &Failure, context: Option<&Context>) -> Exit {
+        diagnostic::print_failure(failure);
+        if !self.json {
+            return failure.exit;
+        }
+        write_failure(failure, context)
+    }
+
+    /// A text that the program prints about itself.
+    pub(crate) fn notices(self, text: &str) -> Exit {
+        if !self.json {
+            return write_out(text, Exit::Yes);
+        }
+        match document(HelpAnswer { help: text.into() }, ProvenanceRecord::default(), &[]) {
+            Ok(text) => write_out(&text, Exit::Yes),
+            Err(failure) => self.failure(&failure, None),
+        }
+    }
+
+    /// Help and version, which clap words.
+    pub(crate) fn help(self, said: &clap::Error) -> Exit {
+        if self.json {
+            return self.notices(&said.to_string());
+        }
+        let styled = said.render().ansi().to_string();
+        let shown = anstream::adapter::strip_str(&styled).to_string();
+        let coloured = anstream::AutoStream::choice(&io::stdout()) != anstream::ColorChoice::Never;
+        write_out(if coloured { &styled } else { &shown }, Exit::Yes)
+    }
+}
+
+/// The text of a document.
+pub(crate) fn document(
+    answer: impl Serialize,
+    provenance: ProvenanceRecord,
+    warnings: &[FileWarning],
+) -> Result<String, Failure> {
+    let document = Document::new(answer, provenance, warnings.iter().map(WarningRecord::from).collect());
+    let text = serde_json::to_string(&document);
+    // what could steer a terminal stands in strings alone, where JSON has another spelling for it
+    text.map(|t| {
+        diagnostic::escaped(&t, |c| {
+            c.encode_utf16(&mut [0; 2]).iter().fold(String::new(), |t, u| format!("{t}\\u{u:04x}"))
+        }) + "\n"
+    })
+    .map_err(|e| Failure::internal(format!("the answer cannot be written as JSON: {e}")))
+}
+
+/// A refusal or failure as a document. It is made of texts and numbers of lines alone: when even that cannot be written, standard error has said it.
+fn write_failure(failure: &Failure, context: Option<&Context>) -> Exit {
+    let (provenance, warnings) = context.map_or_else(Default::default, |c| (c.provenance(), c.warnings()));
+    let text = document(ErrorAnswer { error: failure.into() }, provenance, warnings).unwrap_or_default();
+    write_out(&text, failure.exit)
+}
+
+impl From<&FileWarning> for WarningRecord {
+    fn from(w: &FileWarning) -> Self {
+        Self {
+            code: w.warning.code().into(),
+            path: w.path.clone(),
+            line: w.warning.line(),
+            message: w.warning.to_string(),
+            help: w.warning.advice(),
+        }
+    }
+}
+
+/// Writes to standard output. A closed pipe (`| head`) ends quietly with the exit code of the answer, any other failure is exit 4.
+fn write_out(text: &str, exit: Exit) -> Exit {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => exit,
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => exit,
+        Err(error) => {
+            let message = format!("standard output cannot be written: {error}");
+            diagnostic::print_failure(&Failure::new(Exit::Internal, "output", message));
+            Exit::Internal
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The search for platforms under the requirements of a design. Where the design has a three-fold symmetry and names none, the symmetry is kept first, and given up where nothing that has it meets
+//! the requirements.
+
+use std::ops::ControlFlow;
+
+use super::Error;
+use super::optimizing::{Checked, OptimizeStatus, checked, dimensional_problem, dimensional_status};
+use crate::files::design::Design;
+use crate::machine::manufacture::holes_turn;
+use crate::machine::requirements::{KeptSymmetry, StartSymmetry};
+use crate::optimize::dimensional::{
+    DimensionalProblem, DimensionalReport, DimensionalSolution, ParetoReport, Progress, ShapeSearchOptions,
+    Triangles, optimize, optimize_without_conflict, pareto,
+};
+use crate::platform::manipulator::{Body, Octahedral};
+use crate::verify::VerifyError;
+
+/// Whether the search keeps the three-fold symmetry of a design that names no symmetry: the design has it at home, the variables of `free`, the problem without it, could break it, and the holes that
+/// the design states turn with it.
+pub(super) fn keeps_symmetry_of_start(
+    design: &Design,
+    free: &DimensionalProblem,
+) -> Option<DimensionalProblem> {
+    let v = &free.variables;
+    let could_break = v.offsets && !v.symmetric || v.triangles == Triangles::Shapes;
+    if design.search.symmetry.is_some() || !could_break {
+        return None;
+    }
+    let mut kept = free.clone();
+    kept.variables.symmetry = KeptSymmetry::ThreeFold;
+    kept.validate().ok()?;
+    if let Some(grids) = &design.holes {
+        let octahedral = Octahedral::recognise(&free.manipulator).ok()?;
+        let (corners, size) = ([octahedral.base(), octahedral.platform()], free.manipulator.size());
+        let turns = |body: Body| holes_turn(&corners[body.index()], grids[body.index()].as_ref(), size);
+        if !Body::BOTH.into_iter().all(turns) {
+            return None;
+        }
+    }
+    Some(kept)
+}
+
+/// What a search under requirements found, judged by code that the search does not use.
+#[derive(Debug, Clone)]
+pub(crate) struct FoundPlatform {
+    /// The problem of the answer.
+    pub(crate) problem: DimensionalProblem,
+    pub(crate) report: DimensionalReport,
+    /// The platform found.
+    pub(crate) checked: Option<Checked>,
+    /// The platform that misses the requirements least, where none that meets them was found.
+    pub(crate) nearest: Option<Checked>,
+    /// Where the design has a symmetry and names none.
+    pub(crate) symmetry: Option<StartSymmetry>,
+}
+
+impl FoundPlatform {
+    fn judged(
+        design: &Design,
+        problem: DimensionalProblem,
+        report: DimensionalReport,
+        symmetry: Option<StartSymmetry>,
+        seed: u64,
+    ) -> Result<Self, VerifyError> {
+        let of = |s: &DimensionalSolution| checked(design, &problem, s, seed);
+        let found = report.solution().map(of).transpose()?;
+        let nearest = report.nearest.as_deref().map(of).transpose()?;
+        Ok(Self { checked: found, nearest, problem, report, symmetry })
+    }
+
+    /// What became of it.
+    pub(crate) fn status(&self) -> OptimizeStatus {
+        dimensional_status(&self.report, self.checked.as_ref())
+    }
+
+    /// Whether the platform found is proved to meet all requirements with their reserves.
+    pub(crate) fn is_met(&self) -> bool {
+        self.checked.as_ref().and_then(Checked::met) == Some(true)
+    }
+
+    /// How much was reached: a platform that meets the requirements, one that is not known to, one that misses some, none.
+    pub(crate) fn rank(&self) -> u8 {
+        match self.checked.as_ref().map(Checked::met) {
+            Some(Some(true)) => 3,
+            Some(None) => 2,
+            Some(Some(false)) => 1,
+            None => 0,
+        }
+    }
+}
+
+/// The best platform of a design under its requirements, with the symmetry of the design where the search keeps it unasked. `explains`: where nothing meets the requirements a conflict is looked for.
+///
+/// # Errors
+/// A problem that cannot be asked, or a platform that cannot be compared with the design.
+pub(crate) fn find_platform(
+    design: &Design,
+    extension: f64,
+    options: &ShapeSearchOptions,
+    explains: bool,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<FoundPlatform, Error> {
+    let free = dimensional_problem(design, extension);
+    let search = |problem: &DimensionalProblem, progress: &mut dyn FnMut(Progress) -> ControlFlow<()>| {
+        if explains {
+            optimize(problem, &[], options, progress)
+        } else {
+            optimize_without_conflict(problem, options, progress)
+        }
+    };
+    let Some(kept) = keeps_symmetry_of_start(design, &free) else {
+        let report = search(&free, progress)?;
+        return Ok(FoundPlatform::judged(design, free, report, None, options.seed)?);
+    };
+    let report = optimize_without_conflict(&kept, options, progress)?;
+    let symmetric = FoundPlatform::judged(design, kept, report, Some(StartSymmetry::Kept), options.seed)?;
+    if symmetric.is_met() || symmetric.report.interrupted {
+        return Ok(symmetric);
+    }
+    let report = search(&free, progress)?;
+    let other = FoundPlatform::judged(design, free, report, Some(StartSymmetry::GivenUp), options.seed)?;
+    if other.rank() >= symmetric.rank() {
+        return Ok(other);
+    }
+    let report = DimensionalReport { interrupted: other.report.interrupted, ..symmetric.report };
+    Ok(FoundPlatform { report, ..symmetric })
+}
+
+/// A front, its members judged.
+#[derive(Debug, Clone)]
+pub(crate) struct FoundFront {
+    pub(crate) report: ParetoReport,
+    /// The members in the order of the front.
+    pub(crate) members: Vec<Checked>,
+    /// Where the design has a symmetry and names none.
+    pub(crate) symmetry: Option<StartSymmetry>,
+}
+
+impl FoundFront {
+    fn judged(
+        design: &Design,
+        problem: &DimensionalProblem,
+        report: ParetoReport,
+        symmetry: Option<StartSymmetry>,
+        seed: u64,
+    ) -> Result<Self, VerifyError> {
+        let of = |point: &crate::optimize::dimensional::ParetoPoint| {
+            checked(design, problem, &point.solution, seed)
+        };
+        let members = report.front.iter().map(of).collect::<Result<Vec<Checked>, VerifyError>>()?;
+        Ok(Self { report, members, symmetry })
+    }
+
+    /// Whether there are members, and all are proved to meet the requirements.
+    fn is_met(&self) -> bool {
+        !self.members.is_empty() && self.members.iter().all(|c| c.met() == Some(true))
+    }
+}
+
+/// The front of a design, with its symmetry where the search keeps it unasked.
+///
+/// # Errors
+/// As [`find_platform`].
+pub(crate) fn find_front(
+    design: &Design,
+    points: usize,
+    extension: f64,
+    options: &ShapeSearchOptions,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<FoundFront, Error> {
+    let free = dimensional_problem(design, extension);
+    let symmetric = match keeps_symmetry_of_start(design, &free) {
+        Some(kept) => {
+            let report = pareto(&kept, points, options, progress)?;
+            Some(FoundFront::judged(design, &kept, report, Some(StartSymmetry::Kept), options.seed)?)
+        }
+        None => None,
+    };
+    match symmetric {
+        Some(found) if found.is_met() || found.report.interrupted => Ok(found),
+        symmetric => {
+            let given_up = symmetric.as_ref().map(|_| StartSymmetry::GivenUp);
+            let report = pareto(&free, points, options, progress)?;
+            let other = FoundFront::judged(design, &free, report, given_up, options.seed)?;
+            Ok(match symmetric {
+                Some(found) if other.members.is_empty() && !found.members.is_empty() => {
+                    let interrupted = other.report.interrupted;
+                    FoundFront { report: ParetoReport { interrupted, ..found.report }, ..found }
+                }
+                _ => other,
+            })
+        }
+    }
+}

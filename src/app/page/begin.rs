@@ -1,0 +1,96 @@
+//! Designs to begin with, for those who have no file: from the numbers of a data sheet, from twelve points, and the presets.
+
+use std::fmt::Display;
+
+use serde::{Deserialize, Serialize};
+
+use super::request::Refusal;
+use super::session::{InvalidStart, Session};
+use crate::files::design::{Format, HexapodSizes, PRESETS, PointTable, Violation, parse};
+
+/// A hexapod as makers describe it: pairs of joints on two circles.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct DataSheet {
+    /// Of the circle through the base joints, design units.
+    base_radius: f64,
+    /// Of the circle through the platform joints, design units.
+    platform_radius: f64,
+    /// Between the two joints of a pair of the base, seen from the centre.
+    base_spread_deg: f64,
+    /// Between the two joints of a pair of the platform, seen from the centre.
+    platform_spread_deg: f64,
+    /// Of the platform joints over the base joints at home, design units.
+    height: f64,
+    /// Name of the length unit.
+    units: String,
+}
+
+/// The hexapod of the page without a design, millimetres.
+const FIRST: HexapodSizes = HexapodSizes { radius: [500.0, 300.0], spread_deg: [20.0, 20.0], height: 400.0 };
+/// The name of a design that has none yet.
+const NAME: &str = "hexapod";
+
+/// A design file that was made.
+#[derive(Debug, Serialize)]
+pub(super) struct MadeRecord {
+    toml: String,
+    /// What was taken for granted, a sentence each.
+    guesses: Vec<String>,
+}
+
+/// A preset to choose.
+#[derive(Debug, Serialize)]
+pub(super) struct PresetChoice {
+    name: &'static str,
+    class: &'static str,
+}
+
+/// The presets.
+pub(super) fn presets() -> Vec<PresetChoice> {
+    PRESETS.iter().map(|p| PresetChoice { name: p.name, class: p.class.as_str() }).collect()
+}
+
+/// The file of a preset.
+pub(super) fn preset(name: &str) -> Result<MadeRecord, Refusal> {
+    let found = PRESETS.iter().find(|p| p.name == name);
+    let found = found.ok_or_else(|| Refusal::new("preset", format!("there is no preset `{name}`")))?;
+    Ok(MadeRecord { toml: found.text.into(), guesses: Vec::new() })
+}
+
+/// The design with the joints of a table, in whatever notation ([`PointTable`]); `units` where the table names none.
+pub(super) fn points(text: &str, units: &str) -> Result<MadeRecord, Refusal> {
+    let refused = |e: &dyn Display| Refusal::new("points", e);
+    let mut table = PointTable::read(text.as_bytes()).map_err(|e| refused(&e))?;
+    let units = table.units.clone().unwrap_or_else(|| units.into());
+    let design = table.design(NAME, &units).map_err(|e| refused(&e))?;
+    Ok(MadeRecord { toml: design.to_toml(), guesses: table.guesses })
+}
+
+impl DataSheet {
+    /// The design as a file with constructions, so that its symmetry is exact ([`HexapodSizes`]).
+    pub(super) fn made(&self) -> Result<MadeRecord, Refusal> {
+        let sizes = HexapodSizes {
+            radius: [self.base_radius, self.platform_radius],
+            spread_deg: [self.base_spread_deg, self.platform_spread_deg],
+            height: self.height,
+        };
+        sizes.check().map_err(|e| Refusal::new("sizes", e))?;
+        Ok(MadeRecord { toml: sizes.to_toml(NAME, &self.units), guesses: Vec::new() })
+    }
+}
+
+fn sentences(violations: &[Violation]) -> String {
+    violations.iter().map(|v| v.message.as_str()).collect::<Vec<_>>().join("; ")
+}
+
+impl Session {
+    /// The session of the page that is written without a design: an ordinary hexapod, to be replaced by one's own.
+    ///
+    /// # Errors
+    /// [`InvalidStart::Design`] when that hexapod is no design.
+    pub fn without_design() -> Result<Self, InvalidStart> {
+        let (design, _) = parse(&FIRST.to_toml(NAME, "mm"), Format::Toml)
+            .map_err(|violations| InvalidStart::Design(sentences(&violations)))?;
+        Ok(Self { without_design: true, ..Self::new(design) })
+    }
+}

@@ -1,0 +1,308 @@
+//! What there is to show of a design.
+
+use serde::Serialize;
+
+use super::request::Chosen;
+use super::session::{Equivalent, Session};
+use crate::app::equivalents::Original;
+use crate::app::records::PoseRecord;
+use crate::files::design::Design;
+use crate::machine::requirements::Hardware;
+use crate::platform::manipulator::Body;
+use crate::synthesis::singularity::{Architecture, rounded_singular};
+use crate::synthesis::{
+    Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,
+};
+
+/// A design with what a page can do about it.
+#[derive(Debug, Serialize)]
+pub(super) struct OpeningRecord<'a> {
+    name: &'a str,
+    units: &'a str,
+    source: Option<&'a str>,
+    description: Option<&'a str>,
+    /// `"octahedral"`, `"equivalent"`, `"general"`, or `"cranks"` where the legs are rods on cranks.
+    kind: &'static str,
+    size: f64,
+    /// Whether the platform shown first is: the octahedral original, or the design where there is none. `null` where it is not decided, and for cranks.
+    singular: Option<bool>,
+    /// Why it is singular, or why it is not decided.
+    reason: Option<String>,
+    /// The same of the design as an equivalent, with the offsets that the page starts with; `null` also where the page starts with another one.
+    start_singular: Option<bool>,
+    home: PoseRecord,
+    centre: [f64; 3],
+    radius: f64,
+    trajectory: bool,
+    workspace: bool,
+    lengths: Option<[f64; 6]>,
+    /// Least and greatest angle of each crank, degrees, `null` where there are none; nothing where there are no cranks.
+    angles_deg: Option<Vec<Option<[f64; 2]>>>,
+    limits: LimitsRecord,
+    hardware: HardwareRecord,
+    slides: SlidesRecord,
+    /// Of the octahedral original.
+    hexagon: Option<HexagonRecord>,
+    /// Equivalents to choose from.
+    patterns: Option<Vec<StartPattern>>,
+    /// The equivalent the page begins with.
+    start: Option<Chosen>,
+}
+
+/// What is asked of an equivalent.
+#[derive(Debug, Serialize)]
+struct LimitsRecord {
+    /// Of joint centres, design units.
+    spacing: f64,
+    /// Of `|det A|`.
+    det: f64,
+}
+
+/// How thick the parts are, design units; `null` where the design does not say.
+#[derive(Debug, Serialize)]
+struct HardwareRecord {
+    /// Widths of the joints of base and platform.
+    joints: [Option<f64>; 2],
+    /// Diameter of the leg, of its cylinder where it has a rod.
+    leg: Option<f64>,
+    /// Length of the cylinder and diameter of the rod.
+    rod: Option<[f64; 2]>,
+    /// Least and greatest leg length.
+    lengths: Option<[f64; 2]>,
+}
+
+impl HardwareRecord {
+    fn of(hardware: &Hardware) -> Self {
+        let width = |body| {
+            let all = (0..6).filter_map(|leg| hardware.housing(body, leg));
+            all.map(|h| h.greatest_width()).reduce(f64::max)
+        };
+        Self {
+            joints: Body::BOTH.map(width),
+            leg: hardware.leg_body.map(|l| l.diameter),
+            rod: hardware.leg_body.and_then(|l| l.rod).map(|(length, diameter)| [length, diameter]),
+            lengths: hardware.leg_length.map(|l| l.range().into()),
+        }
+    }
+}
+
+/// How far the sliders of the pose go to either side of home.
+#[derive(Debug, Serialize)]
+struct SlidesRecord {
+    /// Design units.
+    position: [f64; 3],
+    /// Roll, pitch, yaw.
+    rpy_deg: [f64; 3],
+}
+
+/// Sliders go further than the workspace by this factor: what is beyond it has to be seen too.
+const BEYOND: f64 = 1.5;
+/// Least reach of a slider: as a share of the size of the design, and in degrees.
+const LEAST_SLIDE: (f64, f64) = (0.25, 30.0);
+
+/// How far to either side of home the page looks: positions in design units, and angles in degrees.
+pub(super) fn reach(design: &Design) -> ([f64; 3], [f64; 3]) {
+    let workspace = design.workspace_or_default();
+    let least = LEAST_SLIDE.0 * design.manipulator().size();
+    let position = workspace.translation.map(|x| (BEYOND * x).max(least));
+    (position.into(), workspace.rotation_deg.map(|x| (BEYOND * x).max(LEAST_SLIDE.1)).into())
+}
+
+impl SlidesRecord {
+    fn of(design: &Design) -> Self {
+        let (position, rpy_deg) = reach(design);
+        Self { position, rpy_deg }
+    }
+}
+
+/// Legs (vertices) and what slides on the sides between them.
+#[derive(Debug, Serialize)]
+struct HexagonRecord {
+    vertices: Vec<VertexRecord>,
+    sides: Vec<SideRecord>,
+}
+
+/// A leg of the original.
+#[derive(Debug, Serialize)]
+struct VertexRecord {
+    leg: usize,
+    joints: [String; 2],
+}
+
+/// An edge of a body on which a joint can slide.
+#[derive(Debug, Serialize)]
+struct SideRecord {
+    body: String,
+    /// The joint of the other body.
+    fixed: String,
+    length: f64,
+    from: String,
+    to: String,
+}
+
+/// One of the equivalents.
+#[derive(Debug, Serialize)]
+struct StartPattern {
+    id: String,
+    base_joints: usize,
+    platform_joints: usize,
+    shared_joints: usize,
+    offsets: Vec<OffsetRecord>,
+    legs: Vec<LegRecord>,
+    /// The formula of `det A`.
+    det: String,
+    /// Where its factors vanish.
+    zero: Vec<String>,
+}
+
+/// An offset of an equivalent.
+#[derive(Debug, Serialize)]
+struct OffsetRecord {
+    name: String,
+    side: usize,
+    joint: String,
+}
+
+/// A leg of an equivalent.
+#[derive(Debug, Serialize)]
+struct LegRecord {
+    leg: usize,
+    joints: [String; 2],
+    side: Option<usize>,
+    /// Index into the offsets.
+    offset: Option<usize>,
+    vertex: Option<usize>,
+}
+
+/// Whether a design is architecturally singular, as `equipod check` says it, and why it is or why that is not decided.
+fn regularity(design: &Design) -> (Option<bool>, Option<String>) {
+    let m = design.manipulator();
+    let found = Architecture::of(m);
+    match found.is_singular() {
+        Some(true) => (Some(true), found.findings.first().map(|f| f.case.sentence())),
+        None => (None, Some("not decided: joints are known between bounds only".into())),
+        Some(false) => match rounded_singular(m, 1) {
+            Ok(None) => (Some(false), None),
+            Ok(Some(near)) => (None, Some(near.words(&design.units))),
+            Err(e) => (None, Some(format!("not decided: {e}"))),
+        },
+    }
+}
+
+/// The design, the original's hexagon, and the patterns to choose from.
+pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
+    let design = &session.design;
+    // of cranks: what is said of the joints holds for legs that change their lengths
+    let (singular, reason) = match session.cranks {
+        None => regularity(session.first()),
+        Some(_) => (None, None),
+    };
+    let starts_with_it = session.original.as_ref().and_then(|o| o.seen.as_ref()).zip(session.start.as_ref());
+    let starts_with_it =
+        starts_with_it.is_some_and(|(seen, start)| (&start.pattern, &start.offsets) == (&seen.0, &seen.1));
+    let (centre, radius) = session.reach();
+    let kind = match &session.original {
+        Some(o) if o.seen.is_none() => "octahedral",
+        Some(_) => "equivalent",
+        None if session.cranks.is_some() => "cranks",
+        None => "general",
+    };
+    let original = session.original.as_ref();
+    OpeningRecord {
+        name: &design.name,
+        units: &design.units,
+        source: design.source.as_deref(),
+        description: design.description.as_deref(),
+        kind,
+        size: design.manipulator().size(),
+        singular,
+        reason,
+        start_singular: if starts_with_it { regularity(design).0 } else { None },
+        home: (&session.home).into(),
+        centre: centre.coords.into(),
+        radius,
+        trajectory: design.workspace.trajectory.is_some(),
+        workspace: !design.workspace.is_empty(),
+        lengths: session.first().lengths.map(|l| l.get()),
+        angles_deg: session.cranks.as_ref().map(|platform| {
+            let degrees = |(a, b): (f64, f64)| [a.to_degrees(), b.to_degrees()];
+            platform.legs().iter().map(|leg| leg.limits.map(degrees)).collect()
+        }),
+        limits: LimitsRecord { spacing: session.limits.0, det: session.limits.1 },
+        hardware: HardwareRecord::of(&design.hardware),
+        slides: SlidesRecord::of(design),
+        hexagon: original.map(hexagon),
+        patterns: session.start.as_ref().zip(original).map(|(s, o)| patterns(s, o)),
+        start: session.start.as_ref().map(Chosen::from),
+    }
+}
+
+fn hexagon(o: &Original) -> HexagonRecord {
+    let lengths = edge_lengths(&o.octahedral);
+    let vertices = (0..6).map(|k| VertexRecord {
+        leg: o.octahedral.order()[k].get() + 1,
+        joints: o.leg_names(HexagonPoint::Vertex(k)),
+    });
+    let sides = (0..6).map(|k| {
+        let body = sliding_body(k);
+        let fixed = body.other();
+        let name = |i: usize| o.joint_name(JointLabel::Corner(i));
+        SideRecord {
+            body: body.to_string(),
+            fixed: name(corner(fixed, k)),
+            length: lengths[k],
+            from: name(corner(body, k)),
+            to: name(corner(body, (k + 1) % 6)),
+        }
+    });
+    HexagonRecord { vertices: vertices.collect(), sides: sides.collect() }
+}
+
+/// One pattern of every topology, the platform without shared joints first, and the one the page starts with.
+fn patterns(start: &Equivalent, o: &Original) -> Vec<StartPattern> {
+    let mut list: Vec<Pattern> = vec![start.pattern.clone()];
+    list.extend(Pattern::new([false; 6], [1; 6]));
+    let mut others: Vec<Pattern> =
+        Family::octahedral().topologies().iter().map(|t| t.example.clone()).collect();
+    others.sort_by(|a, b| b.cmp(a));
+    list.extend(others);
+    let mut seen = Vec::new();
+    list.retain(|p| {
+        let new = !seen.contains(p) && !p.offsets().is_empty();
+        seen.push(p.clone());
+        new
+    });
+    list.iter().map(|p| pattern(p, o)).collect()
+}
+
+fn pattern(p: &Pattern, o: &Original) -> StartPattern {
+    let [base, platform] = p.joints();
+    let legs = p.legs().into_iter().enumerate().map(|(k, point)| {
+        let (side, offset) = match point {
+            HexagonPoint::Vertex(_) => (None, None),
+            HexagonPoint::Inner(t) => (Some(t.side), p.offsets().iter().position(|x| *x == t)),
+        };
+        LegRecord {
+            leg: o.octahedral.order()[k].get() + 1,
+            joints: o.leg_names(point),
+            side,
+            offset,
+            vertex: if let HexagonPoint::Vertex(v) = point { Some(v) } else { None },
+        }
+    });
+    let offsets = p.offsets().into_iter().map(|t| OffsetRecord {
+        name: t.to_string(),
+        side: t.side,
+        joint: o.joint_name(JointLabel::OnEdge(t)),
+    });
+    StartPattern {
+        id: p.to_string(),
+        base_joints: base.len(),
+        platform_joints: platform.len(),
+        shared_joints: p.shared_joints().len(),
+        offsets: offsets.collect(),
+        legs: legs.collect(),
+        det: p.determinant_formula(),
+        zero: p.factors().iter().map(|f| Factor::zero(*f)).collect(),
+    }
+}

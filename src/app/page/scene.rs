@@ -1,0 +1,230 @@
+//! Both platforms at a pose: where everything is, lengths, margins, and how the lengths are related.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Matrix6, Point3};
+use serde::Serialize;
+
+use super::request::Refusal;
+use super::session::{Equivalent, Session};
+use crate::app::records::{CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
+use crate::files::design::Design;
+use crate::machine::requirements::{Margin, Term, TermKind, Terms};
+use crate::machine::rotary::RotaryPlatform;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
+use crate::synthesis::AffineLegMap;
+
+/// Below this a singular value is not told from zero.
+const ROUNDING: f64 = 1e-13;
+
+/// Both platforms at a pose.
+#[derive(Debug, Serialize)]
+pub(super) struct SceneRecord {
+    pose: PoseRecord,
+    /// Roll, pitch and yaw of the pose.
+    rpy_deg: [f64; 3],
+    platforms: Vec<PlatformRecord>,
+    /// From the lengths of the first to those of the second.
+    map: Option<RelationRecord>,
+}
+
+/// A platform at a pose.
+#[derive(Debug, Serialize)]
+struct PlatformRecord {
+    name: String,
+    base: Vec<PlaceRecord>,
+    platform: Vec<PlaceRecord>,
+    /// Indices of the joints of each leg.
+    legs: [[usize; 2]; 6],
+    lengths: [f64; 6],
+    squares: [f64; 6],
+    inverse_condition: f64,
+    sign: i8,
+    spacing: BodySpacings,
+    /// The least of each kind of requirement at the pose.
+    margins: Vec<MarginRecord>,
+    /// Where the legs are rods on cranks; the lengths are then those of the rods.
+    cranks: Option<CranksRecord>,
+}
+
+/// The cranks at a pose; their centres are the base joints.
+#[derive(Debug, Serialize)]
+struct CranksRecord {
+    /// From each centre to the tip at the angle 0 and at a quarter turn.
+    arms: [[[f64; 3]; 2]; 6],
+    out_of_reach: Option<OutOfReachRecord>,
+    /// In leg order; none where a rod does not reach.
+    list: Vec<CrankPlace>,
+}
+
+/// A crank with both places of its tip.
+#[derive(Debug, Serialize)]
+struct CrankPlace {
+    #[serde(flatten)]
+    crank: CrankRecord,
+    /// On the other side.
+    other_tip: [f64; 3],
+}
+
+/// A joint and where it is, base frame.
+#[derive(Debug, Serialize)]
+struct PlaceRecord {
+    name: String,
+    at: [f64; 3],
+}
+
+/// The closest joints of each body.
+#[derive(Debug, Serialize)]
+struct BodySpacings {
+    base: Option<SpacingRecord>,
+    platform: Option<SpacingRecord>,
+}
+
+/// The two joint centres in use that are closest to each other.
+#[derive(Debug, Serialize)]
+struct SpacingRecord {
+    distance: f64,
+    joints: [String; 2],
+}
+
+/// `s' = A s + c`, and how well it holds at the pose.
+#[derive(Debug, Serialize)]
+struct RelationRecord {
+    #[serde(rename = "A")]
+    matrix: [[f64; 6]; 6],
+    #[serde(rename = "c")]
+    constants: [f64; 6],
+    det: f64,
+    inverse_condition: f64,
+    /// `A s + c`.
+    image: [f64; 6],
+    /// Its largest difference from `s'`, relative.
+    error: f64,
+    /// For each offset where `det A` vanishes; `null`: nowhere.
+    zeros: Vec<Option<f64>>,
+}
+
+/// Everything a page shows at a pose.
+pub(super) fn record(session: &Session, at: &Pose, e: Option<&Equivalent>) -> Result<SceneRecord, Refusal> {
+    let first = session.first();
+    let s = match &session.cranks {
+        Some(platform) => platform.rods().squared(),
+        None => squares(first, at)?,
+    };
+    let mut platforms = vec![platform(session, first, at, &s, session.first_is_given())];
+    let mut map = None;
+    if let Some(e) = e {
+        let (second, a) = session.second(e)?;
+        let own = squares(&second, at)?;
+        platforms.push(platform(session, &second, at, &own, true));
+        map = Some(relation(e, &a, &s, &own)?);
+    }
+    Ok(SceneRecord { pose: at.into(), rpy_deg: at.angles().degrees(), platforms, map })
+}
+
+fn squares(design: &Design, at: &Pose) -> Result<SquaredLegLengths, Refusal> {
+    let s = at.squared_lengths(design.manipulator());
+    s.ok_or_else(|| Refusal::new("pose", "a leg length at this pose is not a finite positive number"))
+}
+
+fn platform(
+    session: &Session,
+    design: &Design,
+    at: &Pose,
+    s: &SquaredLegLengths,
+    required: bool,
+) -> PlatformRecord {
+    let m = design.manipulator();
+    let place = |(name, p): (&String, Point3<f64>)| PlaceRecord { name: name.clone(), at: p.coords.into() };
+    let base = design.base_names().iter().zip(m.base_joints().iter().copied());
+    let moved = design.platform_names().iter().zip(m.platform_joints().iter().map(|p| at.transform(p)));
+    let pairs = m.pairs();
+    PlatformRecord {
+        name: design.name.clone(),
+        base: base.map(place).collect(),
+        platform: moved.map(place).collect(),
+        legs: pairs.map(|(a, b)| [a, b]),
+        lengths: s.lengths().get(),
+        squares: s.get(),
+        inverse_condition: session.inverse_condition(design, at),
+        sign: session
+            .pushing(design, at)
+            .map_or(0, |pushing| sign(&jacobian(&pushing, at, design.characteristic_length()))),
+        spacing: BodySpacings {
+            base: spacing(m, Body::Base, design.base_names()),
+            platform: spacing(m, Body::Platform, design.platform_names()),
+        },
+        margins: if required { margins(session, design, at) } else { Vec::new() },
+        cranks: session.cranks.as_ref().map(|platform| cranks(design, platform, at)),
+    }
+}
+
+fn cranks(design: &Design, platform: &RotaryPlatform, at: &Pose) -> CranksRecord {
+    let found = RotaryIkRecord::new(design, platform, at);
+    let place = |(i, crank): (usize, CrankRecord)| CrankPlace {
+        other_tip: platform.tip(i, crank.other_angle_deg.to_radians()).coords.into(),
+        crank,
+    };
+    CranksRecord {
+        arms: std::array::from_fn(|i| {
+            platform.directions()[i].map(|e| (e * platform.legs()[i].crank.length).into())
+        }),
+        out_of_reach: found.out_of_reach,
+        list: found.cranks.into_iter().enumerate().map(place).collect(),
+    }
+}
+
+/// The sign of `det J`; 0 where `sigma_min / sigma_max` is below rounding.
+pub(super) fn sign(j: &Matrix6<f64>) -> i8 {
+    match j.determinant() {
+        _ if inverse_condition(j) < ROUNDING => 0,
+        d if d > 0.0 => 1,
+        _ => -1,
+    }
+}
+
+fn spacing(m: &Manipulator, body: Body, names: &[String]) -> Option<SpacingRecord> {
+    let (distance, nearest) = m.nearest_joints(body)?;
+    Some(SpacingRecord { distance, joints: nearest.map(|i| names[i].clone()) })
+}
+
+/// The least margin of every kind of requirement at the pose.
+fn margins(session: &Session, design: &Design, at: &Pose) -> Vec<MarginRecord> {
+    let required = design.requirements();
+    let terms = Terms::new(design.manipulator(), &required, &session.home);
+    let mut least: BTreeMap<TermKind, (Term, f64)> = BTreeMap::new();
+    for (term, value) in terms.fixed().into_iter().chain(terms.at(at)) {
+        let entry = least.entry(term.kind).or_insert((term, value));
+        if value < entry.1 {
+            *entry = (term, value);
+        }
+    }
+    let row = |(term, value): (Term, f64)| {
+        let pose = (!term.kind.is_fixed()).then_some(*at);
+        let standing = terms.standing(term.kind, value, pose.as_ref());
+        MarginRecord::found(design, &Margin { term, value, pose, standing })
+    };
+    least.into_values().map(row).collect()
+}
+
+fn relation(
+    e: &Equivalent,
+    map: &AffineLegMap,
+    s: &SquaredLegLengths,
+    own: &SquaredLegLengths,
+) -> Result<RelationRecord, Refusal> {
+    let image = map.a * nalgebra::Vector6::from(s.get()) + map.c;
+    let most = own.get().into_iter().fold(0.0, f64::max);
+    let error = image.iter().zip(own.get()).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / most;
+    let det = e.pattern.determinant(&e.offsets).map_err(|e| Refusal::new("offsets", e))?;
+    Ok(RelationRecord {
+        matrix: [0, 1, 2, 3, 4, 5].map(|i| [0, 1, 2, 3, 4, 5].map(|j| map.a[(i, j)])),
+        constants: map.c.into(),
+        det,
+        inverse_condition: map.inverse_condition(),
+        image: image.into(),
+        error,
+        zeros: e.zeros()?,
+    })
+}

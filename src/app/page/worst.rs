@@ -1,0 +1,60 @@
+//! Conditioning over all poses of the workspace.
+
+use std::borrow::Cow;
+
+use serde::Serialize;
+
+use super::request::Refusal;
+use super::session::{Equivalent, Session};
+use crate::app::records::PoseRecord;
+use crate::files::design::Design;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Manipulator, inverse_condition, jacobian};
+
+/// The worst conditioning of the platforms.
+#[derive(Debug, Serialize)]
+pub(super) struct WorstRecord {
+    /// How many poses were looked at.
+    poses: usize,
+    first: Option<LeastRecord>,
+    second: Option<LeastRecord>,
+}
+
+/// The least inverse condition number of a platform and where it is reached.
+#[derive(Debug, Serialize)]
+struct LeastRecord {
+    inverse_condition: f64,
+    pose: PoseRecord,
+}
+
+impl Session {
+    /// `sigma_min / sigma_max` of the length-normalised Jacobian of the legs, or of the rods; 0 where a rod does not reach.
+    pub(super) fn inverse_condition(&self, design: &Design, pose: &Pose) -> f64 {
+        self.pushing(design, pose)
+            .map_or(0.0, |m| inverse_condition(&jacobian(&m, pose, design.characteristic_length())))
+    }
+
+    /// What pushes the platform at a pose: the legs of a design of the page, or its rods on the tips of their cranks; `None` where a rod does not reach.
+    pub(super) fn pushing<'a>(&self, design: &'a Design, pose: &Pose) -> Option<Cow<'a, Manipulator>> {
+        match &self.cranks {
+            None => Some(Cow::Borrowed(design.manipulator())),
+            Some(platform) => platform.at(&platform.ik(pose).ok()?).ok().map(Cow::Owned),
+        }
+    }
+
+    fn worst(&self, design: &Design, poses: &[Pose]) -> Option<LeastRecord> {
+        let values = poses.iter().map(|p| (self.inverse_condition(design, p), p));
+        let least = values.min_by(|x, y| x.0.total_cmp(&y.0));
+        least.map(|(inverse_condition, p)| LeastRecord { inverse_condition, pose: p.into() })
+    }
+}
+
+/// The least inverse condition number of both platforms and the pose where it is reached.
+pub(super) fn record(session: &Session, e: Option<&Equivalent>) -> Result<WorstRecord, Refusal> {
+    let poses = session.judged();
+    let second = match e {
+        Some(e) => session.worst(&session.second(e)?.0, &poses),
+        None => None,
+    };
+    Ok(WorstRecord { poses: poses.len(), first: session.worst(session.first(), &poses), second })
+}

@@ -1,0 +1,76 @@
+//! Answers that are records, as the JSON of the command line.
+
+use std::ops::ControlFlow;
+
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use serde::Serialize;
+
+use super::design::{NativeDesign, OF_LEG_MAPS, threads_of};
+use super::failure::{interrupted, raised};
+use crate::app::entrance::{self, VerifyOptions, sample_plan};
+use crate::app::records::{Document, FramesRecord, MapAnswer, ProvenanceRecord, VerifyAnswer};
+use crate::files::design::{self, PRESETS};
+use crate::synthesis::LegCorrespondence;
+
+/// The document of an answer about designs, as the command line prints it.
+pub(super) fn document(
+    answer: impl Serialize,
+    designs: &[&design::Design],
+    seed: Option<u64>,
+) -> PyResult<String> {
+    let whole = Document::new(answer, ProvenanceRecord::of(designs, seed), Vec::new());
+    serde_json::to_string(&whole).map_err(|e| PyRuntimeError::new_err(e.to_string()))
+}
+
+/// The names of the presets.
+#[pyfunction]
+pub(super) fn preset_names() -> Vec<&'static str> {
+    PRESETS.iter().map(|p| p.name).collect()
+}
+
+/// `A` and `c` of the affine map of squared leg lengths, and the answer of `equipod equivalents map`.
+#[pyfunction]
+#[allow(clippy::type_complexity)]
+pub(super) fn leg_map<'py>(
+    py: Python<'py>,
+    from_: &NativeDesign,
+    to: &NativeDesign,
+) -> PyResult<(Option<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)>, String)> {
+    [from_, to].into_iter().try_for_each(|design| design.only_of_legs(py, OF_LEG_MAPS))?;
+    let (a, b) = (from_.inner(), to.inner());
+    let found = py.detach(|| entrance::leg_map(a, b)).map_err(|e| raised(py, e))?;
+    let map = found.map().map(|map| {
+        let a = ndarray::Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]);
+        let c = ndarray::Array1::from_iter(map.c.iter().copied());
+        (a.into_pyarray(py), c.into_pyarray(py))
+    });
+    let correspondence = (&LegCorrespondence::between(a.manipulator(), b.manipulator())).into();
+    let answer = MapAnswer { map: (&found).into(), correspondence, frames: FramesRecord::default() };
+    Ok((map, document(answer, &[a, b], None)?))
+}
+
+/// The answer of `equipod verify`.
+#[pyfunction]
+#[pyo3(signature = (a, b, samples, seed, threads))]
+pub(super) fn verify(
+    py: Python<'_>,
+    a: &NativeDesign,
+    b: &NativeDesign,
+    samples: usize,
+    seed: u64,
+    threads: Option<usize>,
+) -> PyResult<String> {
+    [a, b].into_iter().try_for_each(|design| design.only_of_legs(py, OF_LEG_MAPS))?;
+    let (a, b) = (a.inner(), b.inner());
+    let threads = threads_of(py, threads)?;
+    let found = py.detach(|| {
+        let look = |_: &_| if interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let options = VerifyOptions::new().samples(samples).seed(seed).threads(threads).on_sample(look);
+        entrance::verify_with(a, b, options)
+    });
+    let found = found.map_err(|e| raised(py, e))?;
+    let answer = VerifyAnswer::new(&found, &sample_plan(a, samples, seed), FramesRecord::default());
+    document(answer, &[a, b], Some(seed))
+}

@@ -1,0 +1,124 @@
+//! Between numpy arrays and poses and lengths. Poses are 4 x 4 matrices `(R p; 0 1)`, lengths rows of six; the first axis counts.
+
+use nalgebra::Matrix4;
+use ndarray::{Array, Array3, ArrayView2, ArrayView3, Dimension, StrideShape};
+use num_complex::Complex64;
+use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+use super::failure::{raised, refused};
+use crate::app::entrance::Error;
+use crate::platform::geom::{ComplexPose, InvalidPose, Pose};
+
+/// Why a computation at many poses ended: the matrix of one of them, or what was computed of it.
+pub(super) enum PoseFault {
+    Pose(usize, InvalidPose),
+    Failed(Error),
+}
+
+impl From<Error> for PoseFault {
+    fn from(error: Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// An argument that is an array of doubles, row by row, as it stands; `None`: it is for numpy to make one of it. A look from here costs less than one from Python.
+pub(super) fn as_it_stands<'py>(given: &Bound<'py, PyAny>) -> Option<PyReadonlyArrayDyn<'py, f64>> {
+    let array = given.cast::<PyArrayDyn<f64>>().ok()?.try_readonly().ok()?;
+    // a slice would be given of columns after columns too
+    array.is_c_contiguous().then_some(array)
+}
+
+/// The entries of an array of shape `(.., 4, 4)` and the axes before these; `None`: it has another shape.
+pub(super) fn pose_entries<'a>(array: &'a PyReadonlyArrayDyn<'_, f64>) -> Option<(&'a [f64], &'a [usize])> {
+    let (before, last) = array.shape().split_last_chunk::<2>()?;
+    if *last == [4, 4] { Some((array.as_slice().ok()?, before)) } else { None }
+}
+
+/// Calls `each` with every pose of the entries of 4 x 4 matrices, in order and without the interpreter.
+pub(super) fn at_poses(
+    py: Python<'_>,
+    entries: &[f64],
+    mut each: impl FnMut(Pose) -> Result<(), PoseFault> + Send,
+) -> PyResult<()> {
+    let one = entries.len() == 16;
+    let done = py.detach(|| {
+        entries.chunks_exact(16).enumerate().try_for_each(|(k, matrix)| {
+            each(Pose::try_from(Matrix4::from_row_slice(matrix)).map_err(|e| PoseFault::Pose(k, e))?)
+        })
+    });
+    done.map_err(|fault| match fault {
+        PoseFault::Pose(_, e) if one => raised(py, Error::Pose(e)),
+        PoseFault::Pose(k, e) => refused(py, "pose", &format!("pose {k}: {e}")),
+        PoseFault::Failed(error) => raised(py, error),
+    })
+}
+
+/// All poses of an array of shape `(n, 4, 4)`.
+pub(super) fn poses_in(py: Python<'_>, poses: &ArrayView3<'_, f64>) -> PyResult<Vec<Pose>> {
+    let shape = poses.shape();
+    if shape[1..] != [4, 4] {
+        return Err(refused(py, "shape", &format!("poses are (n, 4, 4), not {shape:?}")));
+    }
+    let mut out = Vec::with_capacity(poses.len() / 16);
+    at_poses(py, poses.as_standard_layout().as_slice().unwrap_or_default(), |pose| {
+        out.push(pose);
+        Ok(())
+    })?;
+    Ok(out)
+}
+
+/// An array of shape `shape` with these entries, row by row.
+pub(super) fn shaped<D: Dimension>(
+    shape: impl Into<StrideShape<D>>,
+    entries: Vec<f64>,
+) -> PyResult<Array<f64, D>> {
+    Array::from_shape_vec(shape, entries).map_err(|e| PyRuntimeError::new_err(e.to_string()))
+}
+
+/// The rows of an array of shape `(n, 6)`.
+pub(super) fn lengths_in(py: Python<'_>, lengths: &ArrayView2<'_, f64>) -> PyResult<Vec<[f64; 6]>> {
+    let shape = lengths.shape();
+    if shape[1] != 6 {
+        return Err(refused(py, "shape", &format!("lengths are (n, 6), not {shape:?}")));
+    }
+    Ok(lengths.rows().into_iter().map(|row| std::array::from_fn(|i| row[i])).collect())
+}
+
+/// The matrices of real poses.
+pub(super) fn matrices(poses: &[Pose]) -> Array3<f64> {
+    let mut out = Array3::zeros((poses.len(), 4, 4));
+    for (k, pose) in poses.iter().enumerate() {
+        for i in 0..3 {
+            for j in 0..3 {
+                out[[k, i, j]] = pose.rotation.matrix()[(i, j)];
+            }
+            out[[k, i, 3]] = pose.position[i];
+        }
+        out[[k, 3, 3]] = 1.0;
+    }
+    out
+}
+
+/// The rotation matrices of poses, shape (n, 3, 3).
+pub(super) fn rotations(poses: &[Pose]) -> Array3<f64> {
+    Array3::from_shape_fn((poses.len(), 3, 3), |(k, i, j)| poses[k].rotation.matrix()[(i, j)])
+}
+
+/// The matrices of complex poses.
+pub(super) fn complex_matrices<'a>(
+    poses: impl ExactSizeIterator<Item = &'a ComplexPose>,
+) -> Array3<Complex64> {
+    let mut out = Array3::zeros((poses.len(), 4, 4));
+    for (k, pose) in poses.enumerate() {
+        for i in 0..3 {
+            for j in 0..3 {
+                out[[k, i, j]] = pose.rotation[(i, j)];
+            }
+            out[[k, i, 3]] = pose.position[i];
+        }
+        out[[k, 3, 3]] = Complex64::ONE;
+    }
+    out
+}

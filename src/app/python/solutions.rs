@@ -1,0 +1,253 @@
+//! Answers of forward kinematics as arrays.
+
+use std::sync::Arc;
+
+use ndarray::{Array1, Array3};
+use num_complex::Complex64;
+use numpy::{IntoPyArray, PyArray1, PyArray3};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+use super::answers::document;
+use super::arrays::complex_matrices;
+use super::failure::raised;
+use crate::app::entrance::Error;
+use crate::app::records::{FkOneAnswer, SolvedRecord};
+use crate::files::design::Design;
+use crate::fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
+use crate::machine::rotary::RotaryPlatform;
+
+/// 1 for a real pose, 0 for one that is not, -1 where it is not decided.
+fn reality(root: &FkRoot) -> i8 {
+    match root.reality {
+        Reality::Real => 1,
+        Reality::NonReal => 0,
+        Reality::Undecided => -1,
+    }
+}
+
+/// 2 proved, 1 modular, 0 unproved.
+fn completeness(found: &FkSolutions) -> i8 {
+    match found.completeness {
+        Completeness::Proved { .. } => 2,
+        Completeness::Modular { .. } => 1,
+        Completeness::Unproved { .. } => 0,
+    }
+}
+
+/// What poses were computed for.
+pub(super) enum SolvedFor {
+    /// Leg lengths.
+    Lengths(Arc<Design>),
+    /// Angles of cranks, radians.
+    Angles(Arc<Design>, Box<RotaryPlatform>, [f64; 6]),
+}
+
+/// All finite poses, real and complex, with one set of leg lengths or of angles.
+#[pyclass(frozen, name = "Solutions", module = "equipod._core")]
+pub(super) struct NativeSolutions {
+    found: FkSolutions,
+    of: SolvedFor,
+}
+
+impl NativeSolutions {
+    pub(super) fn new(found: FkSolutions, of: SolvedFor) -> Self {
+        Self { found, of }
+    }
+}
+
+#[pymethods]
+impl NativeSolutions {
+    fn __len__(&self) -> usize {
+        self.found.roots.len()
+    }
+
+    /// Poses, complex128, shape (n, 4, 4).
+    fn transforms<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<Complex64>> {
+        complex_matrices(self.found.roots.iter().map(|r| &r.pose)).into_pyarray(py)
+    }
+
+    /// 1 real, 0 not real, -1 undecided; int8, shape (n,).
+    fn reality<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i8>> {
+        self.column(py, reality)
+    }
+
+    /// Whether each pose has a certificate; bool, shape (n,).
+    fn certified<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        self.column(py, FkRoot::certified)
+    }
+
+    /// Largest errors of the leg equations over the squared size; float64, shape (n,).
+    fn residual<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |r| r.residual)
+    }
+
+    /// How often each pose counts; uint32, shape (n,).
+    fn multiplicity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u32>> {
+        self.column(py, |r| r.multiplicity)
+    }
+
+    /// `proved`, `modular` or `unproved`.
+    fn completeness(&self) -> &'static str {
+        self.found.completeness.name()
+    }
+
+    /// One sentence on what is known of completeness.
+    fn reason(&self) -> String {
+        self.found.completeness.to_string()
+    }
+
+    /// Whether all poses are listed, by proof or modulo random primes.
+    fn is_complete(&self) -> bool {
+        self.found.is_complete()
+    }
+
+    /// Dimension of the set that poses form, as it was seen; 0 where they are isolated.
+    fn dimension(&self) -> usize {
+        match &self.found.solution_set {
+            SolutionSet::PositiveDimensional { dimension, .. } => *dimension,
+            SolutionSet::Isolated | SolutionSet::Empty => 0,
+        }
+    }
+
+    /// The method that found the poses.
+    fn method(&self) -> &'static str {
+        self.found.method.name()
+    }
+
+    /// The document of one set of lengths, certificates included.
+    fn json(&self, py: Python<'_>) -> PyResult<String> {
+        let solved = SolvedRecord::from(&self.found);
+        let (design, answer) = match &self.of {
+            SolvedFor::Lengths(design) => {
+                let solved = solved.with_real_poses(design.manipulator(), &design.home_or_default());
+                (design, FkOneAnswer::from(solved))
+            }
+            SolvedFor::Angles(design, platform, angles) => {
+                let tips = platform.at(angles).map_err(|e| raised(py, e.into()))?;
+                let solved = solved.with_real_poses(&tips, &design.home_or_default());
+                let solved = solved.with_elbows(platform, angles);
+                let symmetric_finite = platform.symmetric_pose_count(angles);
+                let answer = FkOneAnswer { symmetric_finite, ..solved.into() };
+                (design, answer.with_angles(platform, angles, angles.map(f64::to_degrees)))
+            }
+        };
+        document(answer, &[design], Some(self.found.seed))
+    }
+}
+
+impl NativeSolutions {
+    fn column<'py, T: numpy::Element>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&FkRoot) -> T,
+    ) -> Bound<'py, PyArray1<T>> {
+        Array1::from_iter(self.found.roots.iter().map(of)).into_pyarray(py)
+    }
+}
+
+/// The poses with many sets of leg lengths, one after the other, as columns.
+#[derive(Default)]
+pub(super) struct SolutionColumns {
+    /// Row by row, complex 4 x 4.
+    transforms: Vec<Complex64>,
+    reality: Vec<i8>,
+    certified: Vec<bool>,
+    residual: Vec<f64>,
+    multiplicity: Vec<u32>,
+    /// Where the poses of each row end.
+    ends: Vec<i64>,
+    completeness: Vec<i8>,
+    /// Which of the reasons each row has.
+    reason: Vec<i64>,
+    reasons: Vec<String>,
+    /// What was known of completeness in the row before, and its reason.
+    last: Option<(Completeness, usize)>,
+}
+
+/// Transforms, reality, certified, residual, multiplicity; offsets, completeness, reason of each row; the reasons.
+pub(super) type SolutionArrays<'py> = (
+    Bound<'py, PyArray3<Complex64>>,
+    Bound<'py, PyArray1<i8>>,
+    Bound<'py, PyArray1<bool>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<u32>>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<i8>>,
+    Bound<'py, PyArray1<i64>>,
+    Vec<String>,
+);
+
+impl SolutionColumns {
+    /// Takes in the answer of the next row; certificates are dropped.
+    pub(super) fn push(&mut self, row: &Result<FkSolutions, Error>) {
+        let word = match row {
+            Ok(found) => {
+                for root in &found.roots {
+                    self.push_root(root);
+                }
+                completeness(found)
+            }
+            Err(_) => -1,
+        };
+        self.ends.push(self.reality.len() as i64);
+        self.completeness.push(word);
+        let place = self.place_of_reason(row);
+        self.reason.push(place as i64);
+    }
+
+    /// Which of the reasons a row has; most rows have that of the row before, whose words are not written again.
+    fn place_of_reason(&mut self, row: &Result<FkSolutions, Error>) -> usize {
+        let known = row.as_ref().ok().map(|found| &found.completeness);
+        if let (Some(known), Some((last, place))) = (known, &self.last)
+            && known == last
+        {
+            return *place;
+        }
+        let reason = match row {
+            Ok(found) => found.completeness.to_string(),
+            Err(error) => error.to_string(),
+        };
+        let place = self.reasons.iter().rposition(|r| *r == reason).unwrap_or_else(|| {
+            self.reasons.push(reason);
+            self.reasons.len() - 1
+        });
+        self.last = known.map(|known| (known.clone(), place));
+        place
+    }
+
+    fn push_root(&mut self, root: &FkRoot) {
+        let (r, p) = (&root.pose.rotation, &root.pose.position);
+        let mut matrix = [Complex64::ZERO; 16];
+        for i in 0..3 {
+            for j in 0..3 {
+                matrix[4 * i + j] = r[(i, j)];
+            }
+            matrix[4 * i + 3] = p[i];
+        }
+        matrix[15] = Complex64::ONE;
+        self.transforms.extend_from_slice(&matrix);
+        self.reality.push(reality(root));
+        self.certified.push(root.certified());
+        self.residual.push(root.residual);
+        self.multiplicity.push(root.multiplicity);
+    }
+
+    pub(super) fn into_arrays(self, py: Python<'_>) -> PyResult<SolutionArrays<'_>> {
+        let count = self.reality.len();
+        let transforms = Array3::from_shape_vec((count, 4, 4), self.transforms)
+            .map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
+        let offsets: Vec<i64> = std::iter::once(0).chain(self.ends).collect();
+        Ok((
+            transforms.into_pyarray(py),
+            self.reality.into_pyarray(py),
+            self.certified.into_pyarray(py),
+            self.residual.into_pyarray(py),
+            self.multiplicity.into_pyarray(py),
+            offsets.into_pyarray(py),
+            self.completeness.into_pyarray(py),
+            self.reason.into_pyarray(py),
+            self.reasons,
+        ))
+    }
+}

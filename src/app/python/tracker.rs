@@ -1,0 +1,136 @@
+//! One real pose followed from lengths to lengths, or from angles of cranks to angles.
+
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+
+use super::arrays::{as_it_stands, lengths_in, matrices};
+use super::failure::{interrupted, raised};
+use crate::app::entrance::{self, Error};
+use crate::fk::NearOutcome;
+use crate::machine::rotary::RotaryTracker;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::LegLengths;
+
+/// Rows between two looks for signals: some milliseconds.
+const SIGNALS: usize = 1024;
+
+/// Follows one real pose, never to another assembly mode.
+#[pyclass(name = "Tracker", module = "equipod._core")]
+#[derive(Clone)]
+pub(super) struct NativeTracker(pub(super) Followed);
+
+/// What a pose is followed by.
+#[derive(Clone)]
+pub(super) enum Followed {
+    /// Six lengths.
+    Legs(Box<entrance::Tracker>),
+    /// Six angles, radians.
+    Cranks(Box<RotaryTracker>),
+}
+
+impl Followed {
+    fn pose(&self) -> Pose {
+        match self {
+            Self::Legs(tracker) => tracker.pose(),
+            Self::Cranks(tracker) => tracker.pose(),
+        }
+    }
+
+    /// Whether these can be followed at all; angles are looked at when they are followed.
+    fn check(&self, row: [f64; 6]) -> Result<(), Error> {
+        match self {
+            Self::Legs(_) => LegLengths::try_new(row).map(|_| ()).map_err(Error::from),
+            Self::Cranks(_) => Ok(()),
+        }
+    }
+
+    fn continued(&mut self, row: [f64; 6]) -> Result<NearOutcome, Error> {
+        match self {
+            Self::Legs(tracker) => tracker.step(row),
+            Self::Cranks(tracker) => Ok(tracker.step(&row)?),
+        }
+    }
+}
+
+/// `tracked`, `near_singularity` or `lost`, and how far on the straight line of squared lengths.
+fn said(outcome: &NearOutcome) -> (&'static str, f64, Option<String>) {
+    match outcome {
+        NearOutcome::Tracked { .. } => (outcome.name(), 1.0, None),
+        NearOutcome::NearSingularity { fraction, .. } => (outcome.name(), *fraction, None),
+        NearOutcome::Lost { fraction, reason, .. } => (outcome.name(), *fraction, Some(reason.to_string())),
+    }
+}
+
+#[pymethods]
+impl NativeTracker {
+    /// Another tracker at the same place.
+    fn __copy__(&self) -> Self {
+        self.clone()
+    }
+
+    /// The pose where the platform is, float64, shape (4, 4).
+    fn transform<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        matrices(&[self.0.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
+    }
+
+    /// Continues to six lengths: status, the pose reached, residual, Frobenius ratio, fraction of the way, reason. `None`: the lengths are no array of six doubles.
+    #[allow(clippy::type_complexity)]
+    fn step<'py>(
+        &mut self,
+        py: Python<'py>,
+        lengths: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<(&'static str, Bound<'py, PyArray2<f64>>, f64, f64, f64, Option<String>)>> {
+        let Some(array) = as_it_stands(lengths) else { return Ok(None) };
+        let six = array.as_slice().ok().and_then(|entries| <[f64; 6]>::try_from(entries).ok());
+        let Some(six) = six.filter(|_| array.ndim() == 1) else { return Ok(None) };
+        let outcome = self.0.continued(six).map_err(|e| raised(py, e))?;
+        let (status, fraction, reason) = said(&outcome);
+        let pose = matrices(&[*outcome.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py);
+        let evidence = outcome.evidence();
+        Ok(Some((status, pose, evidence.residual, evidence.frobenius_ratio, fraction, reason)))
+    }
+
+    /// Continues through rows of lengths until one is not reached: the poses of those that were, and what became of the next.
+    #[allow(clippy::type_complexity)]
+    fn follow<'py>(
+        &mut self,
+        py: Python<'py>,
+        lengths: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<(
+        Bound<'py, PyArray3<f64>>,
+        [Bound<'py, PyArray1<f64>>; 2],
+        &'static str,
+        f64,
+        Option<String>,
+    )> {
+        let rows = lengths_in(py, &lengths.as_array())?;
+        rows.iter().try_for_each(|row| self.0.check(*row)).map_err(|e| raised(py, e))?;
+        let tracker = &mut self.0;
+        let (poses, residuals, ratios, end) = py.detach(move || {
+            let (mut poses, mut residuals, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+            for (k, row) in rows.iter().enumerate() {
+                if k % SIGNALS == 0 && interrupted() {
+                    return (poses, residuals, ratios, Err(Error::Cancelled));
+                }
+                match tracker.continued(*row) {
+                    Ok(NearOutcome::Tracked { pose, evidence }) => {
+                        poses.push(pose);
+                        residuals.push(evidence.residual);
+                        ratios.push(evidence.frobenius_ratio);
+                    }
+                    Ok(other) => return (poses, residuals, ratios, Ok(said(&other))),
+                    Err(error) => return (poses, residuals, ratios, Err(error)),
+                }
+            }
+            (poses, residuals, ratios, Ok(("tracked", 1.0, None)))
+        });
+        let (status, fraction, reason) = end.map_err(|e| raised(py, e))?;
+        Ok((
+            matrices(&poses).into_pyarray(py),
+            [residuals, ratios].map(|column| ndarray::Array1::from(column).into_pyarray(py)),
+            status,
+            fraction,
+            reason,
+        ))
+    }
+}

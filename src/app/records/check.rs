@@ -1,0 +1,513 @@
+//! Answers on whether a design is architecturally singular, why, and how far from a singular one it is.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::fk::PoseCountRecord;
+use super::pose::leg_numbers;
+use super::{NamedPoints, Number, PoseRecord, SingularEvidenceWord};
+use crate::app::entrance::CheckReport;
+use crate::files::design::{Design, DesignExactness, Exactness};
+use crate::fk::Theorem;
+use crate::fk::solve::pose_count::CommonPoints;
+use crate::platform::manipulator::{LegLengths, Level};
+use crate::synthesis::singularity::{
+    Architecture, Assembly, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound,
+    RationalPose,
+};
+
+/// The answer of `check`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CheckAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// How exactly its joints are known.
+    pub joints: JointsRecord,
+    /// Null: the design as written is regular, and a singular one lies within rounding of it or within the digits given; or joints are known between bounds only.
+    pub architecturally_singular: Option<bool>,
+    /// What the answer is proved about; within rounding: a singular design may have been meant. Null: not decided.
+    pub level: Option<Level>,
+    /// Decided exactly, for the joints as the numbers they are; null where they are known between bounds only.
+    pub singular_as_written: Option<bool>,
+    /// What shows that the home pose of the design is singular; null: it is regular, or the design states none.
+    pub singular_home: Option<SingularEvidenceWord>,
+    /// A short code of the reason; null: regular.
+    pub reason: Option<String>,
+    /// One sentence.
+    pub explanation: String,
+    /// What proves the answer for the joints as written.
+    pub proof: ProofWord,
+    /// One sentence on the proof.
+    pub proof_explanation: String,
+    /// Rank of the leg vectors.
+    pub leg_rank: usize,
+    /// Rank of the leg lines at almost every pose.
+    pub jacobian_rank: usize,
+    /// A pose with that rank.
+    pub witness: WitnessRecord,
+    /// The first of the dependencies.
+    pub dependency: Option<DependencyRecord>,
+    /// Dependencies of leg vectors.
+    pub dependencies: Vec<DependencyRecord>,
+    /// The legs of the first case.
+    pub guilty_legs: Option<Vec<usize>>,
+    /// The cases that apply, most telling first.
+    pub cases: Vec<CaseRecord>,
+    /// The Griffis-Duffy type, where the joints lie on the sides of two triangles.
+    pub griffis_duffy: Option<GriffisDuffyRecord>,
+    /// The nearest singular design that was found; null for a singular one.
+    pub nearest_singular: Option<NearestSingularRecord>,
+    /// Finite poses, real and complex, for generic leg lengths.
+    pub pose_count: PoseCountRecord,
+    /// The points that six legs have in common, for generic lengths, by where they are; null where the poses are not isolated or not counted.
+    pub common_points: Option<CommonPointsRecord>,
+    /// How many isolated finite poses no lengths exceed, by a theorem.
+    pub pose_bound: PoseBoundRecord,
+    /// Singular values of the normalised leg vectors.
+    pub singular_values: [Number; 6],
+    /// How well conditioned the Jacobian is at random poses.
+    pub jacobian_inverse_condition: ConditioningRecord,
+}
+
+impl From<&CheckReport> for CheckAnswer {
+    fn from(c: &CheckReport) -> Self {
+        let (a, f) = (&c.architecture, &c.conditioning);
+        let lengths = c.design.lengths.as_ref();
+        let dependencies: Vec<_> = a.dependencies.iter().map(|d| DependencyRecord::new(d, lengths)).collect();
+        Self {
+            name: c.design.name.clone(),
+            joints: (&c.design.exactness()).into(),
+            architecturally_singular: c.is_singular(),
+            level: c.level(),
+            singular_as_written: a.is_singular(),
+            singular_home: c.singular_home.map(|home| home.evidence.into()),
+            reason: c.reason().map(str::to_owned),
+            explanation: explanation(c),
+            proof: proof(a),
+            proof_explanation: proof_explanation(a),
+            leg_rank: a.leg_rank,
+            jacobian_rank: a.jacobian.rank,
+            witness: (&a.jacobian.witness).into(),
+            dependency: dependencies.first().cloned(),
+            dependencies,
+            guilty_legs: a.findings.first().map(|f| leg_numbers(&f.legs)),
+            cases: a.findings.iter().map(CaseRecord::from).collect(),
+            griffis_duffy: a
+                .griffis_duffy
+                .as_ref()
+                .map(|g| GriffisDuffyRecord::new(g, &c.design, c.assembly.as_ref())),
+            nearest_singular: c
+                .nearest
+                .as_ref()
+                .map(|n| NearestSingularRecord::new(n, c.at_least, &c.design)),
+            pose_count: (&c.pose_count).into(),
+            common_points: c.common_points.map(CommonPointsRecord::from),
+            pose_bound: c.pose_bound.into(),
+            singular_values: f.leg_vectors.map(Number),
+            jacobian_inverse_condition: ConditioningRecord {
+                poses: f.poses,
+                best: Number(f.best),
+                median: Number(f.median),
+                worst: Number(f.worst),
+            },
+        }
+    }
+}
+
+/// Common points of six legs in the closure of the group, each with its multiplicity, counted modulo random primes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CommonPointsRecord {
+    /// Finite poses.
+    pub finite: usize,
+    /// Limits of poses whose quaternion e becomes isotropic: e.e = 0, e not 0. Null: not isolated, or not counted.
+    pub isotropic: Option<usize>,
+    /// Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not isolated, or not counted.
+    pub at_infinity: Option<usize>,
+    /// A bound on the probability that the numbers are others.
+    pub error_probability: f64,
+}
+
+impl From<CommonPoints> for CommonPointsRecord {
+    fn from(c: CommonPoints) -> Self {
+        let CommonPoints { finite, isotropic, at_infinity, error_probability } = c;
+        Self { finite, isotropic, at_infinity, error_probability }
+    }
+}
+
+/// A proved bound on the number of isolated finite poses, counted with multiplicity.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseBoundRecord {
+    /// The bound.
+    pub poses: usize,
+    /// Why there are not more.
+    pub theorem: String,
+}
+
+impl From<Theorem> for PoseBoundRecord {
+    fn from(theorem: Theorem) -> Self {
+        Self { poses: theorem.bound(), theorem: theorem.statement() }
+    }
+}
+
+/// What proves the answer for the joints as written.
+fn proof(a: &Architecture) -> ProofWord {
+    match a.jacobian.bound {
+        _ if a.is_singular().is_none() => ProofWord::None,
+        _ if a.is_singular() == Some(false) => ProofWord::RegularPose,
+        RankBound::LegVectors | RankBound::Legs => ProofWord::LegVectors,
+        RankBound::Lattice { .. } => ProofWord::PoseLattice,
+    }
+}
+
+/// Which design it is, in one sentence.
+fn explanation(c: &CheckReport) -> String {
+    if let Some(n) = c.meant() {
+        let units = &c.design.units;
+        return match n.within_digits {
+            Some(half) => format!(
+                "a singular design ({}) is {:.1e} {units} away, and no coordinate differs from it by more than half a unit of the last digit given ({half} {units}); as written the design is regular",
+                n.kind, n.distance
+            ),
+            None => format!(
+                "a singular design ({}) is {:.1e} {units} away, which is no more than rounding of the numbers; as written the design is regular",
+                n.kind, n.distance
+            ),
+        };
+    }
+    match (c.is_singular(), c.architecture.findings.first()) {
+        (None, _) => {
+            "joints are known between bounds only, and no pose is proved to hold the platform".into()
+        }
+        (_, Some(f)) => format!("{} ({})", f.case.sentence(), list(&f.legs)),
+        (_, None) => "almost every pose holds the platform".into(),
+    }
+}
+
+/// The same about the proof.
+fn proof_explanation(a: &Architecture) -> String {
+    let j = &a.jacobian;
+    let pose = format!(
+        "the pose with quaternion {:?} and p = {}",
+        j.witness.quaternion,
+        triple(&j.witness.pose().position)
+    );
+    let Some(level) = a.level else { return "nothing is proved".into() };
+    let about = level.words();
+    match j.bound {
+        RankBound::Legs => format!("{pose} has six independent leg lines, proved {about}"),
+        RankBound::LegVectors => format!(
+            "the leg vectors have rank {0}, proved {about}, and the lines never have more; {pose} has rank {0}",
+            a.leg_rank
+        ),
+        RankBound::Lattice { poses, primes } => format!(
+            "the leg lines have rank {} or less at {poses} poses that decide all poses, proved {about} ({primes} primes); {pose} has that rank",
+            j.rank
+        ),
+    }
+}
+
+/// How exactly the joints of a design are known, all together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JointsRecord {
+    /// The least exact of the joints decides.
+    pub exactness: ExactnessWord,
+    /// The integers whose square roots generate the field of the exact coordinates, beside the cosines of `divisions`; empty for fractions.
+    pub radicands: Vec<u64>,
+    /// Numbers `n` whose cosines `cos(360 / n)` degrees belong to the generators: some of 9, 16, 20 and 32.
+    pub divisions: Vec<u32>,
+    /// Joints known between bounds only, with their bodies: `base.A2`.
+    pub enclosed: Vec<String>,
+    /// The same in words.
+    pub explanation: String,
+}
+
+impl From<&DesignExactness> for JointsRecord {
+    fn from(e: &DesignExactness) -> Self {
+        Self {
+            exactness: match e.exactness {
+                None => ExactnessWord::Doubles,
+                Some(Exactness::Rational) => ExactnessWord::Rational,
+                Some(Exactness::Field) => ExactnessWord::Field,
+                Some(Exactness::Interval) => ExactnessWord::Interval,
+            },
+            radicands: e.radicands.clone(),
+            divisions: e.divisions.clone(),
+            enclosed: e.enclosed.clone(),
+            explanation: e.to_string(),
+        }
+    }
+}
+
+/// How exactly the joints of a design are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ExactnessWord {
+    /// All are three plain numbers: the doubles nearest to what is written.
+    Doubles,
+    /// Fractions.
+    Rational,
+    /// Sums of rational multiples of square roots of integers and of cosines.
+    Field,
+    /// At least one is known between two close bounds only.
+    Interval,
+}
+
+/// What proves a design regular or singular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ProofWord {
+    /// A pose with six independent leg lines.
+    RegularPose,
+    /// The rank of the leg vectors.
+    LegVectors,
+    /// Ranks at the poses of a lattice that decide all poses.
+    PoseLattice,
+    /// Nothing: joints are known between bounds only, and no pose is proved to hold the platform.
+    None,
+}
+
+/// A pose with rational coordinates.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WitnessRecord {
+    /// The pose.
+    #[serde(flatten)]
+    pub pose: PoseRecord,
+    /// A quaternion of any norm, scalar part first.
+    pub quaternion: [i64; 4],
+}
+
+impl From<&RationalPose> for WitnessRecord {
+    fn from(w: &RationalPose) -> Self {
+        Self { pose: (&w.pose()).into(), quaternion: w.quaternion }
+    }
+}
+
+/// A dependency of leg vectors: `sum c_i v_i = 0`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DependencyRecord {
+    /// The legs in it, from 1.
+    pub legs: Vec<usize>,
+    /// The numbers `c_i`.
+    pub coefficients: [Number; 6],
+    /// `sum c_i s_i` of the squared lengths of every pose.
+    pub constant: Number,
+    /// Dimension of the span of the base ends.
+    pub base_dimension: usize,
+    /// Dimension of the span of the platform ends.
+    pub platform_dimension: usize,
+    /// By how much the lengths of the design miss the constant, relative; null without lengths.
+    pub lengths_defect: Option<Number>,
+}
+
+impl DependencyRecord {
+    fn new(d: &Dependency, lengths: Option<&LegLengths>) -> Self {
+        Self {
+            legs: leg_numbers(&d.legs),
+            coefficients: d.coefficients.map(Number),
+            constant: Number(d.constant),
+            base_dimension: d.base_dimension,
+            platform_dimension: d.platform_dimension,
+            lengths_defect: lengths.map(|l| Number(d.defect(&l.squared()))),
+        }
+    }
+}
+
+/// A known kind of singular design.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct CaseRecord {
+    /// Which.
+    pub case: String,
+    /// The short code of the reason.
+    pub reason: String,
+    /// The legs it is about, from 1.
+    pub legs: Vec<usize>,
+    /// One sentence.
+    pub explanation: String,
+}
+
+impl From<&Finding> for CaseRecord {
+    fn from(f: &Finding) -> Self {
+        Self {
+            case: f.case.name().into(),
+            reason: f.case.reason().into(),
+            legs: leg_numbers(&f.legs),
+            explanation: f.case.sentence(),
+        }
+    }
+}
+
+/// Joints on the sides of two triangles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GriffisDuffyRecord {
+    /// The legs going round the hexagon, from 1.
+    pub order: Vec<usize>,
+    /// Where each joint lies on its side, from 0 to 1.
+    pub t: [Number; 6],
+    /// Lengths of the sides, design units.
+    pub side_lengths: [Number; 6],
+    /// prod (1 - t) - prod t: singular where it is zero.
+    pub det: Number,
+    /// It is zero, exactly.
+    pub exactly_singular: bool,
+    /// How far joints are off their sides, relative.
+    pub deviation: Number,
+    /// Up to which deviation the type is recognised.
+    pub deviation_limit: Number,
+    /// The dependency of the legs where `det` is zero.
+    pub coefficients: [Number; 6],
+    /// `sum c_i s_i` of the squared lengths of every pose.
+    pub constant: Number,
+    /// By how much the lengths of the design miss the constant, relative; null without lengths.
+    pub lengths_defect: Option<Number>,
+    /// Whether the platform can be assembled with the lengths of the design.
+    pub assembly: Option<AssemblyRecord>,
+}
+
+impl GriffisDuffyRecord {
+    fn new(g: &GriffisDuffy, design: &Design, assembly: Option<&Assembly>) -> Self {
+        Self {
+            order: leg_numbers(&g.order),
+            t: g.t.map(Number),
+            side_lengths: g.sides.map(Number),
+            det: Number(g.determinant()),
+            exactly_singular: g.is_exactly_singular(),
+            deviation: Number(g.deviation),
+            deviation_limit: Number(GriffisDuffy::limit(design.manipulator())),
+            coefficients: g.coefficients().map(Number),
+            constant: Number(g.constant()),
+            lengths_defect: design.lengths.map(|l| Number(g.assembly_defect(&l.squared()))),
+            assembly: assembly.map(AssemblyRecord::from),
+        }
+    }
+}
+
+/// Whether a singular platform can be assembled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "verdict", rename_all = "snake_case")]
+pub enum AssemblyRecord {
+    /// The lengths miss the condition.
+    Incompatible {
+        /// By how much, relative.
+        defect: Number,
+    },
+    /// The triangles of the legs do not close.
+    NoRealPose {},
+    /// No real pose was found.
+    Undecided {
+        /// Squared lengths of the octahedral platforms.
+        octahedral_squared_lengths: CornerLengthsRecord,
+    },
+    /// There is a real pose, and the platform moves.
+    Real {
+        /// The pose.
+        pose: PoseRecord,
+        /// Its residual.
+        residual: Number,
+        /// Squared lengths of the octahedral platforms.
+        octahedral_squared_lengths: CornerLengthsRecord,
+    },
+}
+
+impl From<&Assembly> for AssemblyRecord {
+    fn from(a: &Assembly) -> Self {
+        match a {
+            Assembly::Incompatible { defect } => Self::Incompatible { defect: Number(*defect) },
+            Assembly::NoTriangles => Self::NoRealPose {},
+            Assembly::NotFound { corners } => Self::Undecided { octahedral_squared_lengths: corners.into() },
+            Assembly::Real { pose, residual, corners } => Self::Real {
+                pose: pose.into(),
+                residual: Number(*residual),
+                octahedral_squared_lengths: corners.into(),
+            },
+        }
+    }
+}
+
+/// Squared lengths origin + x direction with x in the interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CornerLengthsRecord {
+    /// For x = 0.
+    pub origin: [Number; 6],
+    /// What x multiplies.
+    pub direction: [Number; 6],
+    /// Where x may be.
+    pub interval: [Number; 2],
+}
+
+impl From<&CornerLengths> for CornerLengthsRecord {
+    fn from(c: &CornerLengths) -> Self {
+        Self {
+            origin: c.origin.map(Number),
+            direction: c.direction.map(Number),
+            interval: c.interval.map(Number),
+        }
+    }
+}
+
+/// The nearest singular design that was found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NearestSingularRecord {
+    /// Norm of the change of all joints, design units.
+    pub distance: Number,
+    /// The distance found is an upper bound of the least one.
+    #[schemars(extend("const" = "upper"))]
+    pub bound: String,
+    /// No singular design is nearer.
+    pub distance_at_least: Number,
+    /// What becomes singular.
+    pub kind: String,
+    /// The legs in it, from 1.
+    pub legs: Vec<usize>,
+    /// The dependency of their leg vectors.
+    pub coefficients: Option<[Number; 6]>,
+    /// What is left of the dependency.
+    pub residual: Number,
+    /// Rounding of the file may be the only difference.
+    pub within_rounding: bool,
+    /// Half a unit of the last digit given, design units, where no coordinate differs by more; null otherwise.
+    pub within_digits: Option<Number>,
+    /// Its base joints by name, base frame.
+    pub base: NamedPoints,
+    /// Its platform joints by name, platform frame.
+    pub platform: NamedPoints,
+}
+
+impl NearestSingularRecord {
+    fn new(n: &NearestSingular, at_least: f64, design: &Design) -> Self {
+        Self {
+            distance: Number(n.distance),
+            bound: "upper".into(),
+            distance_at_least: Number(at_least),
+            kind: n.kind.to_string(),
+            legs: leg_numbers(&n.legs),
+            coefficients: n.coefficients.map(|c| c.map(Number)),
+            residual: Number(n.residual),
+            within_rounding: n.within_rounding,
+            within_digits: n.within_digits.map(Number),
+            base: NamedPoints::new(design.base_names(), &n.base),
+            platform: NamedPoints::new(design.platform_names(), &n.platform),
+        }
+    }
+}
+
+/// The inverse condition number of the Jacobian at random poses.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ConditioningRecord {
+    /// How many poses.
+    pub poses: usize,
+    /// The best.
+    pub best: Number,
+    /// The median.
+    pub median: Number,
+    /// The worst.
+    pub worst: Number,
+}
+
+fn triple(v: &nalgebra::Vector3<f64>) -> String {
+    format!("({}, {}, {})", v.x, v.y, v.z)
+}
+
+fn list(legs: &[usize]) -> String {
+    let numbers: Vec<String> = legs.iter().map(|i| (i + 1).to_string()).collect();
+    format!("legs {}", numbers.join(", "))
+}

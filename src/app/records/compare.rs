@@ -1,0 +1,295 @@
+//! Answers that set designs side by side.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::nearest::short;
+use super::{AssessAnswer, JudgedPosesRecord, LightestDriveRecord, Number};
+use crate::app::entrance::DesignFigures;
+use crate::files::design::Design;
+
+/// The answer of `compare`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CompareAnswer {
+    /// Of all designs.
+    pub length_unit: String,
+    /// Of all designs.
+    pub force_unit: String,
+    /// The manoeuvres about home along which forces, speeds and powers are taken.
+    pub manoeuvres: Vec<String>,
+    /// The accuracy for which joints are toleranced; null: none was asked for.
+    pub accuracy: Option<AccuracyRecord>,
+    /// Characteristic length of every conditioning in this answer: that of the first design.
+    pub characteristic_length: f64,
+    /// In the order in which they were given.
+    pub designs: Vec<FiguresRecord>,
+    /// The table and the page that were written.
+    pub paths: Vec<String>,
+}
+
+/// How far the pose may be off.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AccuracyRecord {
+    /// Of the platform origin, design units.
+    pub position: f64,
+    /// Angle of rotation.
+    pub rotation_deg: f64,
+}
+
+/// The figures of a design over the poses of its workspace, at home where it states none. Null: the design says nothing about it, or the value is not finite.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FiguresRecord {
+    /// Name of the design.
+    pub name: String,
+    /// Its file.
+    pub path: String,
+    /// The judgement of `assess`; null: it requires nothing.
+    pub assessment: Option<AssessAnswer>,
+    /// The lightest drive of the table that the design names with which its requirements are met; null: it names none.
+    pub lightest_drive: Option<LightestDriveRecord>,
+    /// The poses of all figures.
+    pub judged: JudgedPosesRecord,
+    /// Poses looked at for the figures besides the judgement and the conditioning.
+    pub poses: usize,
+    /// Least leg length; null where the legs are rods on cranks.
+    pub shortest: Number,
+    /// Greatest leg length; null where the legs are rods on cranks.
+    pub longest: Number,
+    /// The difference.
+    pub stroke: Number,
+    /// What the cranks do, where the legs are rods on cranks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cranks: Option<CrankFiguresRecord>,
+    /// Lengths at home that differ by more than a millionth of the size; of rods on cranks the lengths of the rods.
+    pub different_legs: usize,
+    /// Greatest leg force under the payload and the loads, one at a time.
+    pub force: Option<Number>,
+    /// Greatest leg speed under the speed that the platform has to have.
+    pub speed: Option<Number>,
+    /// Greatest leg force along the manoeuvres.
+    pub motion_force: Option<Number>,
+    /// Greatest leg speed along the manoeuvres.
+    pub motion_speed: Option<Number>,
+    /// Greatest power of a drive along the manoeuvres, watts.
+    pub motion_power_w: Option<Number>,
+    /// The worst conditioning of `assess`: the least inverse condition number found.
+    pub conditioning: Number,
+    /// Least stiffness against a force through the platform origin, force units per design unit.
+    pub stiffness: Option<Number>,
+    /// Lowest natural frequency.
+    pub frequency_hz: Option<Number>,
+    /// Least distance of two joint centres of the base.
+    pub base_spacing: Option<Number>,
+    /// The same on the platform.
+    pub platform_spacing: Option<Number>,
+    /// Least gap between two legs.
+    pub clearance: Option<Number>,
+    /// Greatest distance of a joint of the base from their centroid.
+    pub base_radius: Number,
+    /// The same on the platform.
+    pub platform_radius: Number,
+    /// How far every joint may be off, in any direction, for the accuracy to be kept to first order.
+    pub joint_tolerance: Option<Number>,
+    /// Why there is no such tolerance; null: there is one, or none was asked for.
+    pub no_tolerance: Option<String>,
+}
+
+/// What cranks do over the poses that all rods reach.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CrankFiguresRecord {
+    /// Least angle; null: no pose is reached.
+    pub least_deg: Option<Number>,
+    /// Greatest angle.
+    pub greatest_deg: Option<Number>,
+    /// Least transmission angle: 0 at a singular crank.
+    pub transmission_deg: Option<Number>,
+    /// Greatest torque under the payload and the loads, one at a time, force units times design units.
+    pub torque: Option<Number>,
+    /// Greatest speed under the speed that the platform has to have, degrees per second.
+    pub speed_deg: Option<Number>,
+    /// Greatest torque along the manoeuvres.
+    pub motion_torque: Option<Number>,
+    /// Greatest speed along the manoeuvres, degrees per second.
+    pub motion_speed_deg: Option<Number>,
+}
+
+impl FiguresRecord {
+    /// The figures of a design.
+    #[must_use]
+    pub(crate) fn new(
+        design: &Design,
+        path: String,
+        found: &DesignFigures,
+        characteristic_length: f64,
+    ) -> Self {
+        let number = |x: Option<f64>| x.map(Number);
+        let [shortest, longest] = found.lengths;
+        let turns = found.cranks.is_some();
+        let (tolerance, no_tolerance) = match &found.allowance {
+            None => (None, None),
+            Some(Ok(value)) => (Some(*value), None),
+            Some(Err(why)) => (None, Some(why.to_string())),
+        };
+        Self {
+            name: design.name.clone(),
+            path,
+            assessment: found
+                .assessment
+                .as_ref()
+                .map(|report| AssessAnswer::beside(design, report, characteristic_length)),
+            judged: design.judged_poses().into(),
+            lightest_drive: None,
+            poses: found.poses,
+            shortest: Number(shortest),
+            longest: Number(longest),
+            stroke: Number(longest - shortest),
+            different_legs: found.different_legs,
+            force: number(found.force),
+            speed: number(found.speed),
+            motion_force: number(found.motion.force).filter(|_| !turns),
+            motion_speed: number(found.motion.speed).filter(|_| !turns),
+            cranks: found.cranks.as_ref().map(|cranks| CrankFiguresRecord {
+                least_deg: number(cranks.angles_deg.map(|a| a[0])),
+                greatest_deg: number(cranks.angles_deg.map(|a| a[1])),
+                transmission_deg: number(cranks.transmission_deg),
+                torque: number(cranks.torque),
+                speed_deg: number(cranks.speed_deg),
+                motion_torque: number(found.motion.force),
+                motion_speed_deg: number(found.motion.speed),
+            }),
+            motion_power_w: number(found.motion.power),
+            conditioning: Number(found.conditioning),
+            stiffness: number(found.stiffness),
+            frequency_hz: number(found.frequency),
+            base_spacing: number(found.spacing[0]),
+            platform_spacing: number(found.spacing[1]),
+            clearance: number(found.clearance),
+            base_radius: Number(found.radius[0]),
+            platform_radius: Number(found.radius[1]),
+            joint_tolerance: number(tolerance),
+            no_tolerance,
+        }
+    }
+}
+
+/// A column of the table: a figure of every design.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FigureColumn {
+    /// What it is.
+    pub(crate) title: String,
+    /// Its unit; empty for numbers without one.
+    pub(crate) unit: String,
+    /// By design; `None` where a design has none.
+    pub(crate) cells: Vec<Option<FigureCell>>,
+}
+
+/// A cell of the table.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum FigureCell {
+    /// A number; `true`: it violates a limit.
+    Number(f64, bool),
+    /// A word.
+    Word(String),
+}
+
+impl CompareAnswer {
+    /// The table: a column for every figure that some design has.
+    pub(crate) fn columns(&self) -> Vec<FigureColumn> {
+        let (length, force) = (self.length_unit.as_str(), self.force_unit.as_str());
+        let speed = format!("{length}/s");
+        let stiffness = format!("{force}/{length}");
+        let torque = format!("{force} {length}");
+        let mut out = vec![self.words("requirements", |d| {
+            d.assessment.as_ref().map(|a| match a.met {
+                Some(true) => a.judged.met_in_words.clone(),
+                Some(false) => "violated".to_owned(),
+                None => "undecided".to_owned(),
+            })
+        })];
+        out.extend(self.margins());
+        out.push(self.words("lightest drive", |d| {
+            d.lightest_drive.as_ref().map(|l| l.name.clone().unwrap_or_else(|| "none".to_owned()))
+        }));
+        let of = |title: &str, unit: &str, value: &dyn Fn(&FiguresRecord) -> Option<Number>| FigureColumn {
+            title: title.into(),
+            unit: unit.into(),
+            cells: self
+                .designs
+                .iter()
+                .map(|d| value(d).filter(|x| !x.0.is_nan()).map(|x| FigureCell::Number(x.0, false)))
+                .collect(),
+        };
+        out.extend([
+            of("shortest leg", length, &|d| Some(d.shortest)),
+            of("longest leg", length, &|d| Some(d.longest)),
+            of("stroke used", length, &|d| Some(d.stroke)),
+            of("greatest force", force, &|d| d.force),
+            of("greatest speed", &speed, &|d| d.speed),
+            of("force in motion", force, &|d| d.motion_force),
+            of("speed in motion", &speed, &|d| d.motion_speed),
+            of("least crank angle", "deg", &|d| d.cranks.as_ref()?.least_deg),
+            of("greatest crank angle", "deg", &|d| d.cranks.as_ref()?.greatest_deg),
+            of("least transmission angle", "deg", &|d| d.cranks.as_ref()?.transmission_deg),
+            of("greatest torque", &torque, &|d| d.cranks.as_ref()?.torque),
+            of("greatest crank speed", "deg/s", &|d| d.cranks.as_ref()?.speed_deg),
+            of("torque in motion", &torque, &|d| d.cranks.as_ref()?.motion_torque),
+            of("crank speed in motion", "deg/s", &|d| d.cranks.as_ref()?.motion_speed_deg),
+            of("power in motion", "W", &|d| d.motion_power_w),
+            of("conditioning", "", &|d| Some(d.conditioning)),
+            of("least stiffness", &stiffness, &|d| d.stiffness),
+            of("lowest frequency", "Hz", &|d| d.frequency_hz),
+            of("joint spacing, base", length, &|d| d.base_spacing),
+            of("joint spacing, platform", length, &|d| d.platform_spacing),
+            of("leg clearance", length, &|d| d.clearance),
+            of("radius, base", length, &|d| Some(d.base_radius)),
+            of("radius, platform", length, &|d| Some(d.platform_radius)),
+            of("different legs", "", &|d| Some(Number(d.different_legs as f64))),
+            of("joint tolerance", length, &|d| d.joint_tolerance),
+        ]);
+        out.retain(|column| column.cells.iter().any(Option::is_some));
+        out
+    }
+
+    fn words(&self, title: &str, word: impl Fn(&FiguresRecord) -> Option<String>) -> FigureColumn {
+        let cells = self.designs.iter().map(|d| word(d).map(FigureCell::Word)).collect();
+        FigureColumn { title: title.into(), unit: String::new(), cells }
+    }
+
+    /// A sentence for every design: its verdict with the poses judged.
+    pub(crate) fn verdicts(&self) -> Vec<String> {
+        let sentence = |d: &FiguresRecord| match &d.assessment {
+            Some(a) => format!("{} {}", d.name, a.explanation),
+            None if d.judged.stated => format!("{} requires nothing", d.name),
+            None => format!("{} requires nothing; no workspace stated, figures are those at home", d.name),
+        };
+        self.designs.iter().map(sentence).collect()
+    }
+
+    /// The length by which every conditioning is computed, in a sentence.
+    pub(crate) fn yardstick(&self) -> String {
+        let (length, unit) = (short(self.characteristic_length), &self.length_unit);
+        format!(
+            "Every conditioning is by one characteristic length, {length} {unit}, that of the first design."
+        )
+    }
+
+    /// A column for every kind of margin that some design has.
+    fn margins(&self) -> Vec<FigureColumn> {
+        let all = || self.designs.iter().filter_map(|d| d.assessment.as_ref()).flat_map(|a| &a.requirements);
+        let mut kinds: Vec<_> = all().map(|m| m.name).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let column = |kind: crate::machine::requirements::TermKind| {
+            let margin = |d: &FiguresRecord| {
+                let found = d.assessment.as_ref()?.requirements.iter().find(|m| m.name == kind)?;
+                Some(FigureCell::Number(found.margin.0, found.violates()))
+            };
+            FigureColumn {
+                title: format!("margin {}", kind.code()),
+                unit: all().find(|m| m.name == kind).map(|m| m.unit.clone()).unwrap_or_default(),
+                cells: self.designs.iter().map(margin).collect(),
+            }
+        };
+        kinds.into_iter().map(column).collect()
+    }
+}

@@ -1,0 +1,545 @@
+//! Answers about the families of replaceable legs of a design.
+
+use nalgebra::Point3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Number, leg_number};
+use crate::platform::manipulator::{Leg, LegIndex};
+use crate::synthesis::components::{
+    Component, Components, CubicPencil, Decision, ExactCurve, FlatPair, MovingPoint, NoExactCurve,
+    Parametrisation, PlaneCurve, SampledLeg, flat_name,
+};
+
+/// The answer of `equivalents components`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ComponentsAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// What counts as zero, relative to the size of the body.
+    pub tolerance: f64,
+    /// Rank of the leg vectors.
+    pub leg_rank: usize,
+    /// How that was decided.
+    pub leg_rank_decision: DecisionRecord,
+    /// How many families there are.
+    pub count: usize,
+    /// There are no others.
+    pub complete: bool,
+    /// Why there may be others.
+    pub doubts: Vec<String>,
+    /// Pairs of flats that their legs span.
+    pub pairs: Vec<FlatPairRecord>,
+    /// Pairs of planes with their curves.
+    pub planes: Vec<PlanePairRecord>,
+    /// The families.
+    pub components: Vec<ComponentRecord>,
+}
+
+/// A dimension or rank and how it was decided.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DecisionRecord {
+    /// What was asked.
+    #[schemars(extend("enum" = [
+        "base_dimension", "platform_dimension", "leg_rank", "rank_over_base", "rank_over_platform", "common_factor", "line_factor",
+        "conic_rank", "singular_point"
+    ]))]
+    pub question: String,
+    /// The value used.
+    pub value: usize,
+    /// By the tolerance.
+    pub numerical: usize,
+    /// In exact arithmetic; null: not asked.
+    pub exact: Option<usize>,
+    /// Exact arithmetic gives the value used; null: not asked.
+    pub agrees: Option<bool>,
+    /// The smallest number not counted as zero.
+    pub above: Option<Number>,
+    /// The largest number counted as zero.
+    pub below: Option<Number>,
+    /// The limit between them.
+    pub tolerance: Number,
+}
+
+impl From<&Decision> for DecisionRecord {
+    fn from(d: &Decision) -> Self {
+        Self {
+            question: d.question.as_str().into(),
+            value: d.value,
+            numerical: d.numerical,
+            exact: d.exact,
+            agrees: d.agrees(),
+            above: d.above.map(Number),
+            below: d.below.map(Number),
+            tolerance: Number(d.tolerance),
+        }
+    }
+}
+
+fn decisions(list: &[Decision]) -> Vec<DecisionRecord> {
+    list.iter().map(DecisionRecord::from).collect()
+}
+
+fn numbers<'a>(x: impl IntoIterator<Item = &'a f64>) -> Vec<Number> {
+    x.into_iter().copied().map(Number).collect()
+}
+
+fn legs(list: &[LegIndex]) -> Vec<usize> {
+    list.iter().copied().map(leg_number).collect()
+}
+
+fn point(p: &Point3<f64>) -> [Number; 3] {
+    [p.x, p.y, p.z].map(Number)
+}
+
+/// A pair of flats that its legs span.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FlatPairRecord {
+    /// The legs, from 1.
+    pub legs: Vec<usize>,
+    /// The flat of the base: point, line, plane or space.
+    pub base: String,
+    /// The flat of the platform.
+    pub platform: String,
+    /// Rank of its legs.
+    pub rank: usize,
+    /// Dimension of the family by counting equations; may be negative.
+    pub expected_dimension: isize,
+    /// Dimension found.
+    pub dimension: usize,
+    /// Whether the flats are those of the joints as written, or within the tolerance.
+    pub reading: String,
+    /// What was decided.
+    pub decisions: Vec<DecisionRecord>,
+}
+
+impl From<&FlatPair> for FlatPairRecord {
+    fn from(p: &FlatPair) -> Self {
+        Self {
+            legs: legs(&p.legs),
+            base: flat_name(p.base).into(),
+            platform: flat_name(p.platform).into(),
+            rank: p.rank,
+            expected_dimension: p.expected_dimension,
+            dimension: p.dimension,
+            reading: p.reading.as_str().into(),
+            decisions: decisions(&p.decisions),
+        }
+    }
+}
+
+/// `sum equations[r][p][q] alpha_p beta_q = 0` with `alpha = (1, x, y)` on the base and `beta` on the platform.
+pub type Bilinear = Vec<[[Number; 3]; 3]>;
+
+/// A pair of planes with the curves of points that carry replaceable legs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PlanePairRecord {
+    /// Its number in `pairs`, from 1.
+    pub pair: usize,
+    /// The legs in the planes, from 1.
+    pub legs: Vec<usize>,
+    /// Whether the flats are those of the joints as written, or within the tolerance.
+    pub reading: String,
+    /// Both curves are smooth; null: not decided.
+    pub smooth: Option<bool>,
+    /// The curve of the base.
+    pub base: PlaneCurveRecord,
+    /// The curve of the platform.
+    pub platform: PlaneCurveRecord,
+    /// Which points belong together: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base, `beta` on the platform.
+    pub equations: Bilinear,
+}
+
+/// A plane curve of points that carry replaceable legs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PlaneCurveRecord {
+    /// The origin of plane coordinates, frame of the body.
+    pub origin: [Number; 3],
+    /// The point `(x, y)` is `origin + x axes[0] + y axes[1]`.
+    pub axes: [[Number; 3]; 2],
+    /// Its degree.
+    pub degree: usize,
+    /// In the order of the monomials.
+    pub coefficients: Vec<Number>,
+    /// Names of the monomials.
+    pub monomials: Vec<String>,
+    /// Rank of the equations at a generic point.
+    pub generic_rank: usize,
+    /// What it splits into.
+    pub parts: Vec<CurvePartRecord>,
+    /// Its singular points.
+    pub singular_points: Vec<SingularPointRecord>,
+    /// What was decided.
+    pub decisions: Vec<DecisionRecord>,
+    /// The curve of the joints as rational numbers, or why there is none.
+    pub exact: ExactCurveOutcome,
+}
+
+impl From<&PlaneCurve> for PlaneCurveRecord {
+    fn from(c: &PlaneCurve) -> Self {
+        Self {
+            origin: point(&c.origin),
+            axes: c.axes.map(|a| [a.x, a.y, a.z].map(Number)),
+            degree: c.degree,
+            coefficients: numbers(&c.coefficients),
+            monomials: monomials(c.degree),
+            generic_rank: c.generic_rank,
+            parts: c
+                .parts
+                .iter()
+                .map(|p| CurvePartRecord {
+                    kind: p.kind.as_str().into(),
+                    coefficients: numbers(&p.coefficients),
+                    multiplicity: p.multiplicity,
+                    measure: Number(p.measure),
+                })
+                .collect(),
+            singular_points: c
+                .singular_points
+                .iter()
+                .map(|s| SingularPointRecord {
+                    point: s.point.as_ref().map(point),
+                    coordinates: s.coordinates.map(Number),
+                    kind: s.kind.as_str().into(),
+                    gradient: Number(s.gradient),
+                    line_of_partners: s.line_of_partners,
+                })
+                .collect(),
+            decisions: decisions(&c.decisions),
+            exact: (&c.exact).into(),
+        }
+    }
+}
+
+/// Names of the monomials of a plane curve in the order of its coefficients.
+fn monomials(degree: usize) -> Vec<String> {
+    let power = |x: &str, n: usize| match n {
+        0 => String::new(),
+        1 => x.to_string(),
+        _ => format!("{x}^{n}"),
+    };
+    let term = |j: usize, k: usize| match (power("x", j), power("y", k)) {
+        (x, y) if x.is_empty() && y.is_empty() => "1".to_string(),
+        (x, y) if x.is_empty() || y.is_empty() => x + &y,
+        (x, y) => format!("{x} {y}"),
+    };
+    (0..=degree).flat_map(|n| (0..=n).map(move |k| term(n - k, k))).collect()
+}
+
+/// A part of a plane curve.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CurvePartRecord {
+    /// What it is.
+    #[schemars(extend("enum" = ["line", "conic", "conic_without_real_points", "conjugate_lines", "cubic", "higher"]))]
+    pub kind: String,
+    /// In the order of the monomials of its degree.
+    pub coefficients: Vec<Number>,
+    /// How often it counts.
+    pub multiplicity: usize,
+    /// What decided its kind.
+    pub measure: Number,
+}
+
+/// A singular point of a plane curve.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SingularPointRecord {
+    /// In the frame of the body; null: at infinity.
+    pub point: Option<[Number; 3]>,
+    /// Homogeneous plane coordinates.
+    pub coordinates: [Number; 3],
+    /// What it is.
+    #[schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"]))]
+    pub kind: String,
+    /// The gradient there.
+    pub gradient: Number,
+    /// A whole line of the other plane corresponds to it.
+    pub line_of_partners: bool,
+}
+
+/// The curve of the joints as rational numbers, or why there is none.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ExactCurveOutcome {
+    /// The curve.
+    Curve(ExactCurveRecord),
+    /// None.
+    None {
+        /// Why not.
+        reason: String,
+    },
+}
+
+/// A plane curve with integer coefficients.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExactCurveRecord {
+    /// The coordinates of the body that serve as plane coordinates.
+    pub axes: [String; 2],
+    /// Rank of the equations at a generic point.
+    pub generic_rank: usize,
+    /// Its degree.
+    pub degree: usize,
+    /// Integers as text.
+    pub coefficients: Vec<String>,
+    /// What it splits into over the complex numbers.
+    pub parts: Vec<ExactPartRecord>,
+    /// It has no singular point; null: not decided.
+    pub smooth: Option<bool>,
+    /// A singular point.
+    pub singular_point: Option<ExactPointRecord>,
+}
+
+/// A part of an exact curve.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExactPartRecord {
+    /// What it is.
+    #[schemars(extend("enum" = [
+        "line", "two_conjugate_real_lines", "two_conjugate_complex_lines", "three_conjugate_real_lines",
+        "three_conjugate_lines_one_real", "conic", "conic_without_real_points", "cubic", "undecided"
+    ]))]
+    pub kind: String,
+    /// Its degree.
+    pub degree: usize,
+    /// Integers as text.
+    pub coefficients: Vec<String>,
+    /// How often it counts.
+    pub multiplicity: usize,
+}
+
+/// A rational point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExactPointRecord {
+    /// (w, x, y), integers as text.
+    pub coordinates: [String; 3],
+    /// What it is.
+    #[schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"]))]
+    pub kind: String,
+}
+
+impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
+    fn from(c: &Result<ExactCurve, NoExactCurve>) -> Self {
+        let curve = match c {
+            Ok(curve) => curve,
+            Err(reason) => return Self::None { reason: reason.to_string() },
+        };
+        let part = |p: &crate::synthesis::components::ExactPart| ExactPartRecord {
+            kind: p.kind.as_str().into(),
+            degree: p.degree,
+            coefficients: p.coefficients.clone(),
+            multiplicity: p.multiplicity,
+        };
+        Self::Curve(ExactCurveRecord {
+            axes: curve.axes.map(|k| ["x", "y", "z"][k].to_owned()),
+            generic_rank: curve.generic_rank,
+            degree: curve.degree,
+            coefficients: curve.coefficients.clone(),
+            parts: curve.parts.iter().map(part).collect(),
+            smooth: curve.smooth,
+            singular_point: curve.singular_point.as_ref().map(|p| ExactPointRecord {
+                coordinates: p.coordinates.clone(),
+                kind: p.kind.as_str().into(),
+            }),
+        })
+    }
+}
+
+/// A family of replaceable legs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ComponentRecord {
+    /// Its number, from 1.
+    pub component: usize,
+    /// point-line, for example.
+    #[serde(rename = "type")]
+    pub type_name: String,
+    /// What its legs form.
+    #[schemars(extend("enum" = ["all_pairs", "over_line", "over_conic", "over_plane", "over_cubic"]))]
+    pub kind: String,
+    /// The flat its base ends span.
+    pub base: String,
+    /// The flat its platform ends span.
+    pub platform: String,
+    /// Its dimension.
+    pub dimension: usize,
+    /// Legs of the design on it, from 1.
+    pub legs: Vec<usize>,
+    /// Legs its legs are combinations of, from 1.
+    pub support: Vec<usize>,
+    /// False: within the tolerance only; null: not decided exactly.
+    pub exact: Option<bool>,
+    /// Numbers of larger families, from 1.
+    pub contained_in: Vec<usize>,
+    /// Formulas of its legs.
+    pub parametrisation: ParametrisationRecord,
+    /// Parameters without a finite leg.
+    pub at_infinity: Vec<Number>,
+    /// What was decided.
+    pub decisions: Vec<DecisionRecord>,
+    /// Random legs of it.
+    pub samples: Vec<SampledLegRecord>,
+}
+
+/// Formulas of the legs of a family.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum ParametrisationRecord {
+    /// Both ends are rational functions of the parameters.
+    Rational {
+        /// How many parameters.
+        parameters: usize,
+        /// Terms of homogeneous coordinates (c0, c1, c2, c3) of the base end, the point (c1, c2, c3) / c0.
+        base: Vec<MovingTermRecord>,
+        /// The same of the platform end.
+        platform: Vec<MovingTermRecord>,
+    },
+    /// A plane cubic, by a pencil of lines through one of its points.
+    Cubic {
+        /// One.
+        #[schemars(extend("const" = 1))]
+        parameters: usize,
+        /// The point of the cubic, homogeneous plane coordinates.
+        centre: Vec<Number>,
+        /// The cubic.
+        cubic: Vec<Number>,
+        /// Origin and axes of the plane of the base.
+        base_frame: Vec<[Number; 3]>,
+        /// Origin and axes of the plane of the platform.
+        platform_frame: Vec<[Number; 3]>,
+        /// Which points belong together: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base, `beta` on the platform.
+        equations: Bilinear,
+    },
+}
+
+/// A term of homogeneous coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MovingTermRecord {
+    /// Of the parameters.
+    pub exponents: [u8; 3],
+    /// Of (c0, c1, c2, c3).
+    pub coefficient: [Number; 4],
+}
+
+fn moving(p: &MovingPoint) -> Vec<MovingTermRecord> {
+    let term = |(exponents, c): &([u8; 3], [f64; 4])| MovingTermRecord {
+        exponents: *exponents,
+        coefficient: c.map(Number),
+    };
+    p.terms.iter().map(term).collect()
+}
+
+fn bilinear(list: &[[[f64; 3]; 3]]) -> Bilinear {
+    list.iter().map(|m| m.map(|row| row.map(Number))).collect()
+}
+
+impl From<&Parametrisation> for ParametrisationRecord {
+    fn from(p: &Parametrisation) -> Self {
+        match p {
+            Parametrisation::Rational { parameters, base, platform } => {
+                Self::Rational { parameters: *parameters, base: moving(base), platform: moving(platform) }
+            }
+            Parametrisation::Cubic(c) => c.as_ref().into(),
+        }
+    }
+}
+
+impl From<&CubicPencil> for ParametrisationRecord {
+    fn from(c: &CubicPencil) -> Self {
+        Self::Cubic {
+            parameters: 1,
+            centre: numbers(&c.centre),
+            cubic: numbers(&c.cubic),
+            base_frame: c.base_frame.iter().map(|v| [v.x, v.y, v.z].map(Number)).collect(),
+            platform_frame: c.platform_frame.iter().map(|v| [v.x, v.y, v.z].map(Number)).collect(),
+            equations: bilinear(&c.equations),
+        }
+    }
+}
+
+/// The ends of a leg.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LegEndsRecord {
+    /// Base frame.
+    pub base: [Number; 3],
+    /// Platform frame.
+    pub platform: [Number; 3],
+}
+
+impl From<&Leg> for LegEndsRecord {
+    fn from(l: &Leg) -> Self {
+        Self { base: point(&l.base), platform: point(&l.platform) }
+    }
+}
+
+/// A leg drawn from a family.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SampledLegRecord {
+    /// Its parameters.
+    pub parameters: Vec<Number>,
+    /// Its ends.
+    #[serde(flatten)]
+    pub ends: LegEndsRecord,
+    /// Its squared length in the squared lengths of the six legs.
+    pub coefficients: [Number; 6],
+    /// What is left of its leg vector.
+    pub residual: Number,
+}
+
+impl From<&SampledLeg> for SampledLegRecord {
+    fn from(s: &SampledLeg) -> Self {
+        Self {
+            parameters: numbers(&s.parameters),
+            ends: (&s.leg).into(),
+            coefficients: s.coefficients.map(Number),
+            residual: Number(s.residual),
+        }
+    }
+}
+
+impl ComponentRecord {
+    /// The record of family `k` (from 0) with legs drawn from it.
+    #[must_use]
+    pub fn new(k: usize, c: &Component, samples: &[SampledLeg]) -> Self {
+        Self {
+            component: k + 1,
+            type_name: c.type_name(),
+            kind: c.kind.as_str().into(),
+            base: flat_name(c.base_span).into(),
+            platform: flat_name(c.platform_span).into(),
+            dimension: c.dimension,
+            legs: legs(&c.legs),
+            support: legs(&c.support),
+            exact: c.exact,
+            contained_in: c.contained_in.iter().map(|l| l + 1).collect(),
+            parametrisation: (&c.parametrisation).into(),
+            at_infinity: numbers(&c.at_infinity),
+            decisions: decisions(&c.decisions),
+            samples: samples.iter().map(SampledLegRecord::from).collect(),
+        }
+    }
+}
+
+impl ComponentsAnswer {
+    /// The answer about a design of this name: everything found, and of the families those in `components`.
+    #[must_use]
+    pub fn new(name: &str, tolerance: f64, found: &Components, components: Vec<ComponentRecord>) -> Self {
+        let planes = found.planes.iter().map(|p| PlanePairRecord {
+            pair: p.pair + 1,
+            legs: legs(&found.pairs[p.pair].legs),
+            reading: found.pairs[p.pair].reading.as_str().into(),
+            smooth: p.smooth,
+            base: (&p.base).into(),
+            platform: (&p.platform).into(),
+            equations: bilinear(&p.equations),
+        });
+        Self {
+            name: name.to_owned(),
+            tolerance,
+            leg_rank: found.leg_rank.value,
+            leg_rank_decision: (&found.leg_rank).into(),
+            count: found.components.len(),
+            complete: found.doubts.is_empty(),
+            doubts: found.doubts.clone(),
+            pairs: found.pairs.iter().map(FlatPairRecord::from).collect(),
+            planes: planes.collect(),
+            components,
+        }
+    }
+}

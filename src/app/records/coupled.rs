@@ -1,0 +1,96 @@
+//! What joints that are not ideal add to answers: the lengths that drives have in place of distances of joints.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Number;
+use crate::machine::coupled::{CoupledOutcome, CoupledStatus, DriveState};
+
+/// The drives at a pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DriveLengthsRecord {
+    /// The lengths that a controller has to command, in leg order, design units.
+    pub lengths: [f64; 6],
+    /// What of the difference from the distances of the joints is due to axes that do not meet.
+    pub of_offsets: [f64; 6],
+    /// The turns of the platform ends of the legs about them against the base ends, from home; 0 without a lead.
+    pub twists_deg: [f64; 6],
+}
+
+impl DriveLengthsRecord {
+    pub(crate) fn new(distances: &[f64; 6], states: &[DriveState; 6]) -> Self {
+        Self {
+            lengths: std::array::from_fn(|i| distances[i] + states[i].correction),
+            of_offsets: states.map(|s| s.of_offsets),
+            twists_deg: states.map(|s| s.twist.to_degrees()),
+        }
+    }
+}
+
+/// How the pose for lengths of drives was found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DriveSolutionRecord {
+    /// What is known of it.
+    pub status: DriveSolutionWord,
+    /// Why there is no pose.
+    pub reason: Option<String>,
+    /// The lengths that the drives show.
+    pub lengths: [f64; 6],
+    /// The distances of the joints at the pose, to which it was followed.
+    pub distances: [f64; 6],
+    /// Steps of the fixed point.
+    pub steps: u32,
+    /// The greatest ratio of two changes of the corrections, one after the other; 0 where there were none above rounding.
+    pub factor: Number,
+    /// Proved: the platform origin of the pose with exactly these lengths is no farther away, design units.
+    pub position_bound: Option<Number>,
+    /// Proved: its rotation is no farther away.
+    pub angle_bound_deg: Option<Number>,
+    /// The factor by which the Newton map contracts around the pose; null: not proved.
+    pub contraction: Option<Number>,
+}
+
+/// What is known of the pose for lengths of drives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DriveSolutionWord {
+    /// There is exactly one pose with these lengths in a neighbourhood, within the bound.
+    Proved,
+    /// The corrections settled, and no bound is proved.
+    Unproved,
+    /// The corrections did not settle.
+    NotContracting,
+    /// The pose of the distances was not followed to its end.
+    NotTracked,
+    /// A drive has no length at a pose on the way.
+    NoLength,
+}
+
+impl DriveSolutionRecord {
+    pub(crate) fn new(lengths: &[f64; 6], found: &CoupledOutcome) -> Self {
+        let (status, bound, reason) = match found.status {
+            CoupledStatus::Proved(bound) => (DriveSolutionWord::Proved, Some(bound), None),
+            CoupledStatus::Unproved => (DriveSolutionWord::Unproved, None, None),
+            CoupledStatus::NotContracting => {
+                let why = "the corrections of the joints do not settle: no contraction";
+                (DriveSolutionWord::NotContracting, None, Some(why.to_string()))
+            }
+            CoupledStatus::NotTracked => {
+                let why = "the pose of the distances of the joints was not followed to its end";
+                (DriveSolutionWord::NotTracked, None, Some(why.to_string()))
+            }
+            CoupledStatus::NoLength(why) => (DriveSolutionWord::NoLength, None, Some(why.to_string())),
+        };
+        Self {
+            status,
+            reason,
+            lengths: *lengths,
+            distances: found.distances,
+            steps: found.steps,
+            factor: Number(found.factor),
+            position_bound: bound.map(|b| Number(b.position)),
+            angle_bound_deg: bound.map(|b| Number(b.angle.to_degrees().next_up())),
+            contraction: bound.map(|b| Number(b.contraction)),
+        }
+    }
+}

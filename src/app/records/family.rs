@@ -1,0 +1,283 @@
+//! Answers about every platform equivalent to an octahedral design.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::map::matrix;
+use super::{Number, leg_number};
+use crate::app::equivalents::Original;
+use crate::files::design::Design;
+use crate::platform::manipulator::Body;
+use crate::synthesis::{
+    AffineLegMap, Family, FamilyCounts, FamilyMember, HexagonPoint, InstantiateError, JointLabel, Pattern,
+    edge_lengths,
+};
+
+/// The answer of `equivalents family`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FamilyAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// Legs along the hexagon, from 1.
+    pub cyclic_order: Vec<usize>,
+    /// The edge of each side of the hexagon, design units.
+    pub edge_lengths: Vec<Number>,
+    /// How many there are.
+    pub counts: CountsRecord,
+    /// The patterns, or the one that was asked for.
+    pub patterns: Vec<PatternRecord>,
+    /// The ways in which legs share joints.
+    pub topologies: Vec<FamilyTopologyRecord>,
+    /// The platform of the pattern at the offsets given, with `--offsets`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub instance: Option<InstanceRecord>,
+}
+
+impl FamilyAnswer {
+    /// The answer about a design that is made from this octahedral platform or is it, with these members of its class.
+    #[must_use]
+    pub(crate) fn new(name: &str, original: &Original, family: &Family, members: &[&FamilyMember]) -> Self {
+        let o = &original.octahedral;
+        Self {
+            name: name.into(),
+            cyclic_order: o.order().map(leg_number).to_vec(),
+            edge_lengths: edge_lengths(o).map(Number).to_vec(),
+            counts: family.counts().into(),
+            patterns: members.iter().map(|m| PatternRecord::new(m, original)).collect(),
+            topologies: family.topologies().iter().enumerate().map(FamilyTopologyRecord::from).collect(),
+            instance: None,
+        }
+    }
+}
+
+/// How many members the class has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct CountsRecord {
+    /// Patterns of kept and moved legs.
+    pub patterns: usize,
+    /// Patterns up to the symmetries of the hexagon that keep base and platform apart.
+    pub classes: usize,
+    /// Patterns up to all symmetries of the hexagon.
+    pub classes_exchange: usize,
+    /// Ways in which legs share joints, the octahedral one included.
+    pub topologies: usize,
+    /// The same where base and platform may be exchanged.
+    pub topologies_exchange: usize,
+    /// Topologies that are reached by offsets introduced one at a time.
+    pub sequential_topologies: usize,
+    /// The same where base and platform may be exchanged.
+    pub sequential_topologies_exchange: usize,
+    /// Patterns that are reached by offsets introduced one at a time.
+    pub sequential_patterns: usize,
+    /// Patterns that split joints only.
+    pub splitting_patterns: usize,
+}
+
+impl From<FamilyCounts> for CountsRecord {
+    fn from(c: FamilyCounts) -> Self {
+        Self {
+            patterns: c.patterns,
+            classes: c.classes,
+            classes_exchange: c.classes_exchange,
+            topologies: c.topologies,
+            topologies_exchange: c.topologies_exchange,
+            sequential_topologies: c.sequential_topologies,
+            sequential_topologies_exchange: c.sequential_topologies_exchange,
+            sequential_patterns: c.sequential_patterns,
+            splitting_patterns: c.splitting_patterns,
+        }
+    }
+}
+
+/// Which legs are kept and which are moved along which edge.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct PatternRecord {
+    /// Its name: V and the vertices kept, S and the sides of the moved ones.
+    pub id: String,
+    /// Its class up to symmetry, from 1.
+    pub class: usize,
+    /// Its class up to all symmetries, from 1.
+    pub class_exchange: usize,
+    /// Its topology, from 1.
+    pub topology: usize,
+    /// It is reached by offsets introduced one at a time.
+    pub sequential: bool,
+    /// The legs, in the order of the design.
+    pub legs: Vec<PatternLegRecord>,
+    /// Names of the offsets.
+    pub offsets: Vec<String>,
+    /// Joints that hold more than one leg.
+    pub shared_joints: Vec<SharedJointRecord>,
+    /// Joints on one line.
+    pub alignments: Vec<Vec<String>>,
+    /// Formulas of the entries of A, legs in the order of the design.
+    #[serde(rename = "A")]
+    pub matrix: [[String; 6]; 6],
+    /// The formula of det A.
+    #[serde(rename = "det")]
+    pub determinant: String,
+    /// Equations for det A = 0, one a factor.
+    #[serde(rename = "det_zero")]
+    pub zeros: Vec<String>,
+}
+
+/// One leg of a pattern.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct PatternLegRecord {
+    /// Its base joint.
+    pub base: String,
+    /// Its platform joint.
+    pub platform: String,
+    /// Where it stands.
+    #[serde(flatten)]
+    pub place: PatternPlace,
+}
+
+/// Where a leg of a pattern stands on the hexagon.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum PatternPlace {
+    /// Kept.
+    Vertex {},
+    /// Moved along an edge.
+    Inner {
+        /// The side, from 1.
+        side: usize,
+        /// The name of its offset.
+        offset: String,
+        /// The legs at the ends of the side, from 1.
+        between: [usize; 2],
+    },
+}
+
+/// A joint that holds more than one leg.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct SharedJointRecord {
+    /// The body it is on.
+    pub body: Body,
+    /// Its name.
+    pub joint: String,
+    /// The legs, from 1.
+    pub legs: Vec<usize>,
+}
+
+impl PatternRecord {
+    fn new(member: &FamilyMember, original: &Original) -> Self {
+        let (p, o) = (&member.pattern, &original.octahedral);
+        let order = o.order();
+        let name = |j: JointLabel| original.joint_name(j);
+        let mut legs: Vec<(usize, PatternLegRecord)> = Vec::with_capacity(6);
+        for (slot, point) in order.iter().zip(p.legs()) {
+            let [base, platform] = point.joints().map(name);
+            let place = match point {
+                HexagonPoint::Vertex(_) => PatternPlace::Vertex {},
+                HexagonPoint::Inner(t) => PatternPlace::Inner {
+                    side: t.side + 1,
+                    offset: t.to_string(),
+                    between: [order[t.side], order[(t.side + 1) % 6]].map(leg_number),
+                },
+            };
+            legs.push((slot.get(), PatternLegRecord { base, platform, place }));
+        }
+        legs.sort_by_key(|(slot, _)| *slot);
+        let shared = p.shared_joints().into_iter().map(|(body, joint, legs)| {
+            let mut legs: Vec<usize> = legs.iter().map(|i| leg_number(order[*i])).collect();
+            legs.sort_unstable();
+            SharedJointRecord { body, joint: name(joint), legs }
+        });
+        Self {
+            id: p.to_string(),
+            class: member.class + 1,
+            class_exchange: member.class_exchange + 1,
+            topology: member.topology + 1,
+            sequential: member.sequential,
+            legs: legs.into_iter().map(|(_, leg)| leg).collect(),
+            offsets: p.offsets().iter().map(ToString::to_string).collect(),
+            shared_joints: shared.collect(),
+            alignments: p.alignments().iter().map(|l| l.iter().map(|j| name(*j)).collect()).collect(),
+            matrix: p.matrix_formulas(o),
+            determinant: p.determinant_formula(),
+            zeros: p.factors().iter().map(|f| f.zero()).collect(),
+        }
+    }
+}
+
+/// A way in which the legs of equivalent platforms share joints.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct FamilyTopologyRecord {
+    /// Its number, from 1.
+    pub topology: usize,
+    /// Joints of the base.
+    pub base_joints: usize,
+    /// Joints of the platform.
+    pub platform_joints: usize,
+    /// Joints that hold more than one leg.
+    pub shared_joints: usize,
+    /// It is reached by offsets introduced one at a time.
+    pub sequential: bool,
+    /// A pattern that has it.
+    pub example: String,
+    /// Topologies one offset further, from 1.
+    pub next: Vec<usize>,
+}
+
+impl From<(usize, &crate::synthesis::FamilyTopology)> for FamilyTopologyRecord {
+    fn from((k, t): (usize, &crate::synthesis::FamilyTopology)) -> Self {
+        Self {
+            topology: k + 1,
+            base_joints: t.topology.base_joints(),
+            platform_joints: t.topology.platform_joints(),
+            shared_joints: t.topology.shared_joints(),
+            sequential: t.sequential,
+            example: t.example.to_string(),
+            next: t.next.iter().map(|n| n + 1).collect(),
+        }
+    }
+}
+
+/// The platform of a pattern at given offsets.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct InstanceRecord {
+    /// The pattern.
+    pub pattern: String,
+    /// The offsets, fractions of the edges.
+    pub offsets: Vec<Number>,
+    /// Rows of A: s' = A s + c of squared leg lengths.
+    #[serde(rename = "A")]
+    pub matrix: [[Number; 6]; 6],
+    /// The constant terms, design units squared.
+    #[serde(rename = "c")]
+    pub constants: [Number; 6],
+    /// det A.
+    #[serde(rename = "det")]
+    pub determinant: Number,
+    /// Joints of the base.
+    pub base_joints: usize,
+    /// Joints of the platform.
+    pub platform_joints: usize,
+}
+
+impl InstanceRecord {
+    /// The record of the platform `built` with the map to it.
+    ///
+    /// # Errors
+    /// When the offsets do not fit the pattern.
+    pub fn new(
+        pattern: &Pattern,
+        offsets: &[f64],
+        built: &Design,
+        map: &AffineLegMap,
+    ) -> Result<Self, InstantiateError> {
+        let m = built.manipulator();
+        let c: [f64; 6] = map.c.into();
+        Ok(Self {
+            pattern: pattern.to_string(),
+            offsets: offsets.iter().copied().map(Number).collect(),
+            matrix: matrix(map),
+            constants: c.map(Number),
+            determinant: Number(pattern.determinant(offsets)?),
+            base_joints: m.base_joints().len(),
+            platform_joints: m.platform_joints().len(),
+        })
+    }
+}

@@ -1,0 +1,190 @@
+//! Proofs of roots, single ones and those of clusters, with their numbers.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::app::records::{ComplexRecord, Number};
+use crate::fk::solve::certify::octahedral::OctahedralCertificate;
+use crate::fk::solve::certify::{
+    CentrePrecision, Certificate, ClusterCertificate, PoseEnclosure, ProvedReality, RootCertificate,
+};
+use crate::num::ball::Disc;
+
+/// The proof that a root exists and is alone, with all its numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum CertificateRecord {
+    /// In coordinates `(e, g / unit)` with `e_patch = 1`; distances are largest moduli of coordinate differences.
+    Study {
+        /// Index of the coordinate that is 1.
+        patch: usize,
+        /// A power of two, design units.
+        unit: Number,
+        /// The centre.
+        centre: ComplexRecord<[Number; 8]>,
+        /// To be added to the centre.
+        centre_low: ComplexRecord<[Number; 8]>,
+        /// One root lies within this distance of the centre.
+        radius: Number,
+        /// No other root lies within this distance.
+        uniqueness_radius: Number,
+        /// Contraction of the simplified Newton map on the ball of the radius, below 1.
+        contraction: Number,
+        /// Precision of the centre.
+        precision: CentrePrecision,
+        /// Proved for all squared lengths that the data can mean.
+        reality: ProvedReality,
+        /// What holds the pose of the root.
+        enclosure: Box<EnclosureRecord>,
+    },
+    /// Roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1, that are close or one: all lie on a curve through the centre, parametrised by t with |t| below `reach`.
+    Cluster {
+        /// Their number, each counted with its multiplicity; 2 or more.
+        multiplicity: usize,
+        /// The coordinate that is 1.
+        patch: usize,
+        /// Design units.
+        unit: Number,
+        /// e0..e3, g0..g3 over the unit.
+        centre: ComplexRecord<[Number; 8]>,
+        /// What the doubles of the centre leave of it.
+        centre_low: ComplexRecord<[Number; 8]>,
+        /// All of them lie within this distance of the centre.
+        radius: Number,
+        /// No others lie within this distance; it may be smaller than the radius.
+        uniqueness_radius: Number,
+        /// Radius of the disc of t.
+        reach: Number,
+        /// What is left beside the power of t that has the multiplicity as exponent, over this power, on the circle; below 1.
+        dominance: Number,
+        /// `non_real` when none is real; else it is undecided.
+        reality: ProvedReality,
+        /// What holds all of their poses.
+        enclosure: Box<EnclosureRecord>,
+    },
+    /// In three angles: legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles h^2 + z^2 = rho about P1 P2, P2 P3, P3 P1, with z along n = (P2 - P1) x (P3 - P1) and h towards the left of the way from the first joint to the second; with u = h + i z the distance is the largest of the three |log(u / centre)|.
+    Octahedral {
+        /// Legs 14 24 25 35 36 16, from 0.
+        order: [usize; 6],
+        /// u of P4, P5, P6, design units; rho / u is h - i z.
+        centre: ComplexRecord<[Number; 3]>,
+        /// The root is the mirror image, in the plane of the base, of the pose near the centre.
+        mirrored: bool,
+        /// One pose lies within this angle of the centre.
+        radius: Number,
+        /// No other pose lies within this angle.
+        uniqueness_radius: Number,
+        /// Contraction of the simplified Newton map on the ball of the radius, below 1.
+        contraction: Number,
+        /// Precision of the centre.
+        precision: CentrePrecision,
+        /// Proved for all squared lengths that the data can mean.
+        reality: ProvedReality,
+        /// What holds the pose of the root.
+        enclosure: Box<EnclosureRecord>,
+    },
+}
+
+impl From<&RootCertificate> for CertificateRecord {
+    fn from(c: &RootCertificate) -> Self {
+        match c {
+            RootCertificate::Study(c) => c.into(),
+            RootCertificate::Octahedral(c) => c.into(),
+            RootCertificate::Cluster(c) => c.into(),
+        }
+    }
+}
+
+impl From<&Certificate> for CertificateRecord {
+    fn from(c: &Certificate) -> Self {
+        Self::Study {
+            patch: c.patch(),
+            unit: Number(c.unit()),
+            centre: (*c.centre()).into(),
+            centre_low: (*c.low()).into(),
+            radius: Number(c.radius()),
+            uniqueness_radius: Number(c.uniqueness_radius()),
+            contraction: Number(c.contraction()),
+            precision: c.precision(),
+            reality: c.reality(),
+            enclosure: Box::new(c.enclosure().into()),
+        }
+    }
+}
+
+impl From<&ClusterCertificate> for CertificateRecord {
+    fn from(c: &ClusterCertificate) -> Self {
+        Self::Cluster {
+            multiplicity: c.multiplicity(),
+            patch: c.patch(),
+            unit: Number(c.unit()),
+            centre: (*c.centre()).into(),
+            centre_low: (*c.low()).into(),
+            radius: Number(c.radius()),
+            uniqueness_radius: Number(c.uniqueness_radius()),
+            reach: Number(c.reach()),
+            dominance: Number(c.dominance()),
+            reality: c.reality(),
+            enclosure: Box::new(c.enclosure().into()),
+        }
+    }
+}
+
+impl From<&OctahedralCertificate> for CertificateRecord {
+    fn from(c: &OctahedralCertificate) -> Self {
+        let pair = c.pair();
+        Self::Octahedral {
+            order: c.order(),
+            centre: pair.centre.into(),
+            mirrored: c.is_mirrored(),
+            radius: Number(pair.radius),
+            uniqueness_radius: Number(pair.uniqueness_radius),
+            contraction: Number(pair.contraction),
+            precision: CentrePrecision::Double,
+            reality: pair.reality,
+            enclosure: Box::new(c.enclosure().into()),
+        }
+    }
+}
+
+/// Discs that hold the entries of R and p of a root.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EnclosureRecord {
+    /// The entries of the rotation matrix, rows.
+    #[serde(rename = "R")]
+    pub rotation: DiscsRecord<[[Number; 3]; 3]>,
+    /// The entries of the position, design units.
+    #[serde(rename = "p")]
+    pub position: DiscsRecord<[Number; 3]>,
+}
+
+/// Discs in the complex plane, in some arrangement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DiscsRecord<T> {
+    /// Real parts of the centres.
+    pub re: T,
+    /// Imaginary parts of the centres.
+    pub im: T,
+    /// Radii.
+    pub radius: T,
+}
+
+impl From<&PoseEnclosure> for EnclosureRecord {
+    fn from(e: &PoseEnclosure) -> Self {
+        let rows =
+            |of: fn(&Disc) -> f64| e.rotation.each_ref().map(|row| row.each_ref().map(|d| Number(of(d))));
+        let three = |of: fn(&Disc) -> f64| e.position.each_ref().map(|d| Number(of(d)));
+        Self {
+            rotation: DiscsRecord {
+                re: rows(|d| d.centre.re),
+                im: rows(|d| d.centre.im),
+                radius: rows(|d| d.radius),
+            },
+            position: DiscsRecord {
+                re: three(|d| d.centre.re),
+                im: three(|d| d.centre.im),
+                radius: three(|d| d.radius),
+            },
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The exact closure polynomial beside the poses.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::app::records::Number;
+use crate::files::design::Design;
+use crate::fk::distance::SingularFactor;
+use crate::fk::{Closure, NoClosure};
+use crate::num::poly::{Dyadic, RealRoot};
+use crate::platform::topology::{JointIndex, Step};
+
+/// The exact closure polynomial beside the poses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ClosureRecord {
+    /// There is one.
+    Polynomial(Box<ClosurePolynomialRecord>),
+    /// There is none.
+    None {
+        /// Why not.
+        error: String,
+    },
+}
+
+/// The closure polynomial in one squared distance, with what it says about the number of real poses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ClosurePolynomialRecord {
+    /// The joints of the virtual leg; null where none is needed.
+    pub virtual_leg: Option<[String; 2]>,
+    /// The joints whose squared distance is the unknown.
+    pub unknown: [String; 2],
+    /// The joints of the first triangle.
+    pub start: [String; 3],
+    /// The trilaterations after it.
+    pub sequence: Vec<TrilaterationStepRecord>,
+    /// The degree before singular factors are removed.
+    pub degree_before: usize,
+    /// The degree; null for the zero polynomial.
+    pub degree: Option<usize>,
+    /// Different complex roots.
+    pub distinct_roots: usize,
+    /// Singular factors.
+    pub factors: Vec<SingularFactorRecord>,
+    /// The coefficients of the primitive integer polynomial as decimal text, the constant one first.
+    #[schemars(inner(regex(pattern = r"^-?[0-9]+$")))]
+    pub coefficients: Vec<String>,
+    /// Real roots as [low, high], rounded outwards.
+    pub real_roots: Vec<[Number; 2]>,
+    /// How often each of them is a root.
+    pub real_root_multiplicities: Vec<usize>,
+    /// Real poses at each of them; null where that does not follow.
+    pub real_poses_at_roots: Option<Vec<usize>>,
+    /// Real poses in all, proved; null where that does not follow.
+    pub poses_real_proved: Option<usize>,
+}
+
+/// One trilateration: a joint placed by its distances from three others.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct TrilaterationStepRecord {
+    /// Three joints in place.
+    pub from: [String; 3],
+    /// The joint placed.
+    pub place: String,
+    /// All four are on one body: one place instead of two.
+    pub rigid: bool,
+}
+
+impl TrilaterationStepRecord {
+    pub(in crate::app::records) fn new(step: &Step, name: impl Fn(JointIndex) -> String) -> Self {
+        Self { from: step.from.map(&name), place: name(step.place), rigid: step.rigid }
+    }
+}
+
+/// A factor of the closure condition that belongs to degenerate trilaterations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct SingularFactorRecord {
+    /// Unoriented steps, from 0.
+    pub step: usize,
+    /// Its degree.
+    pub degree: usize,
+    /// How often it was removed.
+    pub removed: usize,
+}
+
+impl From<&SingularFactor> for SingularFactorRecord {
+    fn from(f: &SingularFactor) -> Self {
+        Self { step: f.step, degree: f.degree, removed: f.removed }
+    }
+}
+
+impl ClosureRecord {
+    /// The record of a closure polynomial, with the names of the design's joints.
+    #[must_use]
+    pub fn new(design: &Design, closure: &Result<Closure, NoClosure>) -> Self {
+        let c = match closure {
+            Ok(c) => c,
+            Err(why) => return Self::None { error: why.to_string() },
+        };
+        let p = &c.polynomial;
+        let name = |j: JointIndex| match j {
+            JointIndex::Base(k) => design.base_names()[k].clone(),
+            JointIndex::Platform(k) => design.platform_names()[k].clone(),
+        };
+        let ends = |(a, b): &(usize, usize)| [name(JointIndex::Base(*a)), name(JointIndex::Platform(*b))];
+        Self::Polynomial(Box::new(ClosurePolynomialRecord {
+            virtual_leg: p.sequence.virtual_legs.first().map(ends),
+            unknown: p.unknown.map(name),
+            start: p.sequence.start.map(name),
+            sequence: p.sequence.steps.iter().map(|s| TrilaterationStepRecord::new(s, name)).collect(),
+            degree_before: c.degrees.before,
+            degree: p.polynomial.degree(),
+            distinct_roots: p.distinct,
+            factors: c.degrees.factors.iter().map(SingularFactorRecord::from).collect(),
+            coefficients: p.polynomial.coefficients().iter().map(ToString::to_string).collect(),
+            real_roots: p.real_roots.iter().map(enclosing).collect(),
+            real_root_multiplicities: p.real_roots.iter().map(RealRoot::multiplicity).collect(),
+            real_poses_at_roots: c.real_poses.clone(),
+            poses_real_proved: c.real_count(),
+        }))
+    }
+}
+
+/// An interval of doubles that holds the root, a point where the root is one.
+fn enclosing(root: &RealRoot) -> [Number; 2] {
+    let mut root = root.clone();
+    root.refine_relative(60);
+    let [low, high] = [root.low(), root.high()].map(Dyadic::to_f64);
+    if root.is_exact() { [low, high].map(Number) } else { [low.next_down(), high.next_up()].map(Number) }
+}

@@ -1,0 +1,86 @@
+//! The number of poses, counted without finding them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::fk::solve::pose_count::{CountUndecided, CountedLengths, PoseCount, PoseSet};
+use crate::fk::{Completeness, FkSolutions};
+
+/// The finite poses of the design, counted without finding them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseCountRecord {
+    /// Their number with multiplicity; null: not finite, or undecided.
+    pub finite: Option<usize>,
+    /// Standard monomials of each degree.
+    pub by_degree: Option<Vec<usize>>,
+    /// Dimension of a set of positive dimension.
+    pub dimension: Option<usize>,
+    /// Degree of a set of positive dimension, in the 16 coordinates of a pose, with multiplicity.
+    pub degree: Option<usize>,
+    /// Why there is no count.
+    pub undecided: Option<CountUndecided>,
+    /// The lengths it is the count of: those given, exactly as they stand, or generic ones, which have as many isolated poses as any or more. Where the lengths are known to
+    /// rounding only, as images under a leg map are, the latter are counted.
+    pub lengths: CountedLengths,
+    /// By a theorem and certificates, or modulo random primes.
+    pub evidence: EvidenceWord,
+    /// A bound; null: proved, or undecided.
+    pub error_probability: Option<f64>,
+    /// In decimal, as text: they have more digits than a double.
+    pub primes: Vec<String>,
+}
+
+/// What a count rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EvidenceWord {
+    /// A theorem and certificates.
+    Proved,
+    /// Linear algebra modulo random primes.
+    Modular,
+}
+
+impl PoseCountRecord {
+    pub(super) fn of(s: &FkSolutions) -> Option<Self> {
+        match &s.pose_count {
+            Some(count) => Some(count.into()),
+            None => matches!(s.completeness, Completeness::Proved { .. })
+                .then(|| Self { finite: Some(s.certified_count()), ..Self::without(EvidenceWord::Proved) }),
+        }
+    }
+
+    fn without(evidence: EvidenceWord) -> Self {
+        Self {
+            finite: None,
+            by_degree: None,
+            dimension: None,
+            degree: None,
+            undecided: None,
+            lengths: CountedLengths::Given,
+            evidence,
+            error_probability: None,
+            primes: Vec::new(),
+        }
+    }
+}
+
+impl From<&PoseCount> for PoseCountRecord {
+    fn from(c: &PoseCount) -> Self {
+        let mut record = Self::without(EvidenceWord::Modular);
+        match &c.set {
+            PoseSet::Finite { count, by_degree } => {
+                record.finite = Some(*count);
+                record.by_degree = Some(by_degree.clone());
+            }
+            PoseSet::PositiveDimensional { dimension, degree } => {
+                record.dimension = Some(*dimension);
+                record.degree = Some(*degree);
+            }
+            PoseSet::Undecided { why } => record.undecided = Some(*why),
+        }
+        record.lengths = c.lengths;
+        record.error_probability = record.undecided.is_none().then_some(c.error_probability);
+        record.primes = c.primes.iter().map(u64::to_string).collect();
+        record
+    }
+}

@@ -1,0 +1,218 @@
+//! Answers of inverse kinematics: the leg lengths at given poses.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    DriveLengthsRecord, Number, PoseRecord, PoseUncertaintyRecord, RotaryIkRecord, RotaryIkRowsAnswer,
+};
+use crate::files::design::Design;
+use crate::machine::coupled::{CoupledLegs, DriveState};
+use crate::machine::manufacture::MachineUncertainty;
+use crate::machine::requirements::{JointAngles, TermKind, Terms};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{inverse_condition, jacobian};
+
+/// The answer of `ik`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum IkAnswer {
+    /// Several poses were given, or a table.
+    Rows(IkRowsAnswer),
+    /// One pose.
+    One(Box<IkRecord>),
+    /// Several poses of a design whose legs are rods on cranks.
+    CrankRows(RotaryIkRowsAnswer),
+    /// One pose of such a design.
+    Cranks(Box<RotaryIkRecord>),
+}
+
+/// The lengths at several poses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct IkRowsAnswer {
+    /// In the order given.
+    pub rows: Vec<IkRecord>,
+}
+
+/// The lengths at a pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct IkRecord {
+    /// The line of the table, from 1; null: no table.
+    pub line: Option<usize>,
+    /// The time of the row, where the table has a column of times.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+    /// The pose.
+    pub pose: PoseRecord,
+    /// The lengths that the legs show, in leg order, design units: the distances of their joints, and the offsets of a calibration; where joints are not ideal the distances alone.
+    pub lengths: [f64; 6],
+    /// The lengths of the drives, where joints are not ideal; `within_limits`, `outside`, `J` and the angles are then those of drives and real axes, and there are no margins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drives: Option<DriveLengthsRecord>,
+    /// Whether all lengths are within `leg_length`, the ends included; null: the design limits none.
+    pub within_limits: Option<bool>,
+    /// The legs that are too short or too long, from 1.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outside: Vec<usize>,
+    /// How the joints stand at the ends of the legs.
+    pub joints: JointAnglesRecord,
+    /// Rows `[u, (R b) x u]` in leg order: speeds of the legs from the velocity of the platform origin and the angular velocity in radians, base frame; null for a leg of length zero.
+    #[serde(rename = "J")]
+    pub jacobian: [[Number; 6]; 6],
+    /// Smallest over largest singular value of the Jacobian with moments over the characteristic length of the design: 1 at best, 0 at a singular pose.
+    pub inverse_condition: Number,
+    /// What the flexures do to the platform when they bend, where the design has some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flexures: Option<FlexureRecord>,
+    /// How uncertain the pose is that the calibrated machine computes from its lengths here, where the design has standard deviations of a calibration and joints are ideal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<PoseUncertaintyRecord>,
+    /// The least margin of each kind of requirement at this pose.
+    pub margins: Vec<PoseMarginRecord>,
+}
+
+/// How the joints stand, in leg order, measured from their axes: `base_axes` and `platform_axes` of the design, else the legs at home.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JointAnglesRecord {
+    /// Angles between legs and the axes of their base joints.
+    pub base_swing_deg: [Number; 6],
+    /// Angles between legs and the axes of their platform joints.
+    pub platform_swing_deg: [Number; 6],
+    /// Both angles of each universal joint at the base: `u = Rx(first) Ry(second) n` in the frame of the joint, with z along its axis n and x across it.
+    pub base_universal_deg: [[Number; 2]; 6],
+    /// The same at the platform, in its frame, for the direction from base to platform.
+    pub platform_universal_deg: [[Number; 2]; 6],
+}
+
+/// The wrench of the flexures on the platform about its origin, base frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FlexureRecord {
+    /// Force units.
+    pub force: [Number; 3],
+    /// Force units times design units.
+    pub torque: [Number; 3],
+}
+
+/// By how much a kind of requirement is met at a pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseMarginRecord {
+    /// The kind.
+    pub name: TermKind,
+    /// The least at this pose; a violation below 0; null: minus infinity.
+    pub margin: Number,
+    /// Of the margin.
+    pub unit: String,
+    /// Legs, joints, keep-out or load for which it is least.
+    pub between: Vec<String>,
+    /// The legs among them, from 1.
+    pub legs: Vec<usize>,
+}
+
+impl JointAnglesRecord {
+    fn new([base, platform]: &[[JointAngles; 6]; 2]) -> Self {
+        let swing = |all: &[JointAngles; 6]| all.map(|j| Number(j.swing_deg));
+        let universal = |all: &[JointAngles; 6]| all.map(|j| j.universal_deg.map(Number));
+        Self {
+            base_swing_deg: swing(base),
+            platform_swing_deg: swing(platform),
+            base_universal_deg: universal(base),
+            platform_universal_deg: universal(platform),
+        }
+    }
+}
+
+impl IkRecord {
+    /// What is known at a pose with these distances of joints; `terms` are the requirements of the design.
+    #[must_use]
+    pub(crate) fn new(design: &Design, terms: &Terms<'_>, pose: &Pose, distances: [f64; 6]) -> Self {
+        let m = design.manipulator();
+        let limits = design.hardware.leg_length.map(|limits| limits.range());
+        let outside: Vec<usize> = match limits {
+            Some((least, greatest)) => {
+                (1..=6).filter(|leg| !(least..=greatest).contains(&distances[leg - 1])).collect()
+            }
+            None => Vec::new(),
+        };
+        let offsets = design.leg_offsets();
+        let rows = jacobian(m, pose, 1.0);
+        let scaled = jacobian(m, pose, design.characteristic_length());
+        Self {
+            line: None,
+            time: None,
+            pose: pose.into(),
+            lengths: std::array::from_fn(|i| distances[i] + offsets[i]),
+            drives: None,
+            within_limits: limits.map(|_| outside.is_empty()),
+            outside,
+            joints: JointAnglesRecord::new(&terms.joint_angles(pose)),
+            jacobian: std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)]))),
+            inverse_condition: Number(inverse_condition(&scaled)),
+            flexures: terms.flexure_wrench(pose).map(|wrench| {
+                let three = |v: &nalgebra::Vector3<f64>| [v.x, v.y, v.z].map(Number);
+                FlexureRecord { force: three(&wrench.force), torque: three(&wrench.torque) }
+            }),
+            uncertainty: None,
+            margins: PoseMarginRecord::all(design, terms, pose),
+        }
+    }
+
+    /// With the covariance of the pose that the calibrated machine computes here.
+    #[must_use]
+    pub(crate) fn with_uncertainty(
+        mut self,
+        design: &Design,
+        known: &MachineUncertainty,
+        pose: &Pose,
+    ) -> Self {
+        self.uncertainty = PoseUncertaintyRecord::at(design, known, pose);
+        self
+    }
+
+    /// The same where joints are not ideal, with the legs at the pose.
+    #[must_use]
+    pub(crate) fn with_drives(
+        mut self,
+        design: &Design,
+        terms: &Terms<'_>,
+        pose: &Pose,
+        (distances, states): (&[f64; 6], &[DriveState; 6]),
+    ) -> Self {
+        let mut drives = DriveLengthsRecord::new(distances, states);
+        self.lengths = *distances;
+        if let Some((least, greatest)) = design.hardware.leg_length.map(|limits| limits.range()) {
+            self.outside =
+                (1..=6).filter(|leg| !(least..=greatest).contains(&drives.lengths[leg - 1])).collect();
+            self.within_limits = Some(self.outside.is_empty());
+        }
+        self.joints = JointAnglesRecord::new(&terms.angles_of(&states.map(|s| s.line), pose));
+        let rows = CoupledLegs::jacobian(states, 1.0);
+        self.jacobian = std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)])));
+        let scaled = CoupledLegs::jacobian(states, design.characteristic_length());
+        self.inverse_condition = Number(inverse_condition(&scaled));
+        // they bend about centres of ideal joints
+        self.flexures = None;
+        for (length, offset) in drives.lengths.iter_mut().zip(design.leg_offsets()) {
+            *length += offset;
+        }
+        self.drives = Some(drives);
+        self
+    }
+}
+
+impl PoseMarginRecord {
+    /// The least margin of each kind at a pose.
+    pub(super) fn all(design: &Design, terms: &Terms<'_>, pose: &Pose) -> Vec<Self> {
+        let at = terms.at(pose);
+        let least = |kind: TermKind| {
+            let own = at.iter().filter(|(term, _)| term.kind == kind);
+            own.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(term, margin)| Self {
+                name: kind,
+                margin: Number(*margin),
+                unit: design.unit_of(kind.quantity()),
+                between: design.names_of(*term),
+                legs: design.legs_of(*term),
+            })
+        };
+        TermKind::ALL.into_iter().filter_map(least).collect()
+    }
+}

@@ -1,0 +1,97 @@
+//! Answers on the squared length of a virtual leg at all poses while one leg length varies.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Number;
+use crate::files::plot::LocusMeeting;
+use crate::fk::Method;
+
+/// The answer of `plot locus`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LocusAnswer {
+    /// The leg that varies, from 1.
+    pub leg: u8,
+    /// Base joint and platform joint of the virtual leg.
+    pub between: [String; 2],
+    /// One for each length.
+    pub rows: Vec<LocusRowRecord>,
+    /// Where two real values meet, about.
+    pub meetings: Vec<LocusMeetingRecord>,
+}
+
+/// What was found at one length.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LocusRowRecord {
+    /// Its number, from 0.
+    pub step: usize,
+    /// The length of the leg that varies.
+    pub length: Number,
+    /// What the poses form; `failed` where they could not be computed.
+    pub status: LocusWord,
+    /// False: poses may be missing.
+    pub all_paths_accounted: bool,
+    /// The method that found them.
+    pub method: Option<Method>,
+    /// One for each pose.
+    pub values: Vec<LocusValueRecord>,
+}
+
+/// What the poses at one length form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LocusWord {
+    /// Isolated poses.
+    Isolated,
+    /// No pose.
+    Empty,
+    /// Curves or surfaces.
+    PositiveDimensional,
+    /// They could not be computed.
+    Failed,
+}
+
+impl LocusWord {
+    /// The word.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Isolated => "isolated",
+            Self::Empty => "empty",
+            Self::PositiveDimensional => "positive_dimensional",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// The squared length of the virtual leg at one pose.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LocusValueRecord {
+    /// Its real part.
+    pub re: Number,
+    /// Its imaginary part.
+    pub im: Number,
+    /// Whether the pose is real; null: undecided.
+    pub real: Option<bool>,
+    /// Whether the pose has a certificate.
+    pub certified: bool,
+    /// Paths, or roots of a polynomial, that end at the pose.
+    pub multiplicity: u32,
+}
+
+/// Where two real values meet.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LocusMeetingRecord {
+    /// After this row, from 0.
+    pub after_step: usize,
+    /// About this length.
+    pub length: Number,
+    /// About this value.
+    pub value: Number,
+}
+
+impl From<&LocusMeeting> for LocusMeetingRecord {
+    fn from(m: &LocusMeeting) -> Self {
+        Self { after_step: m.after, length: Number(m.length), value: Number(m.value) }
+    }
+}

@@ -1,0 +1,334 @@
+//! Answers about the affine map between the squared leg lengths of two designs, and the frames in which they are compared.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Number, PoseRecord, leg_number};
+use crate::platform::manipulator::Level;
+use crate::synthesis::alignment::{
+    Alignment, AlignmentUndecided, Difference, Invariant, Motion, NearestMotion,
+};
+use crate::synthesis::{AffineLegMap, LegCorrespondence, LegMapOutcome, Relation};
+
+/// The answer of `equivalents map`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MapAnswer {
+    /// The map.
+    #[serde(flatten)]
+    pub map: MapRecord,
+    /// Which leg is which.
+    pub correspondence: CorrespondenceRecord,
+    /// What was done with the frames of the second design.
+    #[serde(flatten)]
+    pub frames: FramesRecord,
+}
+
+/// The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MapRecord {
+    /// What the designs have to do with each other; null: undecided, exit 3.
+    pub relation: Option<Relation>,
+    /// What the relation is proved about; within rounding: nothing is proved.
+    pub level: Level,
+    /// It holds within rounding of the joints, or exactly.
+    pub holds_within_rounding: bool,
+    /// One sentence with the numbers that decided.
+    pub explanation: String,
+    /// Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
+    #[serde(rename = "A")]
+    pub matrix: [[Number; 6]; 6],
+    /// The constant terms, design units squared.
+    #[serde(rename = "c")]
+    pub constants: [Number; 6],
+    /// The determinant of A.
+    #[serde(rename = "det")]
+    pub determinant: Number,
+    /// The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact arithmetic; null elsewhere, and for numbers too long to be read.
+    pub det_exact: Option<String>,
+    /// Rows of A as exact numbers; null where `det_exact` is.
+    #[serde(rename = "A_exact")]
+    pub matrix_exact: Option<[[String; 6]; 6]>,
+    /// The constant terms as exact numbers; null where `det_exact` is.
+    #[serde(rename = "c_exact")]
+    pub constants_exact: Option<[String; 6]>,
+    /// For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the share t), the t at which det A vanishes while the other legs stay, as an exact number;
+    /// null for other legs and where there is none; null as a whole where `det_exact` is.
+    pub singular_shares: Option<[Option<String>; 6]>,
+    /// det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the other legs as they stand: TO is singular where it is zero, and only there; null where there is no such leg, and
+    /// where `det_exact` is.
+    pub det_of_shares: Option<String>,
+    /// The largest of the residuals.
+    pub residual: Number,
+    /// Relative distance of each leg of TO from the span of the legs of FROM.
+    pub residuals: [Number; 6],
+    /// Rank of the leg vectors of FROM.
+    pub leg_rank: usize,
+    /// Singular values of the normalised leg vectors of FROM.
+    pub singular_values: [Number; 6],
+    /// Smallest over largest singular value of A.
+    pub inverse_condition: Number,
+    /// What the numbers were compared with.
+    pub tolerances: MapTolerancesRecord,
+}
+
+/// Limits of the decision about a map.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MapTolerancesRecord {
+    /// Of `residual`.
+    pub residual: f64,
+    /// Of the singular values, relative to the largest.
+    pub rank: f64,
+    /// Of `inverse_condition`.
+    pub inverse_condition: f64,
+}
+
+/// Rows of A.
+pub(super) fn matrix(map: &AffineLegMap) -> [[Number; 6]; 6] {
+    let rows = [0, 1, 2, 3, 4, 5];
+    rows.map(|i| rows.map(|j| Number(map.a[(i, j)])))
+}
+
+impl From<&LegMapOutcome> for MapRecord {
+    fn from(o: &LegMapOutcome) -> Self {
+        let (c, exact): ([f64; 6], _) = (o.closest.c.into(), o.exact_numbers.as_ref());
+        Self {
+            relation: o.relation.decided(),
+            level: o.level,
+            holds_within_rounding: o.holds_within_rounding,
+            explanation: o.explanation(),
+            matrix: matrix(&o.closest),
+            constants: c.map(Number),
+            determinant: Number(o.determinant),
+            det_exact: exact.map(|numbers| numbers.determinant.clone()),
+            matrix_exact: exact.map(|numbers| numbers.a.clone()),
+            constants_exact: exact.map(|numbers| numbers.c.clone()),
+            singular_shares: exact.map(|numbers| numbers.singular_shares.clone()),
+            det_of_shares: exact.and_then(|numbers| numbers.determinant_of_shares.clone()),
+            residual: Number(o.residual),
+            residuals: o.residuals.map(Number),
+            leg_rank: o.leg_rank,
+            singular_values: o.singular_values.map(Number),
+            inverse_condition: Number(o.inverse_condition),
+            tolerances: MapTolerancesRecord {
+                residual: o.tolerances.residual,
+                rank: o.tolerances.rank,
+                inverse_condition: o.singular_limit,
+            },
+        }
+    }
+}
+
+/// Which leg of FROM each leg of TO is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CorrespondenceRecord {
+    /// The leg of FROM, from 1; null: none of them.
+    pub legs: [Option<usize>; 6],
+    /// Its distance from the leg of TO, over the size.
+    pub distances: [Number; 6],
+    /// Every leg of FROM is one leg of TO.
+    pub permutation: bool,
+    /// All distances are zero.
+    pub exact: bool,
+}
+
+impl From<&LegCorrespondence> for CorrespondenceRecord {
+    fn from(c: &LegCorrespondence) -> Self {
+        Self {
+            legs: c.legs.map(|leg| leg.map(leg_number)),
+            distances: c.distances.map(Number),
+            permutation: c.is_permutation(),
+            exact: c.is_exact(),
+        }
+    }
+}
+
+/// What `--exchange`, `--align` and `--output` did with the second design.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+pub struct FramesRecord {
+    /// Base and platform of the second design were exchanged first.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub exchanged: bool,
+    /// The rigid motions that make the second design equivalent to the first, with `--align`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub alignment: Option<AlignmentRecord>,
+    /// The file written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub output: Option<String>,
+}
+
+/// The rigid motions that make one design equivalent to another.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AlignmentRecord {
+    /// One sentence with the numbers that decided.
+    pub explanation: String,
+    /// What was found.
+    #[serde(flatten)]
+    pub outcome: AlignmentOutcome,
+    /// The same with base and platform of the second design exchanged.
+    pub exchanged: OtherAlignmentRecord,
+    /// The same with the mirror image of the second design.
+    pub mirrored: OtherAlignmentRecord,
+}
+
+/// What a search for rigid motions found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "status", rename_all = "snake_case")]
+pub enum AlignmentOutcome {
+    /// These motions.
+    Found {
+        /// Nearest to no motion first.
+        motions: Vec<MotionRecord>,
+        /// There are no others.
+        all: bool,
+        /// Dimension of the families the motions lie in.
+        freedom: usize,
+    },
+    /// There is none.
+    None {
+        /// The number that shows it.
+        difference: DifferenceRecord,
+        /// How near a motion comes.
+        nearest: Option<NearestMotionRecord>,
+    },
+    /// Not decided.
+    Undecided {
+        /// Why not.
+        reason: AlignmentUndecided,
+        /// How near a motion comes.
+        nearest: Option<NearestMotionRecord>,
+    },
+}
+
+impl AlignmentRecord {
+    /// The record of an alignment, and of those of the second design taken otherwise.
+    #[must_use]
+    pub fn new(found: &Alignment, exchanged: &Alignment, mirrored: &Alignment) -> Self {
+        Self {
+            explanation: found.explanation(),
+            outcome: found.into(),
+            exchanged: exchanged.into(),
+            mirrored: mirrored.into(),
+        }
+    }
+}
+
+impl From<&Alignment> for AlignmentOutcome {
+    fn from(a: &Alignment) -> Self {
+        let near = |n: &Option<NearestMotion>| n.as_ref().map(NearestMotionRecord::from);
+        match a {
+            Alignment::Found { motions, all, freedom } => Self::Found {
+                motions: motions.iter().map(MotionRecord::from).collect(),
+                all: *all,
+                freedom: *freedom,
+            },
+            Alignment::None { difference, nearest } => {
+                Self::None { difference: difference.into(), nearest: near(nearest) }
+            }
+            Alignment::Undecided { reason, nearest } => {
+                Self::Undecided { reason: *reason, nearest: near(nearest) }
+            }
+        }
+    }
+}
+
+/// A pair of rigid motions of the second design.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MotionRecord {
+    /// Of its base.
+    pub base: PoseRecord,
+    /// Of its platform.
+    pub platform: PoseRecord,
+    /// The residual of the map to the moved design.
+    pub residual: Number,
+    /// The determinant of that map.
+    pub det: Number,
+    /// What the moved design has to do with the first; null: undecided.
+    pub relation: Option<Relation>,
+}
+
+impl From<&Motion> for MotionRecord {
+    fn from(m: &Motion) -> Self {
+        Self {
+            base: (&m.base).into(),
+            platform: (&m.platform).into(),
+            residual: Number(m.map.residual),
+            det: Number(m.map.determinant),
+            relation: m.map.relation.decided(),
+        }
+    }
+}
+
+/// The pair of rigid motions that comes nearest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NearestMotionRecord {
+    /// Of the base of the second design.
+    pub base: PoseRecord,
+    /// Of its platform.
+    pub platform: PoseRecord,
+    /// The residual it leaves.
+    pub residual: Number,
+}
+
+impl From<&NearestMotion> for NearestMotionRecord {
+    fn from(n: &NearestMotion) -> Self {
+        Self { base: (&n.base).into(), platform: (&n.platform).into(), residual: Number(n.residual) }
+    }
+}
+
+/// An invariant that tells two designs apart.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DifferenceRecord {
+    /// Which.
+    pub invariant: Invariant,
+    /// Its value for the first design.
+    pub a: Number,
+    /// Its value for the second.
+    pub b: Number,
+    /// By how much they differ.
+    pub gap: Number,
+    /// What a difference has to exceed.
+    pub bound: Number,
+}
+
+impl From<&Difference> for DifferenceRecord {
+    fn from(d: &Difference) -> Self {
+        Self {
+            invariant: d.invariant,
+            a: Number(d.in_a),
+            b: Number(d.in_b),
+            gap: Number(d.gap),
+            bound: Number(d.bound),
+        }
+    }
+}
+
+/// What was found for the second design taken otherwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct OtherAlignmentRecord {
+    /// Whether there are motions.
+    pub status: AlignmentWord,
+    /// How many.
+    pub motions: usize,
+}
+
+/// Whether rigid motions were found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AlignmentWord {
+    /// They were.
+    Found,
+    /// There are none.
+    None,
+    /// Not decided.
+    Undecided,
+}
+
+impl From<&Alignment> for OtherAlignmentRecord {
+    fn from(a: &Alignment) -> Self {
+        match a {
+            Alignment::Found { motions, .. } => Self { status: AlignmentWord::Found, motions: motions.len() },
+            Alignment::None { .. } => Self { status: AlignmentWord::None, motions: 0 },
+            Alignment::Undecided { .. } => Self { status: AlignmentWord::Undecided, motions: 0 },
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! Answers about the legs along a motion.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{MarginRecord, Number, PoseQuaternionRecord};
+use crate::app::entrance::{MotionReport, StiffnessReport, TimedMargin};
+use crate::files::design::Design;
+use crate::machine::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vibration};
+use crate::synthesis::singularity::SingularEvidence;
+
+/// The answer of `motion`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MotionAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// No requirement is violated at the instants looked at, and no pose of the motions is singular.
+    pub met: bool,
+    /// Of lengths; speeds are in it per second, accelerations per second squared.
+    pub length_unit: String,
+    /// Of forces.
+    pub force_unit: String,
+    /// What the file does not say and was taken instead, a sentence each.
+    pub assumptions: Vec<String>,
+    /// In the order asked for: the trajectory, sines, accelerations.
+    pub motions: Vec<MotionRunRecord>,
+    /// How stiff the platform is at the pose of `--about`; null: it was not asked for.
+    pub stiffness: Option<StiffnessRecord>,
+    /// The table of instants that was written; null: none.
+    pub csv: Option<String>,
+}
+
+/// Stiffness and natural motions at a pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StiffnessRecord {
+    /// The pose.
+    pub pose: PoseQuaternionRecord,
+    /// `J^T diag(k) J`: force and torque about the platform origin for a shift of it and a small turn, base frame; force units, design units and radians.
+    #[serde(rename = "K")]
+    pub matrix: [[Number; 6]; 6],
+    /// Least stiffness against a force through the platform origin, force units per design unit; 0 at a singular pose.
+    pub linear: Number,
+    /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
+    pub angular: Number,
+    /// The natural motions, the slowest first; null: masses are not known, or no inertia is held against turns.
+    pub natural: Option<Vec<NaturalMotionRecord>>,
+}
+
+/// A natural motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NaturalMotionRecord {
+    /// Its frequency.
+    pub frequency_hz: Number,
+    /// Its shape: shift of the platform origin in design units and rotation vector in radians, base frame, for which `v^T M v` is 1 in kilograms and design units.
+    pub shape: [Number; 6],
+}
+
+impl StiffnessRecord {
+    /// What was found at a pose.
+    #[must_use]
+    pub(crate) fn new(found: &StiffnessReport) -> Self {
+        let natural = found.natural.as_ref().map(|all| {
+            let record = |v: &Vibration| NaturalMotionRecord {
+                frequency_hz: Number(v.frequency),
+                shape: std::array::from_fn(|k| Number(v.shape[k])),
+            };
+            all.iter().map(record).collect()
+        });
+        let of = |value: fn(&LeastStiffness) -> f64| Number(found.least.as_ref().map_or(0.0, value));
+        Self {
+            pose: (&found.pose).into(),
+            matrix: std::array::from_fn(|i| std::array::from_fn(|j| Number(found.matrix[(i, j)]))),
+            linear: of(|s| s.linear),
+            angular: of(|s| s.angular),
+            natural,
+        }
+    }
+}
+
+/// The legs along a motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MotionRunRecord {
+    /// The file of the trajectory, or the manoeuvre as it was asked for.
+    pub motion: String,
+    /// Instants looked at.
+    pub instants: usize,
+    /// From the first to the last of them.
+    pub duration_s: f64,
+    /// As in the answer, of this motion.
+    pub met: bool,
+    /// By leg; empty where a leg has no length at some instant, and where the legs are rods on cranks.
+    pub legs: Vec<LegMotionRecord>,
+    /// By leg, where the legs are rods on cranks; empty where a rod does not reach at some instant.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cranks: Option<Vec<CrankMotionRecord>>,
+    /// The least margin of each kind of requirement, force and speed by this motion.
+    pub requirements: Vec<TimedMarginRecord>,
+    /// Whether every pose of the motion is regular.
+    pub regularity: MotionRegularity,
+    /// When the first singular pose is passed; null: none was found.
+    pub singular_at_s: Option<f64>,
+    /// That pose.
+    pub singular_pose: Option<PoseQuaternionRecord>,
+    /// What shows that it is singular.
+    pub singular_evidence: Option<SingularEvidenceWord>,
+    /// When a rod first does not reach from its crank to the platform, where one does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unreached_at_s: Option<f64>,
+}
+
+/// Whether every pose of a motion is regular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionRegularity {
+    /// det J is proved to keep its sign on the whole motion, between the instants too.
+    Proved,
+    /// No instant is singular, and det J of the rods has one sign at all instants.
+    Sampled,
+    /// The motion passes a singular pose.
+    Singular,
+}
+
+/// What shows that a pose is singular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SingularEvidenceWord {
+    /// Proved: det J is zero in exact arithmetic on the joints and the rotation as written.
+    Zero,
+    /// det J has opposite signs before and after: proved for legs, by instants for rods on cranks.
+    SignChange,
+    /// det J is not above its rounding errors.
+    Rounding,
+}
+
+impl SingularEvidenceWord {
+    /// The words for a person.
+    #[must_use]
+    pub fn sentence(self) -> String {
+        match self {
+            Self::Zero => SingularEvidence::Zero,
+            Self::SignChange => SingularEvidence::SignChange,
+            Self::Rounding => SingularEvidence::Rounding,
+        }
+        .to_string()
+    }
+}
+
+impl From<SingularEvidence> for SingularEvidenceWord {
+    fn from(evidence: SingularEvidence) -> Self {
+        match evidence {
+            SingularEvidence::Zero => Self::Zero,
+            SingularEvidence::SignChange => Self::SignChange,
+            SingularEvidence::Rounding => Self::Rounding,
+        }
+    }
+}
+
+impl MotionRunRecord {
+    /// What was found along a motion.
+    #[must_use]
+    pub(crate) fn new(design: &Design, motion: String, found: &MotionReport) -> Self {
+        let requirements: Vec<_> =
+            found.margins.iter().map(|margin| TimedMarginRecord::new(design, margin)).collect();
+        let ends = found.instants.first().zip(found.instants.last());
+        Self {
+            motion,
+            instants: found.instants.len(),
+            duration_s: ends.map_or(0.0, |(first, last)| last.time - first.time),
+            met: found.singular.is_none()
+                && found.unreached.is_none()
+                && found.margins.iter().all(|m| m.margin.standing.is_met()),
+            legs: if found.cranks { Vec::new() } else { each(found, LegMotionRecord::new) },
+            cranks: found.cranks.then(|| each(found, CrankMotionRecord::new)),
+            requirements,
+            regularity: match (&found.singular, found.cranks) {
+                (Some(_), _) => MotionRegularity::Singular,
+                (None, true) => MotionRegularity::Sampled,
+                (None, false) => MotionRegularity::Proved,
+            },
+            singular_at_s: found.singular.map(|at| at.time),
+            singular_pose: found.singular.map(|at| PoseQuaternionRecord::from(&at.pose)),
+            singular_evidence: found.singular.map(|at| at.evidence.into()),
+            unreached_at_s: found.unreached,
+        }
+    }
+}
+
+/// A record of each leg, from 1.
+fn each<T>(found: &MotionReport, record: fn(usize, &LegExtremes) -> T) -> Vec<T> {
+    found.legs.iter().enumerate().map(|(i, leg)| record(i + 1, leg)).collect()
+}
+
+/// A margin with its time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TimedMarginRecord {
+    /// When the margin is least.
+    pub time_s: f64,
+    /// The margin.
+    pub margin: MarginRecord,
+}
+
+impl TimedMarginRecord {
+    fn new(design: &Design, found: &TimedMargin) -> Self {
+        Self { time_s: found.time, margin: MarginRecord::found(design, &found.margin) }
+    }
+}
+
+/// A value with its time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExtremeRecord {
+    /// With its sign.
+    pub value: Number,
+    /// When.
+    pub time_s: f64,
+}
+
+impl From<Extreme> for ExtremeRecord {
+    fn from(found: Extreme) -> Self {
+        Self { value: Number(found.value), time_s: found.time }
+    }
+}
+
+/// A leg along a motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LegMotionRecord {
+    /// From 1.
+    pub leg: usize,
+    /// Least length.
+    pub shortest: ExtremeRecord,
+    /// Greatest length.
+    pub longest: ExtremeRecord,
+    /// Speed of the greatest size, positive where the leg becomes longer.
+    pub speed: ExtremeRecord,
+    /// Acceleration of the greatest size.
+    pub acceleration: ExtremeRecord,
+    /// Hardest push of the drive, 0 where it only pulls; null: no masses are known, or forces are not determined.
+    pub push: Option<ExtremeRecord>,
+    /// Hardest pull, negative, 0 where it only pushes.
+    pub pull: Option<ExtremeRecord>,
+    /// Root of the mean square of the force over time, force units.
+    pub rms_force: Option<Number>,
+    /// Power of the greatest size, watts; negative where the drive brakes.
+    pub power_w: Option<ExtremeRecord>,
+}
+
+impl LegMotionRecord {
+    fn new(leg: usize, found: &LegExtremes) -> Self {
+        Self {
+            leg,
+            shortest: found.shortest.into(),
+            longest: found.longest.into(),
+            speed: found.speed.into(),
+            acceleration: found.acceleration.into(),
+            push: found.drive.map(|d| d.push.into()),
+            pull: found.drive.map(|d| d.pull.into()),
+            rms_force: found.drive.map(|d| Number(d.rms_force)),
+            power_w: found.drive.map(|d| d.power.into()),
+        }
+    }
+}
+
+/// A crank along a motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CrankMotionRecord {
+    /// From 1.
+    pub leg: usize,
+    /// Least angle.
+    pub least_deg: ExtremeRecord,
+    /// Greatest angle.
+    pub greatest_deg: ExtremeRecord,
+    /// Speed of the greatest size, degrees per second.
+    pub speed_deg: ExtremeRecord,
+    /// Acceleration of the greatest size, degrees per second squared.
+    pub acceleration_deg: ExtremeRecord,
+    /// Torque of the greatest size about the axis, force units times design units; null: no masses are known, or torques are not determined. Cranks and rods count as massless.
+    pub torque: Option<ExtremeRecord>,
+    /// Root of the mean square of the torque over time.
+    pub rms_torque: Option<Number>,
+    /// Power of the greatest size, watts; negative where the drive brakes.
+    pub power_w: Option<ExtremeRecord>,
+}
+
+impl CrankMotionRecord {
+    fn new(leg: usize, found: &LegExtremes) -> Self {
+        let torque =
+            |d: DriveExtremes| if d.push.value.abs() >= d.pull.value.abs() { d.push } else { d.pull };
+        Self {
+            leg,
+            least_deg: found.shortest.into(),
+            greatest_deg: found.longest.into(),
+            speed_deg: found.speed.into(),
+            acceleration_deg: found.acceleration.into(),
+            torque: found.drive.map(|d| torque(d).into()),
+            rms_torque: found.drive.map(|d| Number(d.rms_force)),
+            power_w: found.drive.map(|d| d.power.into()),
+        }
+    }
+}

@@ -1,0 +1,335 @@
+//! Answers about legs that are moved without changing the platform, and about the search for equivalent platforms.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{AssessAnswer, DesignRecord, LegEndsRecord, MapRecord, Number};
+use crate::platform::manipulator::Body;
+use crate::synthesis::Relation;
+use crate::synthesis::relocate::SingularParameters;
+use crate::synthesis::relocate::search::{
+    self, Hole, HoleAnswer, Impossibility, SearchVerdict, WishMargin, Wishes,
+};
+
+/// The answer of `equivalents move`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MoveAnswer {
+    /// With `--search`.
+    Search(Box<MoveSearchAnswer>),
+    /// Of moves that were asked for.
+    Moves(Box<MovesAnswer>),
+}
+
+/// What moves of legs came to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MovesAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// Of the last move; null: undecided, exit 3.
+    pub outcome: Option<Relation>,
+    /// One after another, or all at once.
+    pub mode: MoveMode,
+    /// Moves made at once, one after another.
+    pub steps: Vec<MoveStepRecord>,
+    /// Moves that were not made, because one before them is not regular.
+    pub moves_left_out: usize,
+    /// All new coordinates are exact.
+    pub exact: bool,
+    /// The map from the design to the last one.
+    #[serde(flatten)]
+    pub map: MapRecord,
+    /// Largest difference of A and c between this map and the composition of the steps.
+    pub composition_difference: Number,
+    /// The new design; null: two legs have become one.
+    pub design: Option<DesignRecord>,
+    /// The file written.
+    pub output: Option<String>,
+}
+
+/// How moves are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MoveMode {
+    /// One after another.
+    Sequence,
+    /// All at once, along families of the given design.
+    Together,
+}
+
+/// Moves made at once.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MoveStepRecord {
+    /// What the new platform has to do with the one before; null: undecided.
+    pub outcome: Option<Relation>,
+    /// det A of the step.
+    pub det: Number,
+    /// The moves.
+    pub moves: Vec<LegMoveRecord>,
+}
+
+/// One leg moved along a family.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LegMoveRecord {
+    /// The leg, from 1.
+    pub leg: usize,
+    /// The number of the family, from 1.
+    pub component: usize,
+    /// The type of the family.
+    #[serde(rename = "type")]
+    pub type_name: String,
+    /// The joints that span the family.
+    pub along: Option<String>,
+    /// Where on the family.
+    pub parameters: Vec<Number>,
+    /// The leg before.
+    pub from: LegEndsRecord,
+    /// The leg after.
+    pub to: LegEndsRecord,
+    /// Its row of A.
+    pub coefficients: [Number; 6],
+    /// The coefficient of the leg replaced.
+    pub coefficient: Number,
+    /// What is left of its leg vector.
+    pub residual: Number,
+    /// The new coordinates are exact.
+    pub exact: bool,
+    /// Values of the first parameter with det A = 0.
+    pub singular_parameters: SingularParametersRecord,
+}
+
+/// Values of the first parameter with det A = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum SingularParametersRecord {
+    /// These.
+    At(Vec<Number>),
+    /// All of them.
+    Everywhere(#[schemars(extend("const" = "everywhere"))] String),
+}
+
+impl From<&SingularParameters> for SingularParametersRecord {
+    fn from(s: &SingularParameters) -> Self {
+        match s {
+            SingularParameters::Everywhere => Self::Everywhere("everywhere".into()),
+            SingularParameters::At(list) => Self::At(list.iter().copied().map(Number).collect()),
+        }
+    }
+}
+
+/// What the search for an equivalent platform that fulfils wishes found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MoveSearchAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// Always `search`.
+    #[schemars(extend("const" = "search"))]
+    pub mode: String,
+    /// What came of it.
+    pub outcome: SearchWord,
+    /// Why it is impossible.
+    #[schemars(extend("enum" = ["no_leg_at_hole", "partners_at_infinity", "not_by_those_legs", "shared_joints", "holes_together", null]))]
+    pub reason: Option<String>,
+    /// One sentence.
+    pub explanation: String,
+    /// Patterns of six independent legs.
+    pub patterns: usize,
+    /// Patterns looked at.
+    pub patterns_searched: usize,
+    /// The fewest shared joints of an equivalent platform; null: not known.
+    pub least_shared_joints: Option<usize>,
+    /// All replaceable legs are known.
+    pub complete: bool,
+    /// The wishes.
+    pub wishes: WishesRecord,
+    /// The holes that legs should end at.
+    pub holes: Vec<HoleRecord>,
+    /// The platforms found, best first.
+    pub designs: Vec<CandidateRecord>,
+    /// The files written.
+    pub paths: Vec<String>,
+}
+
+/// What came of a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SearchWord {
+    /// A platform that fulfils every wish and meets the requirements of the design.
+    Found,
+    /// Platforms that fulfil every wish were found, and each of them violates requirements of the design.
+    Violated,
+    /// There is none.
+    Impossible,
+    /// None was found, which proves nothing.
+    Undecided,
+}
+
+impl SearchWord {
+    /// The word for a verdict, and the reason where it is impossible.
+    #[must_use]
+    pub fn of(verdict: SearchVerdict) -> (Self, Option<String>) {
+        let reason = match verdict {
+            SearchVerdict::Found => return (Self::Found, None),
+            SearchVerdict::Undecided => return (Self::Undecided, None),
+            SearchVerdict::Impossible(Impossibility::NoLegAtHole(_)) => "no_leg_at_hole",
+            SearchVerdict::Impossible(Impossibility::PartnersAtInfinity(_)) => "partners_at_infinity",
+            SearchVerdict::Impossible(Impossibility::NotByThoseLegs(_)) => "not_by_those_legs",
+            SearchVerdict::Impossible(Impossibility::SharedJoints(_)) => "shared_joints",
+            SearchVerdict::Impossible(Impossibility::HolesTogether) => "holes_together",
+        };
+        (Self::Impossible, Some(reason.into()))
+    }
+}
+
+/// What an equivalent platform should fulfil.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WishesRecord {
+    /// Fewest shared joints.
+    pub no_shared_joints: bool,
+    /// Least distance of two joints.
+    pub spacing: Number,
+    /// Least distance of two legs; null: not wished.
+    pub clearance: Option<Number>,
+    /// Least inverse condition number.
+    pub conditioning: Number,
+    /// Greatest distance of a joint from the others.
+    pub reach: Number,
+    /// Poses at which legs are looked at.
+    pub poses: usize,
+    /// The length by which rotations are weighed.
+    pub characteristic_length: Number,
+}
+
+impl From<&Wishes> for WishesRecord {
+    fn from(w: &Wishes) -> Self {
+        Self {
+            no_shared_joints: w.no_shared_joints,
+            spacing: Number(w.spacing),
+            clearance: w.clearance.map(Number),
+            conditioning: Number(w.conditioning),
+            reach: Number(w.reach),
+            poses: w.poses.len(),
+            characteristic_length: Number(w.characteristic_length),
+        }
+    }
+}
+
+/// A hole that a leg should end at.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct HoleRecord {
+    /// The body it is in.
+    pub body: Body,
+    /// Where, frame of the body.
+    pub point: [Number; 3],
+    /// Which legs of equivalent platforms end there.
+    pub answer: HoleWord,
+    /// The legs of the design that should, from 1; empty: any.
+    pub legs: Vec<usize>,
+    /// Dimension of the flat of partners.
+    pub dimension: Option<usize>,
+    /// 0: none, exactly.
+    pub exact_rank_defect: Option<usize>,
+    /// What decided.
+    pub singular_value: Number,
+    /// What it was compared with.
+    pub tolerance: Number,
+}
+
+/// Which legs of equivalent platforms end at a hole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum HoleWord {
+    /// Some.
+    Legs,
+    /// Those with the other end at infinity.
+    AtInfinity,
+    /// None.
+    None,
+}
+
+impl From<&search::JudgedHole> for HoleRecord {
+    fn from(h: &search::JudgedHole) -> Self {
+        let (answer, dimension) = match &h.answer {
+            HoleAnswer::Legs { dimension, .. } => (HoleWord::Legs, Some(*dimension)),
+            HoleAnswer::AtInfinity => (HoleWord::AtInfinity, None),
+            HoleAnswer::None => (HoleWord::None, None),
+        };
+        let Hole { body, point, legs, .. } = &h.hole;
+        Self {
+            body: *body,
+            point: [point.x, point.y, point.z].map(Number),
+            answer,
+            legs: legs.iter().copied().map(super::leg_number).collect(),
+            dimension,
+            exact_rank_defect: h.exact,
+            singular_value: Number(h.singular_value),
+            tolerance: Number(h.tolerance),
+        }
+    }
+}
+
+/// An equivalent platform.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CandidateRecord {
+    /// It fulfils every wish, and is proved to meet the requirements of the design.
+    pub fulfilled: bool,
+    /// It fulfils every wish.
+    pub wishes_fulfilled: bool,
+    /// What `assess` says of it; null: the design requires nothing, or the legs make no platform.
+    pub assessment: Option<AssessAnswer>,
+    /// The least slack of a wish.
+    pub worst: Number,
+    /// Its shared joints.
+    pub shared_joints: usize,
+    /// By how much it fulfils the wishes.
+    pub margins: Vec<WishMarginRecord>,
+    /// How its legs are made.
+    pub moves: Vec<PlacementRecord>,
+    /// The map to it.
+    #[serde(flatten)]
+    pub map: MapRecord,
+    /// The platform as a design.
+    pub design: Option<DesignRecord>,
+}
+
+/// By how much a wish is fulfilled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WishMarginRecord {
+    /// Which.
+    #[schemars(extend("enum" = ["spacing", "clearance", "conditioning", "reach"]))]
+    pub wish: String,
+    /// What the platform has.
+    pub value: Number,
+    /// What is wished.
+    pub required: Number,
+    /// The difference over the size.
+    pub slack: Number,
+}
+
+impl From<&WishMargin> for WishMarginRecord {
+    fn from(m: &WishMargin) -> Self {
+        Self {
+            wish: m.wish.as_str().into(),
+            value: Number(m.value),
+            required: Number(m.required),
+            slack: Number(m.slack),
+        }
+    }
+}
+
+/// How a leg of an equivalent platform is made.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PlacementRecord {
+    /// The leg, from 1.
+    pub leg: usize,
+    /// The leg, family or hole it is taken from.
+    pub from: String,
+    /// Where on the family.
+    pub parameters: Vec<Number>,
+    /// The leg.
+    pub to: LegEndsRecord,
+    /// The coefficient of the leg it replaces.
+    pub coefficient: Number,
+    /// What is left of its leg vector.
+    pub residual: Number,
+}

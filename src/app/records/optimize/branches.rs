@@ -1,0 +1,137 @@
+//! The branches of the offsets: a zone for each, what became of it, and the bound over all of them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::platform::ZONES;
+use crate::app::records::Number;
+use crate::optimize::offsets::{BranchReport, BranchVerdict, Conflict, GlobalBound, OffsetReport};
+
+/// What became of the branches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct BranchCountsRecord {
+    /// All of them.
+    pub total: usize,
+    /// Feasible ones.
+    pub feasible: usize,
+    /// Proved empty: nothing of a zone lies within the bounds.
+    pub infeasible_bounds: usize,
+    /// Proved empty: no room for the joints.
+    pub infeasible_spacing: usize,
+    /// Proved empty: |det A| is too small.
+    pub infeasible_det: usize,
+    /// Covered by the bound over all offsets, not searched.
+    pub bounded: usize,
+    /// Not decided.
+    pub unproved: usize,
+    /// The conic solver failed.
+    pub solver_failure: usize,
+}
+
+impl From<&OffsetReport> for BranchCountsRecord {
+    fn from(r: &OffsetReport) -> Self {
+        let n = r.counts();
+        Self {
+            total: r.branches.len(),
+            feasible: n.feasible,
+            infeasible_bounds: n.outside_bounds,
+            infeasible_spacing: n.spacing,
+            infeasible_det: n.det,
+            bounded: n.bounded,
+            unproved: n.unproved,
+            solver_failure: n.failed,
+        }
+    }
+}
+
+/// What no offsets can exceed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GlobalBoundRecord {
+    /// No offsets within the limits reach more.
+    pub upper: Number,
+    /// By how much that is above the solution, relative.
+    pub gap: Number,
+    /// Boxes of offsets that were looked at.
+    pub boxes: usize,
+}
+
+impl From<&GlobalBound> for GlobalBoundRecord {
+    fn from(b: &GlobalBound) -> Self {
+        Self { upper: Number(b.upper), gap: Number(b.gap), boxes: b.boxes }
+    }
+}
+
+/// A branch: a zone for each offset.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BranchRecord {
+    /// Zone of each offset: before, inside, beyond its edge.
+    #[schemars(extend("pattern" = ZONES))]
+    pub branch: String,
+    /// What became of it.
+    pub verdict: BranchWord,
+    /// Its own best, where it is dominated.
+    pub objective: Option<Number>,
+    /// Where that is reached.
+    pub offsets: Option<[Number; 6]>,
+    /// Parts of the branch searched.
+    pub cells: usize,
+    /// Proved conflicts of the branch or of parts of it.
+    pub conflicts: Vec<BranchConflictRecord>,
+}
+
+/// What became of a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BranchWord {
+    /// It holds the best solution.
+    Best,
+    /// It is feasible, and does not reach the best value.
+    Dominated,
+    /// No feasible point was looked for: the bound over all offsets covers it.
+    Bounded,
+    /// It is proved empty.
+    Infeasible,
+    /// No feasible point was found.
+    Unproved,
+    /// No feasible point was found because the conic solver failed.
+    SolverFailure,
+}
+
+impl From<&BranchReport> for BranchRecord {
+    fn from(b: &BranchReport) -> Self {
+        let (verdict, own) = match &b.verdict {
+            BranchVerdict::Best => (BranchWord::Best, None),
+            BranchVerdict::Dominated { value, offsets, .. } => {
+                (BranchWord::Dominated, Some((*value, *offsets)))
+            }
+            BranchVerdict::Bounded => (BranchWord::Bounded, None),
+            BranchVerdict::Infeasible => (BranchWord::Infeasible, None),
+            BranchVerdict::Unproved => (BranchWord::Unproved, None),
+            BranchVerdict::SolverFailure(_) => (BranchWord::SolverFailure, None),
+        };
+        Self {
+            branch: b.branch.to_string(),
+            verdict,
+            objective: own.map(|o| Number(o.0)),
+            offsets: own.map(|o| o.1.map(Number)),
+            cells: b.cells,
+            conflicts: b.conflicts.iter().map(BranchConflictRecord::from).collect(),
+        }
+    }
+}
+
+/// Why a branch or a part of it is empty.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct BranchConflictRecord {
+    /// A short stable code.
+    #[schemars(extend("enum" = Conflict::CODES))]
+    pub code: String,
+    /// One sentence with the numbers.
+    pub message: String,
+}
+
+impl From<&Conflict> for BranchConflictRecord {
+    fn from(c: &Conflict) -> Self {
+        Self { code: c.code().into(), message: c.to_string() }
+    }
+}

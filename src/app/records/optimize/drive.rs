@@ -1,0 +1,240 @@
+//! The drives of a table, each with what the search for a platform came to with it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{ConflictRecord, OptimizeWord, SymmetryRecord};
+use crate::app::entrance::drive_search::{
+    DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive,
+};
+use crate::app::records::{MarginRecord, Number};
+use crate::machine::requirements::TermKind;
+use crate::optimize::dimensional::DimensionalOutcome;
+
+/// The search over the drives of a table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DriveSearchRecord {
+    /// The name of the drive of the answer; null: with no drive was a platform found that is proved to meet the requirements.
+    pub chosen: Option<String>,
+    /// What decides between drives with which the requirements are met.
+    pub ranked_by: DriveRanking,
+    /// Of prices, as the table names it; null: it does not.
+    pub currency: Option<String>,
+    /// The search was told to end before every drive was tried that could win.
+    pub interrupted: bool,
+    /// One sentence.
+    pub message: String,
+    /// All drives, the best first.
+    pub drives: Vec<SearchedDriveRecord>,
+}
+
+/// A drive of the table, in the units of the design, with what the search came to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SearchedDriveRecord {
+    /// Its name.
+    pub name: String,
+    /// Line of the table, from 1.
+    pub line: usize,
+    /// Price; null: the table does not say it.
+    pub price: Option<Number>,
+    /// Mass; null: the table does not say it.
+    pub mass: Option<Number>,
+    /// Least and greatest length from joint centre to joint centre.
+    pub leg_length: [Number; 2],
+    /// Greatest force; null: the table does not say it.
+    pub force: Option<Number>,
+    /// Greatest speed; null: the table does not say it.
+    pub speed: Option<Number>,
+    /// What came of it.
+    pub outcome: DriveSearchWord,
+    /// Value of the first objective of the platform found; null: none was.
+    pub objective: Option<Number>,
+    /// What the platform found, or the one that misses the requirements least, leaves of the lengths, the force and the speed of the drive; empty where the drive was not searched.
+    pub margins: Vec<MarginRecord>,
+    /// What became of the three-fold symmetry of the design; null as in an answer without a table.
+    pub symmetry: Option<SymmetryRecord>,
+    /// Why it is not the answer, a sentence; null: it is.
+    pub reason: Option<String>,
+}
+
+/// What came of a drive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DriveSearchWord {
+    /// A platform with it is proved to meet the requirements.
+    Met,
+    /// A platform with it was found that misses requirements.
+    Violated,
+    /// No start met the requirements.
+    Infeasible,
+    /// Neither is known.
+    Undecided,
+    /// The search was told to end during it.
+    Interrupted,
+    /// It costs more than a drive with which the requirements are met.
+    Dearer,
+    /// It can do nothing that a drive cannot with which no start met the requirements.
+    Weaker,
+    /// The search was told to end before.
+    NotTried,
+}
+
+impl DriveSearchWord {
+    /// The word.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Met => "met",
+            Self::Violated => "violated",
+            Self::Infeasible => "infeasible",
+            Self::Undecided => "undecided",
+            Self::Interrupted => "interrupted",
+            Self::Dearer => "dearer",
+            Self::Weaker => "weaker",
+            Self::NotTried => "not_tried",
+        }
+    }
+
+    fn of(driven: &DrivenPlatform) -> Self {
+        if driven.found.is_met() {
+            return Self::Met;
+        }
+        match OptimizeWord::from(driven.found.status()) {
+            OptimizeWord::Violated => Self::Violated,
+            OptimizeWord::Infeasible => Self::Infeasible,
+            OptimizeWord::Interrupted => Self::Interrupted,
+            _ => Self::Undecided,
+        }
+    }
+}
+
+/// The requirements that a drive limits.
+const OF_DRIVES: [TermKind; 4] =
+    [TermKind::LegTooShort, TermKind::LegTooLong, TermKind::LegForce, TermKind::LegSpeed];
+
+/// The margins of all requirements of the platform found, or of the one that comes nearest.
+fn margins(driven: &DrivenPlatform) -> Vec<MarginRecord> {
+    let Some(c) = driven.found.checked.as_ref().or(driven.found.nearest.as_ref()) else { return Vec::new() };
+    match &c.assessed {
+        Some(found) => found.proof.bounds.iter().map(|b| MarginRecord::proved(&c.design, b)).collect(),
+        None => MarginRecord::searched(&c.design, &c.assessment),
+    }
+}
+
+/// Why a platform with a drive is no answer.
+fn reason(driven: &DrivenPlatform) -> Option<String> {
+    let report = &driven.found.report;
+    if driven.found.is_met() {
+        return None;
+    }
+    let of = |m: &MarginRecord| {
+        let missed = (m.margin_with_reserve.0, m.unit.as_str());
+        format!("{} {:.6} {}", m.name.code(), missed.0, missed.1)
+    };
+    let missed: Vec<String> =
+        margins(driven).iter().filter(|m| m.margin_with_reserve.0 < 0.0 && !m.at_limit).map(of).collect();
+    let listed = if missed.is_empty() { String::new() } else { format!(": {}", missed.join(", ")) };
+    Some(match &report.outcome {
+        _ if report.interrupted => "the search was told to end".to_owned(),
+        DimensionalOutcome::Infeasible(c) => {
+            let demands = ConflictRecord::new(&driven.design, c).requirements;
+            let sentences: Vec<String> = demands.into_iter().map(|g| g.message).collect();
+            format!("no start met the requirements together: {}", sentences.join("; "))
+        }
+        DimensionalOutcome::Undecided(_) => {
+            format!(
+                "no platform was found that meets the requirements; what comes nearest misses some{listed}"
+            )
+        }
+        _ if missed.is_empty() => "not all requirements are proved for the platform found".to_owned(),
+        _ => format!("the platform found misses requirements{listed}"),
+    })
+}
+
+impl SearchedDriveRecord {
+    fn new(searched: &SearchedDrive, chosen: Option<&str>, ranking: DriveRanking) -> Self {
+        let drive = &searched.drive;
+        let (least, greatest) = drive.lengths.range();
+        let mut out = Self {
+            name: drive.name.clone(),
+            line: drive.line,
+            price: drive.price.map(Number),
+            mass: drive.mass.map(Number),
+            leg_length: [Number(least), Number(greatest)],
+            force: drive.force.map(Number),
+            speed: drive.speed.map(Number),
+            outcome: DriveSearchWord::NotTried,
+            objective: None,
+            margins: Vec::new(),
+            symmetry: None,
+            reason: None,
+        };
+        match &searched.outcome {
+            DriveOutcome::Searched(driven) => {
+                let found = driven.found.checked.as_ref();
+                out.outcome = DriveSearchWord::of(driven);
+                out.objective = found.and_then(|c| c.objectives.first()).map(|o| Number(o.1));
+                out.margins = margins(driven);
+                out.margins.retain(|m| OF_DRIVES.contains(&m.name));
+                out.symmetry = driven.found.symmetry.map(SymmetryRecord::from);
+                out.reason = reason(driven);
+                if out.outcome == DriveSearchWord::Met && chosen != Some(&drive.name) {
+                    out.reason = Some(match ranking {
+                        DriveRanking::Price => "it costs more, or as much with a worse objective".to_owned(),
+                        DriveRanking::Objective => "its objective is worse".to_owned(),
+                    });
+                }
+            }
+            DriveOutcome::Dearer(other) => {
+                out.outcome = DriveSearchWord::Dearer;
+                out.reason = Some(format!(
+                    "not searched: it costs more than {other}, with which the requirements are met"
+                ));
+            }
+            DriveOutcome::Weaker(other) => {
+                out.outcome = DriveSearchWord::Weaker;
+                out.reason = Some(format!(
+                    "not searched: it can do nothing that {other} cannot, with which no start met the requirements"
+                ));
+            }
+            DriveOutcome::NotTried => {
+                out.reason = Some("not searched: the search was told to end".to_owned());
+            }
+        }
+        out
+    }
+}
+
+impl DriveSearchRecord {
+    /// The record of a search over a table whose prices are in a currency.
+    #[must_use]
+    pub(crate) fn new(search: &DriveSearch, currency: Option<&str>) -> Self {
+        let chosen = search.chosen().map(|d| d.name.as_str());
+        let one = |d: &SearchedDrive| SearchedDriveRecord::new(d, chosen, search.ranking);
+        let drives: Vec<SearchedDriveRecord> = search.drives.iter().map(one).collect();
+        let how = match search.ranking {
+            DriveRanking::Price => "the cheapest drive with which the requirements are met",
+            DriveRanking::Objective => {
+                "the drive with the best first objective of those with which the requirements are met (not every drive has a price)"
+            }
+        };
+        let ended =
+            if search.interrupted { ", as far as the search came until it was told to end" } else { "" };
+        let message = match chosen {
+            Some(name) => format!("{name} is {how}{ended}"),
+            None => format!(
+                "with none of {} drives was a platform found that is proved to meet the requirements{ended}",
+                drives.len()
+            ),
+        };
+        let (currency, interrupted) = (currency.map(str::to_owned), search.interrupted);
+        Self {
+            chosen: chosen.map(str::to_owned),
+            ranked_by: search.ranking,
+            currency,
+            interrupted,
+            message,
+            drives,
+        }
+    }
+}

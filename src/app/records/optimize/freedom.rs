@@ -1,0 +1,128 @@
+//! Freedoms that resolve a conflict, or do not.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::app::entrance::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
+use crate::app::records::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
+use crate::files::design::Design;
+use crate::optimize::offsets::DEFAULT_MIN_ABS_DET;
+
+/// A freedom that the design does not have, and what came of the search with it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FreedomRecord {
+    /// Which.
+    pub freedom: ConflictFreedom,
+    /// What came of it.
+    pub outcome: FreedomWord,
+    /// By how much the limit gave way in the last search, or by how much the platform found is higher; null: no such number.
+    pub amount: Option<Number>,
+    /// Of the amount.
+    pub unit: String,
+    /// One sentence.
+    pub message: String,
+    /// What `assess` says of the platform found; null: none was.
+    pub assessment: Option<AssessAnswer>,
+    /// The platform found, with the limit that gave way; null: none was.
+    pub design: Option<DesignRecord>,
+    /// The file it was written to.
+    pub output: Option<String>,
+}
+
+/// What came of a search with a freedom more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FreedomWord {
+    /// A platform was found that is proved to meet all requirements.
+    Resolved,
+    /// One was found that meets them at the poses looked at; not all is proved.
+    Undecided,
+    /// No start met the requirements.
+    Unresolved,
+    /// The search was told to end before.
+    NotTried,
+}
+
+impl FreedomRecord {
+    /// What came of a freedom of a design.
+    #[must_use]
+    pub(crate) fn new(design: &Design, opened: &OpenedFreedom, output: Option<&str>) -> Self {
+        let (outcome, found) = match &opened.outcome {
+            FreedomOutcome::Resolved(c) => (FreedomWord::Resolved, Some(c)),
+            FreedomOutcome::Undecided(c) => (FreedomWord::Undecided, Some(c)),
+            FreedomOutcome::Unresolved => (FreedomWord::Unresolved, None),
+            FreedomOutcome::NotTried => (FreedomWord::NotTried, None),
+        };
+        Self {
+            freedom: opened.freedom,
+            outcome,
+            amount: opened.amount.map(Number),
+            unit: design.units.clone(),
+            message: message(design, opened, outcome),
+            assessment: found.and_then(|c| {
+                c.assessed
+                    .as_ref()
+                    .map(|a| AssessAnswer::new(&c.design, a).with_role(DesignRoleWord::Optimised))
+            }),
+            design: found.map(|c| (&c.design).into()),
+            output: output.map(str::to_owned),
+        }
+    }
+}
+
+fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> String {
+    let by = |x: f64| format!("{} {}", super::conflict::amount(x.abs()), design.units);
+    let (tried, amount) = (outcome == FreedomWord::Unresolved, opened.amount);
+    let wider = |body: &str| match amount {
+        Some(x) if tried => format!("an envelope of the {body} wider by up to {} on every side", by(x)),
+        Some(x) => format!("an envelope of the {body} wider by {} on every side", by(x)),
+        None => format!("a wider envelope of the {body}"),
+    };
+    let plate = |body: &str| match amount {
+        Some(x) if tried => format!("a plate of the {body} wider by up to {} on every side", by(x)),
+        Some(x) => format!("a plate of the {body} wider by {} on every side", by(x)),
+        None => format!("a wider plate of the {body}"),
+    };
+    let what = match opened.freedom {
+        ConflictFreedom::HomeHeight => match amount {
+            Some(x) if x < 0.0 => format!("home lower by {}", by(x)),
+            Some(x) => format!("home higher by {}", by(x)),
+            None => "another height of home".to_owned(),
+        },
+        ConflictFreedom::TriangleSizes => "other sizes of base and platform".to_owned(),
+        ConflictFreedom::Triangles => "other shapes of the triangles".to_owned(),
+        ConflictFreedom::Stroke => match amount {
+            Some(x) if tried => format!("a stroke longer by up to {}", by(x)),
+            Some(x) => format!("a stroke longer by {}", by(x)),
+            None => "a longer stroke".to_owned(),
+        },
+        ConflictFreedom::BaseEnvelope => wider("base"),
+        ConflictFreedom::PlatformEnvelope => wider("platform"),
+        ConflictFreedom::MachineEnvelope => wider("machine"),
+        ConflictFreedom::MinAbsDet => "no least |det A| (the default of the search)".to_owned(),
+        ConflictFreedom::BaseMargin => plate("base"),
+        ConflictFreedom::PlatformMargin => plate("platform"),
+    };
+    match outcome {
+        FreedomWord::Resolved => {
+            format!("with {what} the requirements can be met, proved for the platform found")
+        }
+        FreedomWord::Undecided => format!(
+            "with {what} a platform was found that violates nothing at the poses looked at; not all is proved"
+        ),
+        FreedomWord::Unresolved if !opened.eased.is_empty() => {
+            let less = |e: &EasedDemand| {
+                let (name, unit) = super::conflict::words(design, e.demand);
+                let [to, from] = [e.to, e.from].map(super::conflict::amount);
+                format!("{name} would have to give by {to} {unit} in place of {from} {unit}")
+            };
+            let list: Vec<String> = opened.eased.iter().map(less).collect();
+            format!(
+                "|det A| >= {DEFAULT_MIN_ABS_DET}, a default of the search, takes part: without it {}",
+                list.join(", ")
+            )
+        }
+        FreedomWord::Unresolved => format!("{what} alone did not resolve it from any start"),
+        FreedomWord::NotTried => format!("{what} was not tried: the search was told to end"),
+    }
+}

@@ -1,0 +1,443 @@
+//! Platforms that a search found: what was chosen, what it is worth, and the evidence.
+
+use nalgebra::{Unit, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::riding::{DetMargin, RidingRecord};
+use crate::app::entrance::optimizing::{Checked, offset_reserves};
+use crate::app::records::map::matrix;
+use crate::app::records::{
+    AssessAnswer, DesignRecord, DesignRoleWord, MarginRecord, Number, PoseQuaternionRecord, PoseRecord,
+    VerdictWord, leg_number,
+};
+use crate::files::design::Design;
+use crate::machine::requirements::Objective;
+use crate::optimize::dimensional::{ChosenVariable, DimensionalSolution, HistoryStep};
+use crate::optimize::offsets::{Branch, OffsetHistoryStep, OffsetProblem, OffsetSolution};
+use crate::platform::manipulator::Octahedral;
+use crate::synthesis::edge_lengths;
+use crate::verify::Verification;
+
+/// How the zones of the six offsets are written.
+pub(super) const ZONES: &str = "^[-0+]{6}$";
+
+/// A platform found by a search; every field is null where there is none.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+pub struct FoundPlatformRecord {
+    /// Value of the first objective.
+    pub objective: Option<Number>,
+    /// All of them.
+    pub objectives: Option<Vec<ObjectiveRecord>>,
+    /// What was chosen, axes left out.
+    pub variables: Option<Vec<VariableRecord>>,
+    /// The numbers `t_i` in cyclic order; null: no offsets were chosen.
+    pub offsets: Option<[Number; 6]>,
+    /// `t_i d_i`, design units; null as `edge_lengths`.
+    pub shifts: Option<[Number; 6]>,
+    /// `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    pub edge_lengths: Option<[Number; 6]>,
+    /// The legs of the cycle, from 1; null: no offsets were chosen.
+    pub cyclic_order: Option<[usize; 6]>,
+    /// Zone of each offset: before, inside, beyond its edge; null: no offsets were chosen.
+    #[schemars(extend("pattern" = ZONES))]
+    pub branch: Option<String>,
+    /// det A of the leg map; null: the variables do not keep the class of the design.
+    pub det: Option<Number>,
+    /// s' = A s + c, legs in the order of the design; rows. Null as `det`.
+    #[serde(rename = "A")]
+    pub matrix: Option<[[Number; 6]; 6]>,
+    /// The constant terms, design units squared; null as `det`.
+    #[serde(rename = "c")]
+    pub constants: Option<[Number; 6]>,
+    /// Home, lifted when its height was chosen.
+    pub home: Option<PoseQuaternionRecord>,
+    /// The axes chosen.
+    pub joint_axes: Option<JointAxesRecord>,
+    /// The requirements, over many poses and by other code.
+    pub constraint_margins: Option<Vec<MarginRecord>>,
+    /// By how much what the search demands besides them is met.
+    pub search_margins: Option<SearchMarginsRecord>,
+    /// What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies have grown; null: nothing.
+    pub riding: Option<RidingRecord>,
+    /// Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    pub requirements_met: Option<bool>,
+    /// What `assess` says of the platform; null: the design requires nothing.
+    pub assessment: Option<AssessAnswer>,
+    /// Whether it is equivalent to the design; null: the variables do not keep the class.
+    pub verify: Option<VerifiedRecord>,
+    /// Where the first objective is reached among the poses held; null: it is not the worst conditioning.
+    pub worst_pose: Option<WorstPoseRecord>,
+    /// Evidence of local optimality.
+    pub local_optimality: Option<LocalOptimalityRecord>,
+    /// Steps of the run that found it; null in a front.
+    pub history: Option<Vec<SearchStepRecord>>,
+    /// Numbers of poses.
+    pub poses: Option<HeldPosesRecord>,
+}
+
+impl FoundPlatformRecord {
+    /// The solution of a search under requirements, with the least |det A| that it held.
+    #[must_use]
+    pub fn new(design: &Design, min_abs_det: f64, s: &DimensionalSolution, c: &Checked) -> Self {
+        let axes = |list: &Option<[Unit<Vector3<f64>>; 6]>| {
+            list.map(|list| list.map(|a| [a.x, a.y, a.z].map(Number)))
+        };
+        let map = c.verification.as_ref().map(|v| &v.map);
+        let det = map.map(|m| m.determinant);
+        let octahedral = s.offsets.and_then(|t| Some((t, Octahedral::recognise(design.manipulator()).ok()?)));
+        // a platform that is compared with the design has its triangles
+        let base = Self::checked(design, c, &s.objectives, s.poses.len());
+        let variables = VariableRecord::all(s);
+        let margin =
+            det.map(|det| DetMargin { left: det.abs() - min_abs_det, least: min_abs_det, reserve: 0.0 });
+        let edges = octahedral.as_ref().filter(|_| map.is_some()).map(|(t, o)| (*t, edge_lengths(o)));
+        Self {
+            riding: RidingRecord::new(
+                design,
+                c,
+                &variables,
+                base.constraint_margins.as_deref().unwrap_or_default(),
+                margin,
+            ),
+            variables: Some(variables),
+            offsets: s.offsets.map(|t| t.map(Number)),
+            shifts: edges.map(|(t, d)| std::array::from_fn(|i| Number(t[i] * d[i]))),
+            edge_lengths: edges.map(|(_, d)| d.map(Number)),
+            cyclic_order: octahedral.as_ref().map(|(_, o)| o.order().map(leg_number)),
+            branch: s.offsets.map(|t| Branch::of(&t).to_string()),
+            det: det.map(Number),
+            matrix: map.map(|m| matrix(&m.closest)),
+            constants: map.map(|m| <[f64; 6]>::from(m.closest.c).map(Number)),
+            home: Some((&s.home).into()),
+            joint_axes: Some(JointAxesRecord { base: axes(&s.axes[0]), platform: axes(&s.axes[1]) }),
+            search_margins: Some(SearchMarginsRecord {
+                abs_det: det.map(|det| Number(det.abs() - min_abs_det)),
+                bounds: Number(s.variables.iter().map(room).fold(f64::INFINITY, f64::min)),
+            }),
+            local_optimality: Some(LocalOptimalityRecord {
+                converged: s.converged,
+                stationarity: Number(s.stationarity),
+                pattern_gain: None,
+                pattern_trials: None,
+            }),
+            history: Some(s.history.iter().map(SearchStepRecord::from).collect()),
+            ..base
+        }
+    }
+
+    /// The solution of a search for offsets.
+    pub(super) fn of_offsets(design: &Design, p: &OffsetProblem, s: &OffsetSolution, c: &Checked) -> Self {
+        let (r, count) = (&s.recheck, p.poses.len());
+        let variable = |i: usize| VariableRecord {
+            name: format!("t{}", i + 1),
+            start: Number(0.0),
+            value: Number(s.offsets[i]),
+            bounds: [Number(p.bounds[i].0), Number(p.bounds[i].1)],
+        };
+        let base = Self::checked(design, c, &[(Objective::WorstConditioning, r.objective)], count);
+        let variables: Vec<VariableRecord> = (0..6).map(variable).collect();
+        let [_, reserve] = offset_reserves(design, &p.octahedral);
+        let margin = DetMargin { left: r.margins.det + reserve, least: p.min_abs_det - reserve, reserve };
+        let known = base.constraint_margins.as_deref().unwrap_or_default();
+        Self {
+            riding: RidingRecord::new(design, c, &variables, known, Some(margin)),
+            variables: Some(variables),
+            offsets: Some(s.offsets.map(Number)),
+            shifts: Some(s.shifts.map(Number)),
+            edge_lengths: Some(p.edge_lengths().map(Number)),
+            cyclic_order: Some(p.octahedral.order().map(leg_number)),
+            branch: Some(s.branch.to_string()),
+            det: Some(Number(r.det)),
+            matrix: Some(matrix(&s.map)),
+            constants: Some(<[f64; 6]>::from(s.map.c).map(Number)),
+            home: Some((&design.home_or_default()).into()),
+            joint_axes: Some(JointAxesRecord { base: None, platform: None }),
+            search_margins: Some(SearchMarginsRecord {
+                abs_det: Some(Number(margin.left)),
+                bounds: Number(r.margins.bounds),
+            }),
+            local_optimality: Some(LocalOptimalityRecord {
+                converged: s.evidence.converged,
+                stationarity: Number(s.evidence.stationarity),
+                pattern_gain: Some(Number(s.evidence.pattern_gain)),
+                pattern_trials: Some(s.evidence.pattern_trials),
+            }),
+            history: Some(s.history.iter().map(|h| SearchStepRecord::of_offsets(h, count)).collect()),
+            ..base
+        }
+    }
+
+    /// What the check by other code says; `at_held` are the values of the objectives over the poses held.
+    fn checked(design: &Design, c: &Checked, at_held: &[(Objective, f64)], held: usize) -> Self {
+        let objectives = ObjectiveRecord::all(design, at_held, c);
+        Self {
+            objective: objectives.first().map(|o| o.value),
+            objectives: Some(objectives),
+            constraint_margins: Some(MarginRecord::searched(&c.design, &c.assessment)),
+            requirements_met: c.met(),
+            assessment: judged_as(c, DesignRoleWord::Optimised),
+            verify: c.verification.as_ref().map(VerifiedRecord::from),
+            worst_pose: c
+                .worst_pose
+                .as_ref()
+                .map(|(index, pose)| WorstPoseRecord { index: *index, pose: pose.into() }),
+            poses: Some(HeldPosesRecord { held, checked: c.assessment.poses }),
+            ..Self::default()
+        }
+    }
+}
+
+/// The judgement of a platform in its role.
+fn judged_as(c: &Checked, role: DesignRoleWord) -> Option<AssessAnswer> {
+    c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found).with_role(role))
+}
+
+/// How far a variable is from its nearer bound.
+fn room(v: &ChosenVariable) -> f64 {
+    (v.value - v.bounds.0).min(v.bounds.1 - v.value)
+}
+
+/// By how much what a search demands besides the requirements is met.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SearchMarginsRecord {
+    /// |det A| less the required value; null: the variables do not keep the class of the design.
+    pub abs_det: Option<Number>,
+    /// Least distance of a variable from its bounds.
+    pub bounds: Number,
+}
+
+/// A local optimum beside the best one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OptimumRecord {
+    /// All objectives.
+    pub objectives: Vec<ObjectiveRecord>,
+    /// What was chosen, axes left out.
+    pub variables: Vec<VariableRecord>,
+    /// Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    pub requirements_met: Option<bool>,
+    /// What `assess` says of it; null: the design requires nothing.
+    pub assessment: Option<AssessAnswer>,
+    /// The platform.
+    pub design: DesignRecord,
+    /// The file it was written to.
+    pub output: Option<String>,
+}
+
+impl OptimumRecord {
+    /// The record of a candidate for a design.
+    #[must_use]
+    pub fn new(design: &Design, s: &DimensionalSolution, c: &Checked, output: Option<&str>) -> Self {
+        Self {
+            objectives: ObjectiveRecord::all(design, &s.objectives, c),
+            variables: VariableRecord::all(s),
+            requirements_met: c.met(),
+            assessment: judged_as(c, DesignRoleWord::Optimised),
+            design: (&c.design).into(),
+            output: output.map(str::to_owned),
+        }
+    }
+}
+
+/// The platform that comes nearest to its requirements.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NearestPlatformRecord {
+    /// What was chosen, axes left out.
+    pub variables: Vec<VariableRecord>,
+    /// The requirements, over many poses and by other code.
+    pub constraint_margins: Vec<MarginRecord>,
+    /// What `assess` says of it; null: the design requires nothing.
+    pub assessment: Option<AssessAnswer>,
+    /// The platform.
+    pub design: DesignRecord,
+}
+
+impl NearestPlatformRecord {
+    pub(super) fn new(s: &DimensionalSolution, c: &Checked) -> Self {
+        Self {
+            variables: VariableRecord::all(s),
+            constraint_margins: MarginRecord::searched(&c.design, &c.assessment),
+            assessment: judged_as(c, DesignRoleWord::Closest),
+            design: (&c.design).into(),
+        }
+    }
+}
+
+/// A member of a front.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FrontMemberRecord {
+    /// The platform with its evidence.
+    #[serde(flatten)]
+    pub platform: FoundPlatformRecord,
+    /// The platform as a design.
+    pub design: DesignRecord,
+    /// The file written.
+    pub output: Option<String>,
+    /// The objectives in the evaluation that compared the members.
+    pub non_dominated_at: Vec<Number>,
+}
+
+/// An objective and its value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ObjectiveRecord {
+    /// Which.
+    pub name: Objective,
+    /// By the dense evaluation.
+    pub value: Number,
+    /// Over the poses at which the search held the requirements.
+    pub at_held_poses: Number,
+    /// Empty for a pure number.
+    pub unit: String,
+}
+
+impl ObjectiveRecord {
+    /// All objectives of a platform found for a design.
+    fn all(design: &Design, at_held: &[(Objective, f64)], c: &Checked) -> Vec<Self> {
+        let one = |((o, held), (_, dense)): (&(Objective, f64), &(Objective, f64))| Self {
+            name: *o,
+            value: Number(*dense),
+            at_held_poses: Number(*held),
+            unit: o.quantity().map_or_else(String::new, |q| design.unit_of(q)),
+        };
+        at_held.iter().zip(&c.objectives).map(one).collect()
+    }
+}
+
+/// A quantity that was chosen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct VariableRecord {
+    /// Which.
+    pub name: String,
+    /// Its value in the design that the search began with.
+    pub start: Number,
+    /// Its value in the platform.
+    pub value: Number,
+    /// Least and greatest value that it may have.
+    pub bounds: [Number; 2],
+}
+
+impl From<&ChosenVariable> for VariableRecord {
+    fn from(v: &ChosenVariable) -> Self {
+        Self {
+            name: v.name.clone(),
+            start: Number(v.start),
+            value: Number(v.value),
+            bounds: [Number(v.bounds.0), Number(v.bounds.1)],
+        }
+    }
+}
+
+impl VariableRecord {
+    fn all(s: &DimensionalSolution) -> Vec<Self> {
+        s.variables.iter().map(Self::from).collect()
+    }
+}
+
+/// Axes of joints: unit vectors, frame of the body; null: not chosen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JointAxesRecord {
+    /// Of the base ends of the legs.
+    pub base: Option<[[Number; 3]; 6]>,
+    /// Of their platform ends.
+    pub platform: Option<[[Number; 3]; 6]>,
+}
+
+/// A verification in short.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct VerifiedRecord {
+    /// The verdict.
+    pub verdict: VerdictWord,
+    /// The largest distance of matched poses.
+    pub worst_distance: Number,
+    /// Sets of lengths at which both were solved.
+    pub sample_count: usize,
+}
+
+impl From<&Verification> for VerifiedRecord {
+    fn from(v: &Verification) -> Self {
+        Self {
+            verdict: (&v.verdict).into(),
+            worst_distance: Number(v.worst_distance()),
+            sample_count: v.samples.len(),
+        }
+    }
+}
+
+/// The pose with the worst conditioning.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WorstPoseRecord {
+    /// Its place among the poses held, from 0.
+    pub index: usize,
+    /// The pose.
+    #[serde(flatten)]
+    pub pose: PoseRecord,
+}
+
+/// Evidence of local optimality.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LocalOptimalityRecord {
+    /// The model of the last step promised no further gain.
+    pub converged: bool,
+    /// Gain still promised for a unit of the variables.
+    pub stationarity: Number,
+    /// Gained by a pattern search from there; null: none was made.
+    pub pattern_gain: Option<Number>,
+    /// Points it tried.
+    pub pattern_trials: Option<usize>,
+}
+
+/// A step of the run that found a platform.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SearchStepRecord {
+    /// Value after the step: the weighted gain of the objectives, for offsets the worst inverse condition number.
+    pub objective: Number,
+    /// In the scale of its constraint; lengths relative to the size.
+    pub violation: Number,
+    /// Of the trust region.
+    pub radius: Number,
+    /// Poses held.
+    pub poses: usize,
+    /// The step was taken.
+    pub accepted: bool,
+    /// Gain the model promised, relative; null: the search does not keep it.
+    pub predicted: Option<Number>,
+    /// Gain found, relative; null: the search does not keep it.
+    pub actual: Option<Number>,
+}
+
+impl From<&HistoryStep> for SearchStepRecord {
+    fn from(h: &HistoryStep) -> Self {
+        Self {
+            objective: Number(h.gain),
+            violation: Number(h.violation),
+            radius: Number(h.radius),
+            poses: h.poses,
+            accepted: h.accepted,
+            predicted: None,
+            actual: None,
+        }
+    }
+}
+
+impl SearchStepRecord {
+    fn of_offsets(h: &OffsetHistoryStep, poses: usize) -> Self {
+        Self {
+            objective: Number(h.value),
+            violation: Number(h.violation),
+            radius: Number(h.radius),
+            poses,
+            accepted: h.accepted,
+            predicted: Some(Number(h.predicted)),
+            actual: Some(Number(h.actual)),
+        }
+    }
+}
+
+/// Numbers of poses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct HeldPosesRecord {
+    /// Where the search held the requirements.
+    pub held: usize,
+    /// Of the dense evaluation.
+    pub checked: usize,
+}

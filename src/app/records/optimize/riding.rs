@@ -1,0 +1,173 @@
+//! What a platform found rides on: limits and ends of ranges of which next to nothing is left.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::VariableRecord;
+use crate::app::entrance::optimizing::Checked;
+use crate::app::records::nearest::short;
+use crate::app::records::{MarginRecord, Number};
+use crate::files::design::Design;
+use crate::platform::manipulator::Body;
+
+/// Part of a limit below which nothing is left of it.
+const NOTHING: f64 = 1e-3;
+/// The same of the range of a variable.
+const AT_END: f64 = 1e-6;
+/// A body that has grown by more is named.
+const GROWN: f64 = 1.2;
+
+/// The bounds that decide about a platform, and the growth of its bodies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RidingRecord {
+    /// Ranges of variables and limits of which nothing is left.
+    pub bounds: Vec<RiddenBoundRecord>,
+    /// Greatest distance of a base joint from the centre of the joints, over that in the design.
+    pub base_growth: Number,
+    /// The same of the platform.
+    pub platform_growth: Number,
+    /// One sentence.
+    pub message: String,
+}
+
+/// A bound of which nothing is left.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RiddenBoundRecord {
+    /// A variable, a requirement, or `abs_det`.
+    pub name: String,
+    /// What bounds it.
+    pub kind: RiddenWord,
+    /// The value of a variable; what is left of a limit.
+    pub value: Number,
+    /// Of the value; empty for a pure number.
+    pub unit: String,
+}
+
+/// What bounds a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RiddenWord {
+    /// The range of the variable ends there.
+    RangeEnd,
+    /// The limit itself.
+    Limit,
+    /// The reserve on the limit, which is kept.
+    Reserve,
+}
+
+/// `|det A|` of a platform beyond the least value, that value, and the reserve on it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DetMargin {
+    pub(super) left: f64,
+    pub(super) least: f64,
+    pub(super) reserve: f64,
+}
+
+impl RidingRecord {
+    /// Of a platform found for a design; `None` where it rides on nothing and has not grown.
+    pub(super) fn new(
+        design: &Design,
+        c: &Checked,
+        variables: &[VariableRecord],
+        margins: &[MarginRecord],
+        det: Option<DetMargin>,
+    ) -> Option<Self> {
+        let mut bounds: Vec<RiddenBoundRecord> = variables.iter().filter_map(at_end).collect();
+        let required = c.design.requirements();
+        for m in margins.iter().filter(|m| !m.violates()) {
+            let whole = Some(required.whole(m.name)).filter(|x| *x > 0.0);
+            let scale = whole.unwrap_or_else(|| c.design.manipulator().size());
+            let kind = if m.reserve.0 > 0.0 { RiddenWord::Reserve } else { RiddenWord::Limit };
+            if m.margin_with_reserve.0 <= NOTHING * scale {
+                let (name, unit) = (m.name.code().to_owned(), m.unit.clone());
+                bounds.push(RiddenBoundRecord { name, kind, value: m.margin, unit });
+            }
+        }
+        if let Some(d) = det.filter(|d| d.left - d.reserve <= NOTHING * d.least) {
+            let kind = if d.reserve > 0.0 { RiddenWord::Reserve } else { RiddenWord::Limit };
+            let (name, value) = ("abs_det".to_owned(), Number(d.left));
+            bounds.push(RiddenBoundRecord { name, kind, value, unit: String::new() });
+        }
+        let growth = Body::BOTH.map(|body| c.design.radius(body) / design.radius(body));
+        let grown: Vec<String> = Body::BOTH
+            .into_iter()
+            .filter(|body| growth[body.index()] > GROWN)
+            .map(|body| format!("the {body} is {} times as wide", rounded(growth[body.index()])))
+            .collect();
+        if bounds.is_empty() && grown.is_empty() {
+            return None;
+        }
+        let message = message(&bounds, &grown);
+        let [base_growth, platform_growth] = growth.map(Number);
+        Some(Self { bounds, base_growth, platform_growth, message })
+    }
+}
+
+/// A variable at an end of its range.
+fn at_end(v: &VariableRecord) -> Option<RiddenBoundRecord> {
+    let [low, high] = v.bounds.map(|x| x.0);
+    let left = (v.value.0 - low).min(high - v.value.0);
+    let range = high - low;
+    (range.is_finite() && range > 0.0 && left <= AT_END * range).then(|| RiddenBoundRecord {
+        name: v.name.clone(),
+        kind: RiddenWord::RangeEnd,
+        value: v.value,
+        unit: String::new(),
+    })
+}
+
+/// Three digits.
+fn rounded(x: f64) -> String {
+    let digits = format!("{x:.2e}").parse::<f64>().unwrap_or(x);
+    digits.to_string()
+}
+
+fn message(bounds: &[RiddenBoundRecord], grown: &[String]) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    let ends: Vec<&RiddenBoundRecord> = bounds.iter().filter(|b| b.kind == RiddenWord::RangeEnd).collect();
+    let mut values: Vec<String> = ends.iter().map(|b| short(b.value.0)).collect();
+    values.sort();
+    values.dedup();
+    for value in values {
+        let names: Vec<&str> =
+            ends.iter().filter(|b| short(b.value.0) == value).map(|b| b.name.as_str()).collect();
+        let their = if names.len() == 1 { "its" } else { "their" };
+        parts.push(format!("{} = {value} (end of {their} range)", names.join(", ")));
+    }
+    for b in bounds.iter().filter(|b| b.kind != RiddenWord::RangeEnd) {
+        let what = if b.kind == RiddenWord::Reserve { "its reserve" } else { "no reserve" };
+        let left = format!("{} {}", short(b.value.0), b.unit);
+        parts.push(format!("{} ({} left, {what})", b.name, left.trim_end()));
+    }
+    let rides = if parts.is_empty() { None } else { Some(format!("rides on {}", parts.join(", "))) };
+    let all: Vec<String> = rides.into_iter().chain(grown.iter().cloned()).collect();
+    format!("{}; `reserve` in [limits] keeps away from limits, [envelope] bounds the size", all.join("; "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn variable(name: &str, value: f64) -> VariableRecord {
+        let bounds = [Number(-0.3), Number(1.3)];
+        VariableRecord { name: name.into(), start: Number(0.0), value: Number(value), bounds }
+    }
+
+    #[test]
+    fn ends_of_ranges_are_named_together_and_what_has_room_is_not() {
+        let all =
+            [variable("t1", -0.3), variable("t2", 0.2), variable("t3", -0.3 + 1e-8), variable("t4", 1.3)];
+        let bounds: Vec<RiddenBoundRecord> = all.iter().filter_map(at_end).collect();
+        assert_eq!(bounds.iter().map(|b| b.name.as_str()).collect::<Vec<_>>(), ["t1", "t3", "t4"]);
+        let text = message(&bounds, &["the base is 2.6 times as wide".to_owned()]);
+        assert!(text.contains("t1, t3 = -0.3 (end of their range), t4 = 1.3 (end of its range)"), "{text}");
+        assert!(text.contains("2.6 times") && text.contains("`reserve`") && text.contains("[envelope]"));
+    }
+
+    #[test]
+    fn an_endless_range_has_no_end_to_ride_on() {
+        let mut free = variable("t1", 5.0);
+        free.bounds = [Number(f64::NEG_INFINITY), Number(f64::INFINITY)];
+        assert_eq!(at_end(&free), None);
+    }
+}

@@ -1,0 +1,78 @@
+//! Answers of `design presets`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::files::design::{Design, Preset, PresetClass};
+
+/// The answer of `design presets`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PresetsAnswer {
+    /// All of them.
+    List {
+        /// By class and name.
+        presets: Vec<PresetRecord>,
+    },
+    /// One.
+    One(PresetAnswer),
+}
+
+/// One preset, and its design file or where that was written.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct PresetAnswer {
+    /// The preset.
+    #[serde(flatten)]
+    pub preset: PresetRecord,
+    /// Its design file.
+    #[serde(flatten)]
+    pub file: PresetFile,
+}
+
+/// The design file of a preset.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PresetFile {
+    /// Given.
+    Given {
+        /// The design file.
+        text: String,
+    },
+    /// Written.
+    Written {
+        /// The file written.
+        output: String,
+    },
+}
+
+/// A design of real hardware.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct PresetRecord {
+    /// Its name as a preset.
+    pub preset: String,
+    /// What it is for.
+    pub class: PresetClass,
+    /// The name of the design.
+    pub name: String,
+    /// The label of the length unit.
+    pub units: String,
+    /// Where its numbers come from.
+    pub source: Option<String>,
+    /// What the design says of itself.
+    pub description: Option<String>,
+}
+
+impl PresetRecord {
+    /// The record of a preset with its design.
+    #[must_use]
+    pub fn new(preset: &Preset, design: &Design) -> Self {
+        Self {
+            preset: preset.name.into(),
+            class: preset.class,
+            name: design.name.clone(),
+            units: design.units.clone(),
+            source: design.source.clone(),
+            description: design.description.clone(),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What an answer was made from.
+
+use std::fmt::Write as _;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use crate::files::design::Design;
+
+/// What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a machine in it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct ProvenanceRecord {
+    /// The version of the program.
+    pub version: String,
+    /// The seed that was handed to the computation; null where it takes none.
+    pub seed: Option<u64>,
+    /// The designs, in the order in which they were given.
+    pub designs: Vec<DesignSourceRecord>,
+    /// Other texts that were read: tables of lengths or poses, fronts.
+    pub files: Vec<FileSourceRecord>,
+}
+
+/// A design that an answer is about.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct DesignSourceRecord {
+    /// The name of the design.
+    pub name: String,
+    /// The file it was read from, as it was named; null: it was made in memory, and its text is what it would be saved as.
+    pub path: Option<String>,
+    /// SHA-256 of the bytes of that file or text, hexadecimal.
+    #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
+    pub sha256: String,
+}
+
+/// A file that is no design.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct FileSourceRecord {
+    /// The file, as it was named.
+    pub path: String,
+    /// SHA-256 of its bytes, hexadecimal.
+    #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
+    pub sha256: String,
+}
+
+/// A design in memory, by the text that it would be saved as: that of its file, where it was read from TOML and not changed.
+impl From<&Design> for DesignSourceRecord {
+    fn from(design: &Design) -> Self {
+        Self { name: design.name.clone(), path: None, sha256: sha256(design.text().as_bytes()) }
+    }
+}
+
+impl ProvenanceRecord {
+    /// That of an answer about designs in memory; `seed` is the one of the options it was computed with, `None` where they have none.
+    #[must_use]
+    pub fn of(designs: &[&Design], seed: Option<u64>) -> Self {
+        let designs = designs.iter().copied().map(DesignSourceRecord::from).collect();
+        Self { seed, designs, ..Self::default() }
+    }
+}
+
+/// No seed and no files.
+impl Default for ProvenanceRecord {
+    fn default() -> Self {
+        Self { version: env!("CARGO_PKG_VERSION").into(), seed: None, designs: Vec::new(), files: Vec::new() }
+    }
+}
+
+/// SHA-256 in hexadecimal digits.
+#[must_use]
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::design::{Format, parse};
+
+    #[test]
+    fn a_design_in_memory_has_the_hash_of_its_file_until_it_is_changed() {
+        let text = include_str!("../../../designs/rbt-octahedral.toml");
+        let (mut design, _) = parse(text, Format::Toml).unwrap();
+        let of = |design: &Design| ProvenanceRecord::of(&[design], Some(7)).designs.remove(0);
+        assert_eq!(of(&design).sha256, sha256(text.as_bytes()));
+        assert_eq!((of(&design).name, of(&design).path), (design.name.clone(), None));
+        design.set_joint("P1", [0.0, 0.0, 0.25]).unwrap();
+        assert_ne!(of(&design).sha256, sha256(text.as_bytes()));
+    }
+
+    #[test]
+    fn the_hash_is_the_one_of_the_standard() {
+        // FIPS 180-2, appendix B.1
+        assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+}

@@ -1,0 +1,169 @@
+//! Answers of inverse kinematics where the legs are rods of constant length on cranks: angles in place of lengths.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Number, PoseMarginRecord, PoseRecord};
+use crate::files::design::Design;
+use crate::machine::requirements::Terms;
+use crate::machine::rotary::{CrankAngles, Elbow, RotaryPlatform};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{inverse_condition, jacobian};
+
+/// The angles of cranks at several poses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RotaryIkRowsAnswer {
+    /// In the order given.
+    pub rows: Vec<RotaryIkRecord>,
+}
+
+/// The angles of cranks at a pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RotaryIkRecord {
+    /// The line of the table, from 1; null: no table.
+    pub line: Option<usize>,
+    /// The time of the row, where the table has a column of times.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+    /// The pose.
+    pub pose: PoseRecord,
+    /// The six angles in leg order, each on the side that the design keeps; null: a rod does not reach.
+    pub angles_deg: Option<[f64; 6]>,
+    /// The first rod that does not reach; null: all do.
+    pub out_of_reach: Option<OutOfReachRecord>,
+    /// Whether all angles are within their limits, the ends included; null: a rod does not reach, or the design limits no angle.
+    pub within_limits: Option<bool>,
+    /// The legs whose cranks are beyond their limits, from 1.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outside: Vec<usize>,
+    /// The cranks in leg order; none where a rod does not reach.
+    pub cranks: Vec<CrankRecord>,
+    /// Rows in leg order: speeds of the cranks, radians per second, from the velocity of the platform origin and the angular velocity in radians, base frame; null where a crank is singular, or a rod does not reach.
+    #[serde(rename = "J")]
+    pub jacobian: Option<[[Number; 6]; 6]>,
+    /// Smallest over largest singular value of the Jacobian of the rods on the tips, with moments over the characteristic length of the design: 1 at best, 0 at a singular pose; null: a rod does not reach.
+    pub inverse_condition: Option<Number>,
+    /// The torques of the cranks that hold each load at rest, where the design has loads.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub torques: Vec<CrankTorquesRecord>,
+    /// The least margin of each kind of requirement at this pose.
+    pub margins: Vec<PoseMarginRecord>,
+}
+
+/// A rod that does not reach from the circle of its crank to the platform joint.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OutOfReachRecord {
+    /// The leg, from 1.
+    pub leg: usize,
+    /// By how much the rod is too short, design units; negative where it is too long.
+    pub too_short_by: f64,
+}
+
+/// A side of a crank.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ElbowWord {
+    /// The greater of the two angles.
+    Plus,
+    /// The smaller one.
+    Minus,
+}
+
+impl From<Elbow> for ElbowWord {
+    fn from(elbow: Elbow) -> Self {
+        match elbow {
+            Elbow::Plus => Self::Plus,
+            Elbow::Minus => Self::Minus,
+        }
+    }
+}
+
+/// How a crank stands at a pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CrankRecord {
+    /// The side that the design keeps.
+    pub elbow: ElbowWord,
+    /// The angle on this side.
+    pub angle_deg: f64,
+    /// The angle on the other side.
+    pub other_angle_deg: f64,
+    /// What remains of the limits of the angle, negative beyond them; null: none.
+    pub limit_margin_deg: Option<f64>,
+    /// `u . (n x t)` of the unit vectors u along the rod, n along the axis and t along the crank, from -1 to 1: how directly the crank moves its rod. At 0 crank and rod are in one plane with the axis and the crank is singular.
+    pub transmission: f64,
+    /// How far the crank is from the angle at which both sides are one, which is singular: half the difference of both angles.
+    pub to_singular_deg: f64,
+    /// The tip of the crank, base frame.
+    pub tip: [f64; 3],
+}
+
+/// Torques that hold a load.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CrankTorquesRecord {
+    /// The load.
+    pub load: String,
+    /// Of the cranks about their axes, force units times design units; null at a singular pose.
+    pub torques: Option<[f64; 6]>,
+}
+
+impl RotaryIkRecord {
+    /// What is known at a pose of a design with these cranks.
+    #[must_use]
+    pub fn new(design: &Design, platform: &RotaryPlatform, pose: &Pose) -> Self {
+        let required = design.requirements();
+        let terms = Terms::new(design.manipulator(), &required, &design.home_or_default());
+        let mut out = Self {
+            line: None,
+            time: None,
+            pose: pose.into(),
+            angles_deg: None,
+            out_of_reach: None,
+            within_limits: None,
+            outside: Vec::new(),
+            cranks: Vec::new(),
+            jacobian: None,
+            inverse_condition: None,
+            torques: Vec::new(),
+            margins: PoseMarginRecord::all(design, &terms, pose),
+        };
+        match platform.both_angles(pose) {
+            Ok(both) => out.add(design, platform, pose, &both),
+            Err(missing) => {
+                out.out_of_reach = Some(OutOfReachRecord { leg: missing.leg + 1, too_short_by: missing.by });
+            }
+        }
+        out
+    }
+
+    fn add(&mut self, design: &Design, platform: &RotaryPlatform, pose: &Pose, both: &[CrankAngles; 6]) {
+        let legs = platform.legs();
+        let kept: [f64; 6] = std::array::from_fn(|i| platform.counted(i, both[i].of(legs[i].elbow)));
+        let other: [f64; 6] = std::array::from_fn(|i| platform.counted(i, both[i].of(legs[i].elbow.other())));
+        let (left, transmissions) = (platform.limit_margins(&kept), platform.transmissions(pose, &kept));
+        let crank = |i: usize| CrankRecord {
+            elbow: legs[i].elbow.into(),
+            angle_deg: kept[i].to_degrees(),
+            other_angle_deg: other[i].to_degrees(),
+            limit_margin_deg: legs[i].limits.map(|_| left[i].to_degrees()),
+            transmission: transmissions[i],
+            to_singular_deg: both[i].half.min(std::f64::consts::PI - both[i].half).to_degrees(),
+            tip: platform.tip(i, kept[i]).coords.into(),
+        };
+        self.cranks = (0..6).map(crank).collect();
+        self.angles_deg = Some(kept.map(f64::to_degrees));
+        self.outside = platform.beyond_limits(&kept);
+        if legs.iter().any(|leg| leg.limits.is_some()) {
+            self.within_limits = Some(self.outside.is_empty());
+        }
+        self.jacobian = platform
+            .crank_jacobian(pose, &kept)
+            .map(|rows| std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)]))));
+        // tips and joints that make no platform hold no pose
+        let scaled = platform.at(&kept).map(|m| jacobian(&m, pose, design.characteristic_length()));
+        self.inverse_condition = Some(Number(scaled.map_or(0.0, |rows| inverse_condition(&rows))));
+        for load in design.all_loads() {
+            let torques = platform.torques(pose, &kept, &load.wrench(pose));
+            self.torques.push(CrankTorquesRecord { load: load.name, torques });
+        }
+    }
+}

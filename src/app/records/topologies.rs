@@ -1,0 +1,176 @@
+//! Answers about the ways in which six legs can share joints.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{RearrangementRecord, TrilaterationStepRecord};
+use crate::fk::distance::ClosureDegrees;
+use crate::platform::topology::{JointIndex, NamedTopology, Sequence};
+
+/// The answer of `equivalents topologies`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TopologiesAnswer {
+    /// How many topologies can hold a platform.
+    #[schemars(extend("const" = 34))]
+    pub count: usize,
+    /// The topology of the design, where one is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub design: Option<RecognisedRecord>,
+    /// Their numbers by virtual legs; absent where a design is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by_virtual_legs: Option<VirtualLegsRecord>,
+    /// Random members solved of each.
+    pub members: u64,
+    /// The topologies.
+    pub topologies: Vec<TopologyRecord>,
+    /// What equivalent rearrangement can do for each, with `--rearrangements`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rearrangements: Option<Vec<RearrangementRecord>>,
+}
+
+/// The topology of a design.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RecognisedRecord {
+    /// The name of the design.
+    pub name: String,
+    /// T01 to T34.
+    pub id: String,
+    /// The name of the topology: numbers of base and platform joints.
+    pub topology: String,
+    /// Base and platform of the design are exchanged.
+    pub exchanged: bool,
+}
+
+/// Numbers of topologies by the virtual legs that trilateration needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct VirtualLegsRecord {
+    /// None.
+    #[serde(rename = "0")]
+    pub none: usize,
+    /// One, and the position of some joint is found before the others.
+    #[serde(rename = "1_decoupled")]
+    pub one_decoupled: usize,
+    /// One.
+    #[serde(rename = "1_coupled")]
+    pub one_coupled: usize,
+    /// Two.
+    #[serde(rename = "2")]
+    pub two: usize,
+    /// Three.
+    #[serde(rename = "3")]
+    pub three: usize,
+}
+
+impl VirtualLegsRecord {
+    /// The numbers of a list.
+    #[must_use]
+    pub fn of(list: &[NamedTopology]) -> Self {
+        let count = |legs: usize, decoupled: bool| {
+            let of = |t: &&NamedTopology| {
+                let t = t.topology();
+                t.trilateration().virtual_legs.len() == legs && t.is_decoupled() == decoupled
+            };
+            list.iter().filter(of).count()
+        };
+        Self {
+            none: count(0, false),
+            one_decoupled: count(1, true),
+            one_coupled: count(1, false),
+            two: count(2, false),
+            three: count(3, false),
+        }
+    }
+}
+
+/// One topology.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct TopologyRecord {
+    /// T01 to T34.
+    #[schemars(regex(pattern = r"^T(0[1-9]|[12][0-9]|3[0-4])$"))]
+    pub id: String,
+    /// Numbers of base and platform joints.
+    pub name: String,
+    /// Joints of the base.
+    pub base_joints: usize,
+    /// Joints of the platform.
+    pub platform_joints: usize,
+    /// Joints that hold more than one leg.
+    pub shared_joints: usize,
+    /// Base joint and platform joint of each leg.
+    pub legs: Vec<[String; 2]>,
+    /// Virtual legs that trilateration needs.
+    pub virtual_legs: usize,
+    /// Their joints.
+    pub virtual_leg_joints: Vec<[String; 2]>,
+    /// The position of some joint is found before the others.
+    pub decoupled: bool,
+    /// The joints of the first triangle.
+    pub start: [String; 3],
+    /// The trilaterations after it.
+    pub sequence: Vec<TrilaterationStepRecord>,
+    /// Finite poses of a random member, multiplicity included.
+    pub finite_roots: u32,
+    /// That number is proved.
+    pub finite_roots_proved: bool,
+    /// Degree of the closure polynomial; null with two or more virtual legs.
+    pub closure_degree: Option<usize>,
+    /// Its degree before singular factors are removed.
+    pub closure_degree_before: Option<usize>,
+    /// Its distinct roots.
+    pub closure_distinct_roots: Option<usize>,
+}
+
+/// What was computed for a topology.
+#[derive(Debug)]
+pub struct TopologyFindings<'a> {
+    /// The topology.
+    pub named: NamedTopology,
+    /// How its poses are found by trilateration.
+    pub sequence: &'a Sequence,
+    /// The position of some joint is found before the others.
+    pub decoupled: bool,
+    /// Finite poses of random members.
+    pub poses: u32,
+    /// That number is proved.
+    pub proved: bool,
+    /// Of the closure polynomial of a random member, where at most one virtual leg is needed.
+    pub closure: Option<&'a ClosureDegrees>,
+}
+
+impl From<&TopologyFindings<'_>> for TopologyRecord {
+    fn from(f: &TopologyFindings<'_>) -> Self {
+        let t = f.named.topology();
+        Self {
+            id: f.named.id(),
+            name: f.named.name(),
+            base_joints: t.base_joints(),
+            platform_joints: t.platform_joints(),
+            shared_joints: t.shared_joints(),
+            legs: joint_pairs(&t.legs()),
+            virtual_legs: f.sequence.virtual_legs.len(),
+            virtual_leg_joints: joint_pairs(&f.sequence.virtual_legs),
+            decoupled: f.decoupled,
+            start: f.sequence.start.map(joint_name),
+            sequence: f.sequence.steps.iter().map(|s| TrilaterationStepRecord::new(s, joint_name)).collect(),
+            finite_roots: f.poses,
+            finite_roots_proved: f.proved,
+            closure_degree: f.closure.map(|c| c.after),
+            closure_degree_before: f.closure.map(|c| c.before),
+            closure_distinct_roots: f.closure.map(|c| c.distinct),
+        }
+    }
+}
+
+fn joint_name(joint: JointIndex) -> String {
+    match joint {
+        JointIndex::Base(k) => format!("A{}", k + 1),
+        JointIndex::Platform(k) => format!("B{}", k + 1),
+    }
+}
+
+/// Names of the joints of legs.
+pub(super) fn joint_pairs(legs: &[(usize, usize)]) -> Vec<[String; 2]> {
+    legs.iter()
+        .map(|(a, b)| [joint_name(JointIndex::Base(*a)), joint_name(JointIndex::Platform(*b))])
+        .collect()
+}

@@ -1,0 +1,276 @@
+//! Answers on whether two designs are kinematically equivalent, with the evidence of both sides.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{CompletenessWord, ComplexRecord, FramesRecord, MapRecord, Number, PoseRecord, leg_number};
+use crate::fk::{FkSolutions, Method};
+use crate::platform::geom::{ComplexPose, SamplePlan};
+use crate::synthesis::LegMapOutcome;
+use crate::verify::{Counterexample, Sample, Verdict, Verification};
+
+/// The answer of `verify`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct VerifyAnswer {
+    /// The verdict.
+    pub verdict: VerdictWord,
+    /// One sentence with the numbers that decided.
+    pub explanation: String,
+    /// Whether the verdict is proved, in exact arithmetic on the leg vectors; `level` of the map says about which joints.
+    pub proved: bool,
+    /// The algebraic side; that of the designs as they are given where no motion was found.
+    pub map: MapRecord,
+    /// For each leg of B a bound of how far its squared length is from A s + c at all poses of `sampling`, design units squared, whatever the tolerance of the map; null where the map is proved, so that
+    /// there is no difference, where it is singular, and where no motion was found.
+    pub deviation_bounds: Option<[Number; 6]>,
+    /// The largest distance of matched poses over all samples; null where none were compared.
+    pub worst_distance: Option<Number>,
+    /// Poses without partner that were set aside: the rounding of the joints decides whether they exist. Absent where no motion was found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beyond_precision: Option<BeyondPrecisionRecord>,
+    /// The numerical side.
+    pub samples: Vec<SampleRecord>,
+    /// A pose that tells the designs apart.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub counterexample: Option<CounterexampleRecord>,
+    /// The box of random poses; absent where no motion was found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sampling: Option<SamplingRecord>,
+    /// What was done with the frames of the second design.
+    #[serde(flatten)]
+    pub frames: FramesRecord,
+}
+
+/// Whether two designs are kinematically equivalent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum VerdictWord {
+    /// They are.
+    Equivalent,
+    /// They are not.
+    NotEquivalent,
+    /// One of them is architecturally singular.
+    Singular,
+    /// Not decided.
+    Inconclusive,
+}
+
+impl VerdictWord {
+    /// The word.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Equivalent => "equivalent",
+            Self::NotEquivalent => "not_equivalent",
+            Self::Singular => "singular",
+            Self::Inconclusive => "inconclusive",
+        }
+    }
+}
+
+impl From<&Verdict> for VerdictWord {
+    fn from(v: &Verdict) -> Self {
+        match v {
+            Verdict::Equivalent => Self::Equivalent,
+            Verdict::NotEquivalent(_) => Self::NotEquivalent,
+            Verdict::Singular => Self::Singular,
+            Verdict::Inconclusive(_) => Self::Inconclusive,
+        }
+    }
+}
+
+impl VerifyAnswer {
+    /// The answer of a verification over the samples of a plan.
+    #[must_use]
+    pub fn new(v: &Verification, plan: &SamplePlan, frames: FramesRecord) -> Self {
+        let [a, b] = v.beyond_precision();
+        Self {
+            verdict: (&v.verdict).into(),
+            explanation: v.explanation(),
+            proved: v.proved(),
+            map: (&v.map).into(),
+            deviation_bounds: v.deviation_bounds.map(|bounds| bounds.map(Number)),
+            worst_distance: Some(Number(v.worst_distance())),
+            beyond_precision: Some(BeyondPrecisionRecord { a, b }),
+            samples: v.samples.iter().map(SampleRecord::from).collect(),
+            counterexample: match &v.verdict {
+                Verdict::NotEquivalent(Some(c)) => Some(c.as_ref().into()),
+                _ => None,
+            },
+            sampling: Some(plan.into()),
+            frames,
+        }
+    }
+
+    /// The answer where rigid motions were asked for, and there are none (`refuted`) or none were found.
+    #[must_use]
+    pub fn unaligned(map: &LegMapOutcome, refuted: bool, explanation: String, frames: FramesRecord) -> Self {
+        Self {
+            verdict: if refuted { VerdictWord::NotEquivalent } else { VerdictWord::Inconclusive },
+            explanation,
+            proved: false,
+            map: map.into(),
+            deviation_bounds: None,
+            worst_distance: None,
+            beyond_precision: None,
+            samples: Vec::new(),
+            counterexample: None,
+            sampling: None,
+            frames,
+        }
+    }
+}
+
+/// Numbers of poses that were set aside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct BeyondPrecisionRecord {
+    /// Of A.
+    pub a: usize,
+    /// Of B.
+    pub b: usize,
+}
+
+/// Both designs at one set of corresponding leg lengths.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SampleRecord {
+    /// Leg lengths of A, design units.
+    pub lengths_a: [Number; 6],
+    /// Leg lengths of B.
+    pub lengths_b: [Number; 6],
+    /// The poses of A.
+    pub a: SolvedSampleRecord,
+    /// The poses of B.
+    pub b: SolvedSampleRecord,
+    /// Pairs of poses.
+    pub matched: usize,
+    /// Poses of A without partner.
+    pub only_a: usize,
+    /// Poses of B without partner.
+    pub only_b: usize,
+    /// Poses of A that were set aside.
+    pub beyond_precision_a: usize,
+    /// Poses of B that were set aside.
+    pub beyond_precision_b: usize,
+    /// The largest distance of a pair.
+    pub worst_distance: Number,
+    /// Whether this sample speaks for equivalence.
+    pub agrees: bool,
+}
+
+impl From<&Sample> for SampleRecord {
+    fn from(s: &Sample) -> Self {
+        Self {
+            lengths_a: s.squares_a.lengths().get().map(Number),
+            lengths_b: s.squares_b.lengths().get().map(Number),
+            a: (&s.solutions_a).into(),
+            b: (&s.solutions_b).into(),
+            matched: s.matching.pairs.len(),
+            only_a: s.matching.only_a.len(),
+            only_b: s.matching.only_b.len(),
+            beyond_precision_a: s.matching.beyond_a.len(),
+            beyond_precision_b: s.matching.beyond_b.len(),
+            worst_distance: Number(s.matching.worst_distance()),
+            agrees: s.agrees(),
+        }
+    }
+}
+
+/// What forward kinematics found for one design at one set of lengths.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SolvedSampleRecord {
+    /// The method.
+    pub method: Method,
+    /// Whether these are known to be all poses.
+    pub completeness: CompletenessWord,
+    /// One sentence on what is known.
+    pub completeness_reason: String,
+    /// False: poses may be missing.
+    pub all_paths_accounted: bool,
+    /// Finite poses, real and complex.
+    pub finite_count: usize,
+    /// Real poses.
+    pub real_count: usize,
+    /// Poses with a certificate.
+    pub certified_count: usize,
+}
+
+impl From<&FkSolutions> for SolvedSampleRecord {
+    fn from(s: &FkSolutions) -> Self {
+        Self {
+            method: s.method,
+            completeness: (&s.completeness).into(),
+            completeness_reason: s.completeness.to_string(),
+            all_paths_accounted: s.all_accounted(),
+            finite_count: s.roots.len(),
+            real_count: s.assembly_modes().count(),
+            certified_count: s.roots.iter().filter(|r| r.certified()).count(),
+        }
+    }
+}
+
+/// A pose that belongs to the lengths of one design and not to those of the other.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CounterexampleRecord {
+    /// Index into `samples`, from 0.
+    pub sample: usize,
+    /// The design whose lengths the pose has: A or B.
+    #[schemars(extend("enum" = ["A", "B"]))]
+    pub solves: String,
+    /// The pose.
+    pub pose: ComplexRecord<PoseRecord>,
+    /// Whether a certificate proves the pose a solution of the one.
+    pub certified: bool,
+    /// The leg of the other design that is missed most, from 1.
+    pub leg: usize,
+    /// By how much its squared length is missed, relative to the squared size.
+    pub miss: Number,
+    /// Rounding to expect in this number.
+    pub rounding: Number,
+}
+
+impl From<&Counterexample> for CounterexampleRecord {
+    fn from(c: &Counterexample) -> Self {
+        Self {
+            sample: c.sample,
+            solves: c.solves.to_owned(),
+            pose: parts(&c.pose),
+            certified: c.certified(),
+            leg: leg_number(c.leg),
+            miss: Number(c.miss),
+            rounding: Number(c.rounding),
+        }
+    }
+}
+
+/// Real and imaginary part, each as a pose.
+fn parts(pose: &ComplexPose) -> ComplexRecord<PoseRecord> {
+    let part = |of: fn(&num_complex::Complex64) -> f64| PoseRecord {
+        rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| Number(of(&pose.rotation[(i, j)])))),
+        position: [0, 1, 2].map(|i| Number(of(&pose.position[i]))),
+    };
+    ComplexRecord { re: part(|z| z.re), im: part(|z| z.im) }
+}
+
+/// The random poses at which designs were compared.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SamplingRecord {
+    /// How many.
+    pub count: usize,
+    /// The middle of the box.
+    pub home_position: [f64; 3],
+    /// Half widths of the box of positions, design units.
+    pub translation_half_widths: [f64; 3],
+    /// Half widths of the box of rotation vectors.
+    pub rotation_half_widths_rad: [f64; 3],
+}
+
+impl From<&SamplePlan> for SamplingRecord {
+    fn from(plan: &SamplePlan) -> Self {
+        Self {
+            count: plan.count,
+            home_position: plan.home.position.into(),
+            translation_half_widths: plan.translation.into(),
+            rotation_half_widths_rad: plan.rotation.into(),
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Figures of a platform over many poses, for many platforms: each is what its definition says, and poses that cannot be the worst are passed over.
+
+use nalgebra::{Matrix6, Point3};
+
+use crate::platform::geom::{Pose, segment_distance};
+use crate::platform::manipulator::{Leg, Manipulator, inverse_condition, jacobian_of_legs};
+
+/// What rounding may take from the bounds below, as a share: they are products of some tens of operations, of matrices with condition numbers below `1 / ILL`.
+const ROUNDING: f64 = 1e-9;
+/// Below this the inverse has too few digits for a bound.
+const ILL: f64 = 1e-6;
+
+/// The least `sigma_6 / sigma_1` of the Jacobian over the poses, and the number of the first pose that has it; `None` without poses.
+///
+/// With `|.|` the Frobenius norm, `1 / (|J| |J^-1|)` is never above it and at most six times below, and `1 / (|(J^T J)^4| |(J J^T)^-4|)^(1/8)` at most 1.26 times.
+/// Poses are taken in the order of the first bound, those from the first one on whose bound exceeds the least value found are passed over, and so is any other
+/// whose second bound exceeds it.
+pub(super) fn worst_conditioning(
+    legs: &[Leg; 6],
+    poses: &[Pose],
+    characteristic_length: f64,
+) -> Option<(f64, usize)> {
+    let bounded = |(k, pose): (usize, &Pose)| {
+        let j = jacobian_of_legs(legs, pose, characteristic_length);
+        let inverse = j.try_inverse();
+        let bound = inverse.map_or(0.0, |inverse| (1.0 - ROUNDING) / (j.norm() * inverse.norm()));
+        if bound >= ILL { (bound, k, j, inverse) } else { (0.0, k, j, None) }
+    };
+    let bounds: Vec<_> = poses.iter().enumerate().map(bounded).collect();
+    let mut order: Vec<usize> = (0..poses.len()).collect();
+    order.sort_by(|&a, &b| bounds[a].0.total_cmp(&bounds[b].0).then(a.cmp(&b)));
+    let mut worst: Option<(f64, usize)> = None;
+    for (bound, k, j, inverse) in order.into_iter().map(|k| &bounds[k]) {
+        let passed_over = |least: f64| inverse.is_some_and(|inverse| close_bound(j, &inverse) > least);
+        match worst {
+            Some((least, _)) if *bound > least => break,
+            Some((least, _)) if passed_over(least) => continue,
+            _ => {}
+        }
+        let value = inverse_condition(j);
+        if worst.is_none_or(|(least, at)| value < least || value.to_bits() == least.to_bits() && *k < at) {
+            worst = Some((value, *k));
+        }
+    }
+    worst
+}
+
+/// A number that `sigma_6 / sigma_1` is not below, at most `6^(1/8)` times smaller; zero where there is none.
+fn close_bound(j: &Matrix6<f64>, inverse: &Matrix6<f64>) -> f64 {
+    // the sixteenth root of the sum of the sixteenth powers of the singular values is not below the largest
+    let largest = |m: &Matrix6<f64>| {
+        let scale = m.norm();
+        let gram = m.tr_mul(m) / (scale * scale);
+        let square = gram * gram;
+        scale * (square * square).norm().sqrt().sqrt().sqrt()
+    };
+    let bound = (1.0 - ROUNDING) / (largest(j) * largest(inverse));
+    if bound.is_finite() { bound } else { 0.0 }
+}
+
+/// The least distance over the poses of the axes of two legs that share no joint; `None` where every two share one.
+pub(super) fn least_axis_distance(m: &Manipulator, poses: &[Pose]) -> Option<f64> {
+    let (legs, pairs) = (m.legs(), m.pairs());
+    let apart: Vec<(usize, usize)> = (0..6)
+        .flat_map(|i| (i + 1..6).map(move |j| (i, j)))
+        .filter(|&(i, j)| pairs[i].0 != pairs[j].0 && pairs[i].1 != pairs[j].1)
+        .collect();
+    let mut least: Option<f64> = None;
+    for pose in poses {
+        let ends: [[Point3<f64>; 2]; 6] = legs.map(|l| [l.base, pose.transform(&l.platform)]);
+        for &(i, j) in &apart {
+            // segments are no nearer to each other than their lines
+            if least.is_none_or(|d| lines_apart(ends[i], ends[j]) <= d) {
+                let d = segment_distance(ends[i], ends[j]);
+                least = Some(least.map_or(d, |known| known.min(d)));
+            }
+        }
+    }
+    least
+}
+
+/// A number that the distance of two lines is not below; zero for parallel ones.
+fn lines_apart([p0, p1]: [Point3<f64>; 2], [q0, q1]: [Point3<f64>; 2]) -> f64 {
+    let normal = (p1 - p0).cross(&(q1 - q0));
+    let square = normal.norm_squared();
+    let apart = (q0 - p0).dot(&normal).abs() * (1.0 - ROUNDING);
+    if square > 0.0 { apart / square.sqrt() } else { 0.0 }
+}
+
+/// Least and greatest leg length over the poses.
+pub(super) fn length_range(legs: &[Leg; 6], poses: &[Pose]) -> Option<[f64; 2]> {
+    let all = poses.iter().flat_map(|pose| legs.map(|l| (pose.transform(&l.platform) - l.base).norm()));
+    all.fold(None, |range: Option<[f64; 2]>, l| {
+        Some(range.map_or([l, l], |[least, greatest]| [least.min(l), greatest.max(l)]))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::design::{Format, parse};
+    use crate::platform::manipulator::jacobian;
+
+    fn case() -> (Manipulator, Vec<Pose>) {
+        let text = include_str!("../../../designs/presets/bench-l16.toml");
+        let (design, _) = parse(text, Format::Toml).unwrap();
+        let poses = design.workspace_or_default().sample(&design.home_or_default());
+        (design.manipulator().clone(), poses)
+    }
+
+    #[test]
+    fn passing_over_poses_changes_nothing() {
+        let (m, poses) = case();
+        assert!(poses.len() > 10);
+        let length = m.platform_rms_radius();
+        let all: Vec<f64> = poses.iter().map(|p| inverse_condition(&jacobian(&m, p, length))).collect();
+        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+        let (value, k) = worst_conditioning(&m.legs(), &poses, length).unwrap();
+        assert_eq!((value.to_bits(), all[k].to_bits()), (least.to_bits(), least.to_bits()));
+        for (pose, value) in poses.iter().zip(&all) {
+            let j = jacobian(&m, pose, length);
+            let bound = close_bound(&j, &j.try_inverse().unwrap());
+            assert!(bound <= *value && bound >= value / 1.26);
+        }
+        assert!(worst_conditioning(&m.legs(), &[], length).is_none());
+        let shared = |i: usize, j: usize| {
+            let (a, b) = (m.pairs()[i], m.pairs()[j]);
+            a.0 == b.0 || a.1 == b.1
+        };
+        let pairs = |pose: &Pose| {
+            let ends = m.legs().map(|l| [l.base, pose.transform(&l.platform)]);
+            (0..6)
+                .flat_map(|i| (i + 1..6).map(move |j| (i, j)))
+                .filter(|(i, j)| !shared(*i, *j))
+                .map(|(i, j)| segment_distance(ends[i], ends[j]))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let least = poses.iter().map(pairs).fold(f64::INFINITY, f64::min);
+        assert_eq!(least_axis_distance(&m, &poses).map(f64::to_bits), Some(least.to_bits()));
+    }
+}

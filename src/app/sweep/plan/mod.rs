@@ -1,0 +1,447 @@
+//! The plan of a sweep: a base design, what varies, what is computed, what is kept.
+
+mod condition;
+mod place;
+mod read;
+#[cfg(test)]
+mod tests;
+mod values;
+
+use crate::files::design::Format;
+use crate::machine::manufacture::ErrorBound;
+use crate::platform::geom::Pose;
+
+pub(crate) use condition::KeepCondition;
+pub(crate) use place::BasePlan;
+pub(in crate::app::sweep) use read::pose_of;
+pub(crate) use read::{files_named, read};
+pub(crate) use values::{AxisValues, PlanAxis, PlanBlock, Spreading};
+
+use super::column::{CANDIDATE, ColumnKind, SweepColumn};
+
+/// Candidates of a plan, at most.
+const MOST_CANDIDATES: u64 = 1 << 53;
+
+/// What a plan says, checked against its base design.
+#[derive(Debug, Clone)]
+pub(crate) struct SweepPlan {
+    pub(crate) name: String,
+    pub(crate) description: Option<String>,
+    /// What varies; the candidates are all combinations of the candidates of the blocks.
+    pub(crate) blocks: Vec<PlanBlock>,
+    /// The poses over which figures are the worst ones.
+    pub(crate) poses: PoseChoice,
+    /// How requirements are assessed.
+    pub(crate) assess: AssessEffort,
+    /// The accuracy for which joints are toleranced.
+    pub(crate) accuracy: Option<ErrorBound>,
+    /// Steps of searches, at most.
+    pub(crate) steps: usize,
+    /// What is computed, in this order.
+    pub(crate) tasks: Vec<SweepTask>,
+    /// What has to hold for a row to be kept.
+    pub(crate) keep: Vec<KeepCondition>,
+}
+
+/// Where the base design of a plan is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum BaseName {
+    /// A file, relative to the plan.
+    File(String),
+    /// A preset of the program: name, text.
+    Preset(&'static str, &'static str),
+}
+
+/// The files that a plan names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct PlanFiles {
+    pub(crate) base: BaseName,
+    /// A table of drives, relative to the plan.
+    pub(crate) drives: Option<String>,
+}
+
+/// The text of a plan, in its notation.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlanText<'a> {
+    pub(crate) text: &'a str,
+    pub(crate) format: Format,
+}
+
+/// The poses over which figures are the worst ones.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum PoseChoice {
+    /// Home and the grid, the single poses and the trajectory of the workspace of the candidate.
+    Workspace,
+    /// Home alone.
+    Home,
+    /// Home, the corners of the region of the workspace, so many points of a Halton sequence in it and as many random ones.
+    Region(usize),
+    /// These, in the base frame.
+    Listed(Vec<Pose>),
+}
+
+/// How densely requirements are looked at, and how hard they are bounded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct AssessEffort {
+    pub(crate) points: usize,
+    pub(crate) searches: usize,
+    pub(crate) cells: usize,
+}
+
+impl Default for AssessEffort {
+    fn default() -> Self {
+        Self { points: 200, searches: 1, cells: 300 }
+    }
+}
+
+/// What a free quantity changes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum FreeQuantity {
+    /// The pattern of the equivalent platform.
+    Pattern,
+    /// The drive in all legs, from the table of the plan.
+    Drive,
+    /// Offset number so many of the pattern, from 0.
+    Offset(usize),
+    /// The length of a leg, from 0.
+    Length(usize),
+    /// A coordinate of the pose at which lengths are taken: position, then roll, pitch, yaw in degrees.
+    Pose(usize),
+    /// A number that stands at this place of the text of the base design.
+    Number(std::ops::Range<usize>),
+}
+
+/// Names of the coordinates of a pose.
+pub(crate) const POSE_COORDINATES: [&str; 6] = ["x", "y", "z", "roll_deg", "pitch_deg", "yaw_deg"];
+
+/// Something that is computed for each candidate.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum SweepTask {
+    /// `det A` of the leg map from the base design.
+    DetA,
+    /// The least inverse condition number over the poses.
+    Conditioning,
+    /// That at home.
+    HomeConditioning,
+    /// Least distances of two joints of a body.
+    Spacing,
+    /// How many joints carry more than one leg.
+    SharedJoints,
+    /// The least gap of two legs over the poses.
+    Clearance,
+    /// Least and greatest length over legs and poses.
+    LengthRange,
+    /// The six lengths at the pose of the candidate.
+    Lengths,
+    /// How many poses there are at the lengths of the candidate.
+    Poses,
+    /// These poses with their evidence, as JSON.
+    Solutions,
+    /// Margins of the requirements.
+    Margins,
+    /// What the table of drives says of the drive of the candidate.
+    Drive,
+    /// Architecturally singular or not.
+    Check,
+    /// The largest region without singular poses, in the shape of the workspace.
+    RegularBox,
+    /// How far joints may be off for the accuracy of the plan.
+    Tolerance,
+    /// The best equivalent or dimensioned platform.
+    Optimum,
+    /// The joints of the platform, three coordinates for each end of each leg.
+    Joints,
+    /// A platform with more real poses, from that of the candidate on.
+    Climb,
+    /// A field of the answer of a command.
+    Field(AnswerField),
+}
+
+/// A field of the answer of a command, as a column of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct AnswerField {
+    pub(crate) column: String,
+    pub(crate) answer: AnswerName,
+    /// The keys on the way to it; elements of lists by their number from 1.
+    pub(crate) path: Vec<String>,
+    pub(crate) kind: ColumnKind,
+    pub(crate) unit: Option<String>,
+}
+
+/// The commands whose answers have columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum AnswerName {
+    Assess,
+    Check,
+    Fk,
+}
+
+impl AnswerName {
+    pub(crate) const ALL: [Self; 3] = [Self::Assess, Self::Check, Self::Fk];
+
+    /// The command.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Assess => "assess",
+            Self::Check => "check",
+            Self::Fk => "fk",
+        }
+    }
+}
+
+/// The words for what is computed, with what they stand for.
+pub(crate) const TASK_WORDS: [(&str, SweepTask); 18] = [
+    ("det_a", SweepTask::DetA),
+    ("conditioning", SweepTask::Conditioning),
+    ("home_conditioning", SweepTask::HomeConditioning),
+    ("spacing", SweepTask::Spacing),
+    ("shared_joints", SweepTask::SharedJoints),
+    ("clearance", SweepTask::Clearance),
+    ("length_range", SweepTask::LengthRange),
+    ("lengths", SweepTask::Lengths),
+    ("poses", SweepTask::Poses),
+    ("solutions", SweepTask::Solutions),
+    ("margins", SweepTask::Margins),
+    ("drive", SweepTask::Drive),
+    ("check", SweepTask::Check),
+    ("regular_box", SweepTask::RegularBox),
+    ("tolerance", SweepTask::Tolerance),
+    ("optimum", SweepTask::Optimum),
+    ("joints", SweepTask::Joints),
+    ("climb", SweepTask::Climb),
+];
+
+impl SweepTask {
+    /// Whether it is about the lengths of the candidate.
+    pub(crate) fn needs_lengths(&self) -> bool {
+        match self {
+            Self::Lengths | Self::Poses | Self::Solutions | Self::Climb => true,
+            Self::Field(field) => field.answer == AnswerName::Fk,
+            _ => false,
+        }
+    }
+
+    /// The columns it fills, for a base design.
+    pub(crate) fn columns(&self, base: &BasePlan) -> Vec<SweepColumn> {
+        let units = base.design.units.as_str();
+        let number = SweepColumn::number;
+        match self {
+            Self::DetA => vec![number("det_a", None, "determinant of the leg map from the base design")],
+            Self::Conditioning => vec![
+                number("conditioning", None, "least sigma_6 / sigma_1 of the Jacobian over the poses"),
+                SweepColumn::new(
+                    "conditioning_pose",
+                    ColumnKind::Integer,
+                    None,
+                    "number of the pose where it is, from 0",
+                ),
+            ],
+            Self::HomeConditioning => {
+                vec![number("home_conditioning", None, "sigma_6 / sigma_1 of the Jacobian at home")]
+            }
+            Self::Spacing => vec![
+                number("base_spacing", Some(units), "least distance of two joint centres of the base"),
+                number(
+                    "platform_spacing",
+                    Some(units),
+                    "least distance of two joint centres of the platform",
+                ),
+            ],
+            Self::SharedJoints => vec![SweepColumn::new(
+                "shared_joints",
+                ColumnKind::Integer,
+                None,
+                "joints of base and platform that carry more than one leg",
+            )],
+            Self::Clearance => vec![number(
+                "clearance",
+                Some(units),
+                "least gap over the poses of two legs that share no joint: of the bodies where the design has them, else of the axes",
+            )],
+            Self::LengthRange => vec![
+                number("least_length", Some(units), "least leg length over legs and poses"),
+                number("greatest_length", Some(units), "greatest leg length over legs and poses"),
+            ],
+            Self::Lengths => (1..=6)
+                .map(|i| {
+                    number(&format!("length_{i}"), Some(units), "leg length at the pose of the candidate")
+                })
+                .collect(),
+            Self::Poses => vec![
+                SweepColumn::new(
+                    "finite_poses",
+                    ColumnKind::Integer,
+                    None,
+                    "finite poses found, real and complex",
+                ),
+                SweepColumn::new("real_poses", ColumnKind::Integer, None, "real poses among them"),
+                SweepColumn::new("certified_poses", ColumnKind::Integer, None, "those with a certificate"),
+                SweepColumn::new(
+                    "completeness",
+                    ColumnKind::Text,
+                    None,
+                    "proved, modular or unproved: whether these are all",
+                ),
+            ],
+            Self::Solutions => vec![SweepColumn::new(
+                "solutions",
+                ColumnKind::Text,
+                None,
+                "the answer of fk, as JSON: poses with their certificates",
+            )],
+            Self::Margins => {
+                let mut columns = vec![
+                    SweepColumn::new(
+                        "met",
+                        ColumnKind::Truth,
+                        None,
+                        "all requirements met; null: not decided",
+                    ),
+                    SweepColumn::new(
+                        "regular",
+                        ColumnKind::Truth,
+                        None,
+                        "no singular pose in the workspace; null: not decided",
+                    ),
+                ];
+                columns.extend(base.required_kinds().into_iter().map(|kind| {
+                    let unit = base.design.unit_of(kind.quantity());
+                    number(
+                        &format!("margin_{}", kind.code()),
+                        Some(&unit),
+                        "least margin found of this requirement",
+                    )
+                }));
+                columns
+            }
+            Self::Drive => {
+                let mass = base.design.drive_units().mass.label();
+                let price = base.drives.as_ref().and_then(|table| table.currency.as_deref());
+                vec![
+                    number("drive_stroke", Some(units), "travel of the drive"),
+                    number("drive_mass", Some(mass), "mass of one drive"),
+                    number("drive_price", price, "price of one drive"),
+                ]
+            }
+            Self::Check => vec![
+                SweepColumn::new(
+                    "singular",
+                    ColumnKind::Truth,
+                    None,
+                    "architecturally singular; null: within rounding",
+                ),
+                SweepColumn::new("singular_reason", ColumnKind::Text, None, "short code of the reason"),
+                number("singular_distance", Some(units), "no singular design is nearer"),
+                SweepColumn::new(
+                    "generic_poses",
+                    ColumnKind::Integer,
+                    None,
+                    "finite poses for generic leg lengths",
+                ),
+            ],
+            Self::RegularBox => vec![
+                number(
+                    "regular_box",
+                    None,
+                    "the region of the workspace about home, so many times as large, is proved to have no singular pose",
+                ),
+                number(
+                    "regular_box_limit",
+                    None,
+                    "so many times as large it is proved to have one; null: none was found",
+                ),
+            ],
+            Self::Tolerance => vec![number(
+                "tolerance",
+                Some(units),
+                "how far every joint centre may be off for the accuracy of the plan to be kept over the workspace",
+            )],
+            Self::Optimum => vec![
+                SweepColumn::new("optimum_status", ColumnKind::Text, None, "what became of the optimisation"),
+                number("optimum", None, "value of the first objective"),
+            ],
+            Self::Joints => (1..=6)
+                .flat_map(|leg| ["base", "platform"].map(|body| (leg, body)))
+                .flat_map(|(leg, body)| {
+                    ["x", "y", "z"].map(|axis| {
+                        number(
+                            &format!("{body}_{leg}_{axis}"),
+                            Some(units),
+                            "end of a leg in the frame of its body",
+                        )
+                    })
+                })
+                .collect(),
+            Self::Climb => {
+                let whole =
+                    |name: &str, meaning: &str| SweepColumn::new(name, ColumnKind::Integer, None, meaning);
+                let mut columns = vec![
+                    whole("began_real_poses", "real poses of the candidate"),
+                    whole("found_real_poses", "real poses of the platform found, each with a certificate"),
+                    whole(
+                        "found_finite_poses",
+                        "finite poses of it, real and complex, each with a certificate",
+                    ),
+                    SweepColumn::new("found_completeness", ColumnKind::Text, None, "whether these are all"),
+                    whole("climb_steps", "steps of the search"),
+                ];
+                for leg in 1..=6 {
+                    for end in ["base", "platform"]
+                        .iter()
+                        .flat_map(|b| ["x", "y", "z"].map(|a| format!("{b}_{leg}_{a}")))
+                    {
+                        columns.push(number(
+                            &format!("found_{end}"),
+                            Some(units),
+                            "end of a leg of it in the frame of its body",
+                        ));
+                    }
+                }
+                columns.extend(
+                    (1..=6)
+                        .map(|leg| number(&format!("found_length_{leg}"), Some(units), "leg length of it")),
+                );
+                columns
+            }
+            Self::Field(field) => {
+                let meaning =
+                    format!("field {} of the answer of {}", field.path.join("."), field.answer.name());
+                vec![SweepColumn::new(&field.column, field.kind, field.unit.as_deref(), &meaning)]
+            }
+        }
+    }
+}
+
+impl SweepPlan {
+    /// The number of candidates.
+    pub(crate) fn count(&self) -> u64 {
+        self.blocks.iter().map(|b| b.count).product()
+    }
+
+    /// Whether lengths or a pose vary from candidate to candidate while the platform stays the same.
+    pub(crate) fn platform_is_fixed(&self) -> bool {
+        !self
+            .quantities()
+            .any(|q| matches!(q, FreeQuantity::Pattern | FreeQuantity::Offset(_) | FreeQuantity::Number(_)))
+    }
+
+    /// Whether the text of the base design changes.
+    pub(crate) fn text_is_fixed(&self) -> bool {
+        !self.quantities().any(|q| matches!(q, FreeQuantity::Number(_)))
+    }
+
+    /// Everything that varies.
+    pub(crate) fn quantities(&self) -> impl Iterator<Item = &FreeQuantity> {
+        self.blocks.iter().flat_map(|b| b.axes.iter().map(|a| &a.quantity))
+    }
+
+    /// All columns of the table: the number of the candidate, what varies, what is computed, the error.
+    pub(crate) fn columns(&self, base: &BasePlan) -> Vec<SweepColumn> {
+        let mut columns =
+            vec![SweepColumn::new(CANDIDATE, ColumnKind::Integer, None, "number of the candidate, from 0")];
+        columns.extend(self.blocks.iter().flat_map(|b| b.axes.iter().map(|a| a.column.clone())));
+        columns.extend(self.tasks.iter().flat_map(|task| task.columns(base)));
+        columns.push(SweepColumn::new("error", ColumnKind::Text, None, "why the rest of the row is empty"));
+        columns
+    }
+}

@@ -1,0 +1,141 @@
+//! What the free quantities of candidate `k` are.
+
+use super::{FreeQuantity, SweepPlan};
+use crate::app::sweep::column::{SweepCell, SweepColumn};
+use crate::app::sweep::sample::{PointPlace, PointSpread};
+
+/// Quantities that vary together.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PlanBlock {
+    pub(crate) spreading: Spreading,
+    /// Candidates of the block.
+    pub(crate) count: u64,
+    pub(crate) axes: Vec<PlanAxis>,
+}
+
+/// How the candidates of a block follow one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Spreading {
+    /// All combinations, the last axis fastest.
+    Grid,
+    /// Candidate `j` has element `j` of each list.
+    List,
+    /// Points of the unit cube.
+    Points(PointSpread),
+}
+
+/// A free quantity with its values.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PlanAxis {
+    pub(crate) quantity: FreeQuantity,
+    pub(crate) column: SweepColumn,
+    pub(crate) values: AxisValues,
+}
+
+/// The values of a quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum AxisValues {
+    /// From one number to another, with steps of the same size or, on a logarithmic scale, of the same ratio; `count` values on a grid.
+    Range { from: f64, to: f64, logarithmic: bool, count: u64 },
+    /// These numbers.
+    Numbers(Vec<f64>),
+    /// These texts.
+    Words(Vec<String>),
+}
+
+impl AxisValues {
+    /// How many values a grid or a list takes from it.
+    pub(crate) fn len(&self) -> u64 {
+        match self {
+            Self::Range { count, .. } => *count,
+            Self::Numbers(list) => list.len() as u64,
+            Self::Words(list) => list.len() as u64,
+        }
+    }
+
+    /// Value `i` of those.
+    fn at(&self, i: u64) -> SweepCell {
+        match self {
+            Self::Range { count, to, .. } if i + 1 == *count && i > 0 => SweepCell::Number(*to),
+            Self::Range { count, .. } => self.within(i as f64 / count.saturating_sub(1).max(1) as f64),
+            Self::Numbers(list) => SweepCell::Number(list[i as usize]),
+            Self::Words(list) => SweepCell::Text(list[i as usize].clone()),
+        }
+    }
+
+    /// The value at `u` in `[0, 1)`: of a list the element in whose equal share of the interval `u` is.
+    fn within(&self, u: f64) -> SweepCell {
+        let element = |n: usize| ((u * n as f64) as usize).min(n - 1);
+        match self {
+            Self::Range { from, to, logarithmic: false, .. } => SweepCell::Number(from + (to - from) * u),
+            Self::Range { from, to, .. } => SweepCell::Number(from * (to / from).powf(u)),
+            Self::Numbers(list) => SweepCell::Number(list[element(list.len())]),
+            Self::Words(list) => SweepCell::Text(list[element(list.len())].clone()),
+        }
+    }
+}
+
+impl PlanBlock {
+    /// The values of candidate `j` of the block.
+    fn values(&self, (seed, block): (u64, usize), mut j: u64, out: &mut Vec<SweepCell>) {
+        match self.spreading {
+            Spreading::List => out.extend(self.axes.iter().map(|a| a.values.at(j))),
+            Spreading::Grid => {
+                let first = out.len();
+                for axis in self.axes.iter().rev() {
+                    out.push(axis.values.at(j % axis.values.len()));
+                    j /= axis.values.len();
+                }
+                out[first..].reverse();
+            }
+            Spreading::Points(spread) => {
+                let place = PointPlace { seed, block: block as u64, count: self.count };
+                let point = place.point(spread, j, self.axes.len());
+                out.extend(self.axes.iter().zip(point).map(|(axis, u)| axis.values.within(u)));
+            }
+        }
+    }
+
+    /// Whether offsets from number `used` on have their first values in candidate `j` of the block: those of a grid each by itself, those of lists and points where nothing else varies
+    /// with them.
+    fn has_first_of_unused(&self, used: usize, mut j: u64) -> bool {
+        let unused = |axis: &PlanAxis| matches!(axis.quantity, FreeQuantity::Offset(i) if i >= used);
+        if self.spreading != Spreading::Grid {
+            return j == 0 || !self.axes.iter().all(unused);
+        }
+        self.axes.iter().rev().all(|axis| {
+            let at = j % axis.values.len();
+            j /= axis.values.len();
+            at == 0 || !unused(axis)
+        })
+    }
+}
+
+impl SweepPlan {
+    /// Candidate `j` of each block, the last one the fastest, that candidate `k` is made of.
+    fn of_blocks(&self, k: u64) -> Vec<u64> {
+        let mut numbers = vec![0; self.blocks.len()];
+        let mut rest = k;
+        for (number, block) in numbers.iter_mut().zip(&self.blocks).rev() {
+            *number = rest % block.count;
+            rest /= block.count;
+        }
+        numbers
+    }
+
+    /// Whether candidate `k` is the first of those that differ only in offsets from number `used` on, as far as blocks tell: of points that mix them with other quantities all are.
+    pub(crate) fn has_first_of_unused(&self, k: u64, used: usize) -> bool {
+        self.blocks.iter().zip(self.of_blocks(k)).all(|(block, j)| block.has_first_of_unused(used, j))
+    }
+
+    /// The values of the free quantities of candidate `k`, in the order of their columns: candidate `j` of each block, of which the last one is the fastest.
+    ///
+    /// They depend on the plan, the seed and `k` alone.
+    pub(crate) fn values(&self, seed: u64, k: u64) -> Vec<SweepCell> {
+        let mut out = Vec::new();
+        for (b, (block, j)) in self.blocks.iter().zip(self.of_blocks(k)).enumerate() {
+            block.values((seed, b), j, &mut out);
+        }
+        out
+    }
+}

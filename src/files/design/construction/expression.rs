@@ -1,0 +1,475 @@
+//! Small arithmetic expressions: `sqrt(3)*r/2 - 1.5`.
+//!
+//! ```text
+//! sum     = product { ("+" | "-") product }
+//! product = signed { ("*" | "/") signed }
+//! signed  = { "+" | "-" } power
+//! power   = atom [ "^" [ "-" ] digits ]
+//! atom    = decimal | name | function "(" sum ")" | "(" sum ")"
+//! ```
+
+use std::ops::Range;
+
+use crate::num::exact::{Rational, decimal};
+use crate::num::real::{NoReal, RealNumber};
+
+/// Most bytes of an expression.
+const MAX_LENGTH: usize = 2000;
+/// Most signs and parentheses inside one another.
+const MAX_DEPTH: usize = 24;
+/// Greatest exponent of a decimal, and of a power.
+const MAX_EXPONENT: u32 = 100;
+
+/// The functions of one number.
+const FUNCTIONS: [(&str, Function); 3] =
+    [("sqrt", Function::Sqrt), ("sin_deg", Function::SinDeg), ("cos_deg", Function::CosDeg)];
+
+/// Names of the functions.
+pub(in crate::files::design) fn function_names() -> [&'static str; 3] {
+    FUNCTIONS.map(|f| f.0)
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Function {
+    Sqrt,
+    SinDeg,
+    CosDeg,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Operator {
+    Plus,
+    Minus,
+    Times,
+    Over,
+}
+
+/// An expression, or a part of one, with its place in the text.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::files::design) struct Expression {
+    place: Range<usize>,
+    part: Part,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Part {
+    Decimal(Rational),
+    Name(String),
+    Negative(Box<Expression>),
+    /// From left to right: long sums are not deep.
+    Chain(Box<Expression>, Vec<(Operator, Expression)>),
+    Power(Box<Expression>, i32),
+    Of(Function, Box<Expression>),
+}
+
+/// What is wrong with a text that is no expression, and where in it.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::files::design) struct Slip {
+    pub(in crate::files::design) place: Range<usize>,
+    pub(in crate::files::design) message: String,
+    /// The text is too long or nested too deep.
+    pub(in crate::files::design) too_complex: bool,
+}
+
+/// An operation without a result, and where in the text it stands.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::files::design) struct Stuck {
+    pub(in crate::files::design) place: Range<usize>,
+    pub(in crate::files::design) why: Unsolved,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::files::design) enum Unsolved {
+    NoReal(NoReal),
+    /// No value belongs to this name.
+    Name(String),
+    /// The value of the name is not known because of another fault, which is reported in its place.
+    Poisoned,
+}
+
+/// A name as expressions can use it: letters, digits and underscores, not a digit first, and no function.
+pub(in crate::files::design) fn is_name(text: &str) -> bool {
+    text.len() <= 60
+        && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        && !function_names().contains(&text)
+}
+
+impl Expression {
+    pub(in crate::files::design) fn parse(text: &str) -> Result<Self, Slip> {
+        if text.len() > MAX_LENGTH {
+            let message = format!("the expression is longer than {MAX_LENGTH} characters");
+            return Err(Slip { place: 0..text.len(), message, too_complex: true });
+        }
+        let mut reader = Reader { text, at: 0, depth: 0 };
+        let whole = reader.sum()?;
+        reader.skip_blanks();
+        match reader.rest().chars().next() {
+            None => Ok(whole),
+            Some(c) => {
+                let message = format!("`{}` is out of place in the expression", c.escape_debug());
+                Err(Slip { place: reader.at..reader.at + c.len_utf8(), message, too_complex: false })
+            }
+        }
+    }
+
+    /// The names in it.
+    pub(in crate::files::design) fn names(&self) -> Vec<&str> {
+        match &self.part {
+            Part::Decimal(_) => Vec::new(),
+            Part::Name(name) => vec![name],
+            Part::Negative(x) | Part::Power(x, _) | Part::Of(_, x) => x.names(),
+            Part::Chain(first, rest) => {
+                first.names().into_iter().chain(rest.iter().flat_map(|(_, x)| x.names())).collect()
+            }
+        }
+    }
+
+    /// The value of a decimal with or without a sign.
+    pub(in crate::files::design) fn decimal(&self) -> Option<Rational> {
+        match &self.part {
+            Part::Decimal(x) => Some(x.clone()),
+            Part::Negative(x) => x.decimal().map(|x| -x),
+            _ => None,
+        }
+    }
+
+    /// Its operations, square roots counted as many.
+    pub(in crate::files::design) fn work(&self) -> usize {
+        match &self.part {
+            Part::Decimal(_) | Part::Name(_) => 1,
+            Part::Negative(x) => x.work(),
+            Part::Power(x, _) => x.work() + 10,
+            Part::Of(_, x) => x.work() + 20,
+            Part::Chain(first, rest) => first.work() + rest.iter().map(|(_, x)| 1 + x.work()).sum::<usize>(),
+        }
+    }
+
+    /// The value, with that of the names from outside.
+    pub(in crate::files::design) fn value(
+        &self,
+        named: &dyn Fn(&str) -> Result<RealNumber, Unsolved>,
+    ) -> Result<RealNumber, Stuck> {
+        let stuck = |place: &Range<usize>, why| Stuck { place: place.clone(), why };
+        let here = |why: NoReal| stuck(&self.place, Unsolved::NoReal(why));
+        match &self.part {
+            Part::Decimal(x) => RealNumber::rational(x).map_err(here),
+            Part::Name(name) => named(name).map_err(|why| stuck(&self.place, why)),
+            Part::Negative(x) => Ok(x.value(named)?.negated()),
+            Part::Power(x, n) => x.value(named)?.power(*n).map_err(here),
+            Part::Of(function, x) => {
+                let x = x.value(named)?;
+                match function {
+                    Function::Sqrt => x.sqrt(),
+                    Function::SinDeg => x.turn().map(|t| t.1),
+                    Function::CosDeg => x.turn().map(|t| t.0),
+                }
+                .map_err(here)
+            }
+            Part::Chain(first, rest) => {
+                let mut x = first.value(named)?;
+                for (operator, other) in rest {
+                    let y = other.value(named)?;
+                    // the divisor is what is wrong with a division
+                    let from = if *operator == Operator::Over { other } else { &**first };
+                    let stuck = |why| stuck(&(from.place.start..other.place.end), Unsolved::NoReal(why));
+                    x = match operator {
+                        Operator::Plus => x.plus(&y),
+                        Operator::Minus => x.minus(&y),
+                        Operator::Times => x.times(&y),
+                        Operator::Over => x.over(&y),
+                    }
+                    .map_err(stuck)?;
+                }
+                Ok(x)
+            }
+        }
+    }
+}
+
+struct Reader<'t> {
+    text: &'t str,
+    at: usize,
+    depth: usize,
+}
+
+impl<'t> Reader<'t> {
+    fn rest(&self) -> &'t str {
+        &self.text[self.at..]
+    }
+
+    fn skip_blanks(&mut self) {
+        self.at += self.rest().len() - self.rest().trim_start().len();
+    }
+
+    /// Takes one of the characters if it is next.
+    fn take(&mut self, any: &[char]) -> Option<char> {
+        self.skip_blanks();
+        let c = self.rest().chars().next().filter(|c| any.contains(c))?;
+        self.at += c.len_utf8();
+        Some(c)
+    }
+
+    /// The longest run of such characters.
+    fn run(&mut self, kind: impl Fn(char) -> bool) -> &'t str {
+        let rest = self.rest();
+        let run = &rest[..rest.find(|c| !kind(c)).unwrap_or(rest.len())];
+        self.at += run.len();
+        run
+    }
+
+    fn slip<T>(&self, from: usize, message: impl Into<String>) -> Result<T, Slip> {
+        Err(Slip { place: from..self.at.max(from), message: message.into(), too_complex: false })
+    }
+
+    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Slip>) -> Result<T, Slip> {
+        if self.depth == MAX_DEPTH {
+            let message = format!("more than {MAX_DEPTH} signs and parentheses stand inside one another");
+            return Err(Slip { place: self.at..self.at, message, too_complex: true });
+        }
+        self.depth += 1;
+        let read = read(self);
+        self.depth -= 1;
+        read
+    }
+
+    fn chain(
+        &mut self,
+        signs: [(char, Operator); 2],
+        mut next: impl FnMut(&mut Self) -> Result<Expression, Slip>,
+    ) -> Result<Expression, Slip> {
+        let first = next(self)?;
+        let mut rest = Vec::new();
+        while let Some(sign) = self.take(&signs.map(|s| s.0)) {
+            let operator = if sign == signs[0].0 { signs[0].1 } else { signs[1].1 };
+            rest.push((operator, next(self)?));
+        }
+        Ok(match rest.last() {
+            None => first,
+            Some((_, last)) => Expression {
+                place: first.place.start..last.place.end,
+                part: Part::Chain(Box::new(first), rest),
+            },
+        })
+    }
+
+    fn sum(&mut self) -> Result<Expression, Slip> {
+        self.chain([('+', Operator::Plus), ('-', Operator::Minus)], Self::product)
+    }
+
+    fn product(&mut self) -> Result<Expression, Slip> {
+        self.chain([('*', Operator::Times), ('/', Operator::Over)], Self::signed)
+    }
+
+    fn signed(&mut self) -> Result<Expression, Slip> {
+        self.skip_blanks();
+        let from = self.at;
+        match self.take(&['+', '-']) {
+            None => self.power(),
+            Some(sign) => {
+                let inner = self.deeper(Self::signed)?;
+                let place = from..inner.place.end;
+                let part = if sign == '-' { Part::Negative(Box::new(inner)) } else { inner.part };
+                Ok(Expression { place, part })
+            }
+        }
+    }
+
+    fn power(&mut self) -> Result<Expression, Slip> {
+        let root = self.atom()?;
+        if self.take(&['^']).is_none() {
+            return Ok(root);
+        }
+        self.skip_blanks();
+        let from = self.at;
+        let negative = self.take(&['-']).is_some();
+        let digits = self.run(|c| c.is_ascii_digit());
+        let exponent = digits.parse::<u32>().ok().filter(|n| *n <= MAX_EXPONENT);
+        let Some(n) = exponent.and_then(|n| i32::try_from(n).ok()) else {
+            let wanted = format!("an exponent is an integer from -{MAX_EXPONENT} to {MAX_EXPONENT}");
+            return self.slip(from, wanted);
+        };
+        let n = if negative { -n } else { n };
+        Ok(Expression { place: root.place.start..self.at, part: Part::Power(Box::new(root), n) })
+    }
+
+    fn atom(&mut self) -> Result<Expression, Slip> {
+        self.skip_blanks();
+        let from = self.at;
+        if self.take(&['(']).is_some() {
+            let inner = self.deeper(Self::sum)?;
+            return self.closed(from, inner.part);
+        }
+        if self.rest().starts_with(|c: char| c.is_ascii_digit() || c == '.') {
+            return self.decimal();
+        }
+        let word = self.run(|c| c.is_ascii_alphanumeric() || c == '_');
+        if word.is_empty() {
+            let found = self.rest().chars().next();
+            let end = from + found.map_or(0, char::len_utf8);
+            let found = found.map_or("the end".to_string(), |c| format!("`{}`", c.escape_debug()));
+            let message = format!("a number, a name or a parenthesis is missing before {found}");
+            return Err(Slip { place: from..end, message, too_complex: false });
+        }
+        let named = Expression { place: from..self.at, part: Part::Name(word.to_string()) };
+        if self.take(&['(']).is_none() {
+            return Ok(named);
+        }
+        let Some((_, function)) = FUNCTIONS.iter().find(|f| f.0 == word) else {
+            let message = format!("there is no function `{word}`, only {}", function_names().join(", "));
+            return Err(Slip { place: named.place, message, too_complex: false });
+        };
+        let argument = self.deeper(Self::sum)?;
+        self.closed(from, Part::Of(*function, Box::new(argument)))
+    }
+
+    fn closed(&mut self, from: usize, part: Part) -> Result<Expression, Slip> {
+        if self.take(&[')']).is_none() {
+            return self.slip(from, "a parenthesis is not closed");
+        }
+        Ok(Expression { place: from..self.at, part })
+    }
+
+    /// `12`, `0.5`, `1.5e-3`: the decimal that is written.
+    fn decimal(&mut self) -> Result<Expression, Slip> {
+        let from = self.at;
+        let digit = |c: char| c.is_ascii_digit();
+        let whole = self.run(digit);
+        let fraction = if self.rest().starts_with('.') {
+            self.at += 1;
+            self.run(digit)
+        } else {
+            ""
+        };
+        let mut exponent = 0i64;
+        let mark = self.at;
+        if self.rest().starts_with(['e', 'E']) {
+            self.at += 1;
+            let negative = self.rest().starts_with('-');
+            if self.rest().starts_with(['-', '+']) {
+                self.at += 1;
+            }
+            let digits = self.run(digit);
+            let limit = |n: &u32| *n <= MAX_EXPONENT;
+            let Some(n) = digits.parse::<u32>().ok().filter(limit) else {
+                return self.slip(mark, format!("the exponent of a decimal is at most {MAX_EXPONENT}"));
+            };
+            exponent = if negative { -i64::from(n) } else { i64::from(n) };
+        }
+        let exponent = exponent - i64::try_from(fraction.len()).unwrap_or(0);
+        let Some(value) = decimal(&format!("{whole}{fraction}"), exponent) else {
+            return self.slip(from, "this is not a decimal number");
+        };
+        Ok(Expression { place: from..self.at, part: Part::Decimal(value) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn value(text: &str) -> Result<RealNumber, String> {
+        let parsed = Expression::parse(text).map_err(|slip| format!("{:?} {}", slip.place, slip.message))?;
+        let named = |name: &str| match name {
+            "r" => Ok(RealNumber::integer(6)),
+            "h_1" => Ok(RealNumber::integer(-2)),
+            _ => Err(Unsolved::Name(name.to_string())),
+        };
+        parsed.value(&named).map_err(|stuck| format!("{:?} {:?}", stuck.place, stuck.why))
+    }
+
+    fn shown(text: &str) -> String {
+        match value(text) {
+            Ok(RealNumber::Exact(x)) => x.to_string(),
+            Ok(RealNumber::Within(_)) => "within".to_string(),
+            Err(why) => why,
+        }
+    }
+
+    #[test]
+    fn values_follow_the_usual_precedence() {
+        for (text, expected) in [
+            ("1/3", "1/3"),
+            ("0.1", "1/10"),
+            ("1.5e-3", "3/2000"),
+            ("2e2", "200"),
+            ("1 - 2 - 3", "-4"),
+            ("8/2/2", "2"),
+            ("2 + 3*4^2", "50"),
+            ("-2^2", "-4"),
+            ("(-2)^2", "4"),
+            ("2^-2", "1/4"),
+            ("--r", "6"),
+            ("r*sqrt(3)", "6*sqrt(3)"),
+            ("sqrt( 12 )/h_1", "-sqrt(3)"),
+            ("sqrt(8 + 4*sqrt(3))", "sqrt(2) + sqrt(6)"),
+            ("1/(1 + sqrt(2))", "-1 + sqrt(2)"),
+            ("cos_deg(30)", "sqrt(3)/2"),
+            ("sin_deg(-150)", "-1/2"),
+            ("cos_deg(75)*4", "-sqrt(2) + sqrt(6)"),
+            ("sqrt(3 + sqrt(2))", "within"),
+            ("cos_deg(80)", "cos_deg(80)"),
+            ("cos_deg(7)", "within"),
+            ("sqrt(2 + sqrt(2))", "2*cos_deg(22.5)"),
+            ("sqrt(10 - 2*sqrt(5))/4 - sin_deg(36)", "0"),
+            (".5", "1/2"),
+        ] {
+            assert_eq!(shown(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn slips_are_named_where_they_are() {
+        for (text, expected) in [
+            ("", "0..0 a number, a name or a parenthesis is missing before the end"),
+            ("1 +", "3..3 a number, a name or a parenthesis is missing before the end"),
+            ("1 + * 2", "4..5 a number, a name or a parenthesis is missing before `*`"),
+            ("2 r", "2..3 `r` is out of place in the expression"),
+            ("(1 + 2", "0..6 a parenthesis is not closed"),
+            ("1)", "1..2 `)` is out of place in the expression"),
+            ("root(2)", "0..4 there is no function `root`, only sqrt, sin_deg, cos_deg"),
+            ("2^r", "2..2 an exponent is an integer from -100 to 100"),
+            ("2^1000", "2..6 an exponent is an integer from -100 to 100"),
+            ("1e999999999999", "1..14 the exponent of a decimal is at most 100"),
+            (".", "0..1 this is not a decimal number"),
+            ("\u{3c0}", "0..2 a number, a name or a parenthesis is missing before `\u{3c0}`"),
+            ("1/(r - 6)", "2..9 NoReal(DivisionByZero)"),
+            ("2*sqrt(h_1)", "2..11 NoReal(NegativeRoot)"),
+            ("r + s", "4..5 Name(\"s\")"),
+        ] {
+            assert_eq!(shown(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn hostile_texts_are_refused_before_they_cost_anything() {
+        for text in
+            ["(".repeat(1900), "-".repeat(1900), "1+".repeat(4000), format!("{}2", "sqrt(".repeat(35))]
+        {
+            let slip = Expression::parse(&text).unwrap_err();
+            assert!(slip.too_complex, "{}", slip.message);
+        }
+        assert!(value(&format!("{}1", "1+".repeat(999))).is_ok(), "a long sum is not deep");
+        // as much arithmetic as fits
+        assert!(value(&format!("{}1", "9e9*".repeat(49))).is_ok());
+        assert!(value(&format!("{}1", "9e99*".repeat(39))).is_err());
+        assert!(value(&format!("{}1", "9e-99^100*".repeat(19))).is_err());
+        assert!(value("(sqrt(2)+sqrt(3)+sqrt(5)+sqrt(7)+sqrt(11)+sqrt(13))^100").is_ok());
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_makes_it_panic(text in "[-+*/^()0-9.er sqrt_deg\u{e9}]{0,40}") {
+            let _ = value(&text);
+        }
+
+        #[test]
+        fn what_a_number_is_written_as_reads_back(n in -50i64..50, d in 1i64..20, k in 1i64..30) {
+            let text = format!("{n}/{d} + {d}*sqrt({k})/7");
+            let x = value(&text).unwrap();
+            prop_assert_eq!(value(&x.exact().unwrap().to_string()).unwrap(), x);
+        }
+    }
+}

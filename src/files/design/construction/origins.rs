@@ -1,0 +1,124 @@
+//! Constructions of a design whose joints come from those of another.
+
+use super::resolve::on_line;
+use super::{Construction, Constructions, LinePlace, RealPoint, WrittenHome, WrittenNumber};
+use crate::files::design::Design;
+use crate::num::real::RealNumber;
+use crate::platform::manipulator::Body;
+
+/// Where a joint comes from, in the joints of the same body of the design before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Origin {
+    /// It is this joint.
+    Kept(usize),
+    /// It is on the line of two of them, at this share of the way.
+    Between([usize; 2], f64),
+    /// It is given by its coordinates alone.
+    New,
+}
+
+impl Design {
+    /// The same with the constructions of the joints it has from another design, and with those of joints on the lines of its joints.
+    ///
+    /// What a construction starts from may be missing here; the joint is then given by its exact coordinates, and by three doubles where those are not known as
+    /// a short expression. So is a joint that is elsewhere now.
+    pub(crate) fn constructed_from(self, old: &Self, origins: [&[Origin]; 2]) -> Self {
+        let mut made = Constructions::default();
+        for body in Body::BOTH {
+            let list = self.carried(old, body, origins[body.index()]);
+            made.joints[body.index()] = if list.iter().all(Option::is_none) { Vec::new() } else { list };
+        }
+        made.home = old.written_home().filter(|written| self.home == Some(written.pose)).cloned();
+        let used = |(_, q): (usize, &WrittenNumber)| !q.expression().names().is_empty();
+        let mut all = made.joints.iter().flatten().flatten().flat_map(Construction::quantities);
+        if all.any(used) || made.home.iter().flat_map(WrittenHome::quantities).any(used) {
+            made.parameters.clone_from(&old.constructions.parameters);
+        }
+        if made.is_empty() {
+            return self;
+        }
+        // what cannot be built any more stays with its three numbers
+        self.clone().with_constructions(made).unwrap_or(self)
+    }
+
+    /// The same with the joints of a body at these decimals, in their order; a body without a list stays as it is.
+    pub(crate) fn at_decimals(self, decimals: [Option<&[[String; 3]]>; 2]) -> Self {
+        let mut made = self.current_constructions();
+        for (own, list) in made.joints.iter_mut().zip(decimals) {
+            let number = |text: &String| WrittenNumber::text(text).ok();
+            let joint = |[x, y, z]: &[String; 3]| {
+                Some(Construction::Coordinates([number(x)?, number(y)?, number(z)?]))
+            };
+            if let Some(list) = list {
+                *own = list.iter().map(joint).collect();
+            }
+        }
+        self.clone().with_constructions(made).unwrap_or(self)
+    }
+
+    /// The design with base and platform exchanged, as which this one has been built: joints keep their constructions.
+    pub(crate) fn exchanged_from(self, old: &Self) -> Self {
+        let mut made = old.constructions.clone();
+        made.joints.swap(0, 1);
+        made.home = None; // of the other body
+        self.clone().with_constructions(made).unwrap_or(self)
+    }
+
+    fn carried(&self, old: &Self, body: Body, origins: &[Origin]) -> Vec<Option<Construction>> {
+        let (m, before) = (self.manipulator(), old.manipulator());
+        let points = body.of((m.base_joints(), m.platform_joints()));
+        let old_points = body.of((before.base_joints(), before.platform_joints()));
+        let exact = old.exact_points(body);
+        // a joint of before, where it was
+        let stayed = |new: usize, joint: usize| points[new] == old_points[joint];
+        let place = |joint: usize| {
+            origins.iter().enumerate().position(|(new, o)| *o == Origin::Kept(joint) && stayed(new, joint))
+        };
+        let one = |(new, origin): (usize, &Origin)| -> Option<Construction> {
+            match *origin {
+                Origin::New => None,
+                Origin::Kept(joint) if !stayed(new, joint) => None,
+                Origin::Kept(joint) => {
+                    let own = old.constructions.of(body, joint)?;
+                    own.moved(&place).or_else(|| coordinates(&exact[joint]))
+                }
+                Origin::Between(ends, t) => {
+                    let share = LinePlace::Share(WrittenNumber::shortest(t)?);
+                    let [a, b] = ends.map(|joint| origins.iter().position(|o| *o == Origin::Kept(joint)));
+                    if let (Some(a), Some(b)) = (a, b) {
+                        return Some(Construction::OnLine { through: [a, b], at: share });
+                    }
+                    let [a, b] = ends.map(|joint| &exact[joint]);
+                    let LinePlace::Share(q) = &share else { return None };
+                    let t = RealNumber::rational(&q.expression().decimal()?).ok()?;
+                    coordinates(&on_line(a, b, &share, &t)?.ok()??)
+                }
+            }
+        };
+        origins.iter().enumerate().map(one).collect()
+    }
+}
+
+impl Construction {
+    /// The same with other indices of joints; `None` when one of them has none.
+    fn moved(&self, place: &dyn Fn(usize) -> Option<usize>) -> Option<Self> {
+        let mut moved = self.clone();
+        match &mut moved {
+            Self::Coordinates(_) | Self::Polar { .. } => {}
+            Self::OnLine { through, .. } => {
+                for joint in through {
+                    *joint = place(*joint)?;
+                }
+            }
+            Self::Turned { joint, .. } | Self::Mirrored { joint, .. } => *joint = place(*joint)?,
+        }
+        Some(moved)
+    }
+}
+
+/// Exact coordinates as expressions; `None` when they are not known or long.
+fn coordinates(point: &RealPoint) -> Option<Construction> {
+    let one = |x: &RealNumber| WrittenNumber::text(&x.exact()?.to_string()).ok();
+    let [x, y, z] = point;
+    Some(Construction::Coordinates([one(x)?, one(y)?, one(z)?]))
+}

@@ -1,0 +1,431 @@
+//! Coordinates from constructions: values in the order in which they follow from one another.
+
+use std::ops::Range;
+
+use nalgebra::{Point3, Rotation3, Vector3};
+use thiserror::Error;
+
+use super::expression::{Expression, Unsolved};
+use super::{
+    Construction, Constructions, CoordinatePlane, LinePlace, RealPoint, WrittenCranks, WrittenHome,
+    WrittenNumber, exact_double,
+};
+use crate::files::design::Code;
+use crate::files::design::validate::nearest_help;
+use crate::num::real::{NoReal, RealNumber};
+use crate::platform::manipulator::Body;
+
+/// Most operations of all constructions of a design, square roots counted as twenty.
+const MAX_WORK: usize = 12_000;
+
+/// What a fault belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::files::design) enum Owner {
+    Parameter(usize),
+    Joint(Body, usize),
+    Home,
+    /// All cranks, or the one at a base joint.
+    Crank(Option<usize>),
+}
+
+/// Why a construction gives no point.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{message}; {help}")]
+pub(crate) struct Fault {
+    pub(in crate::files::design) owner: Owner,
+    /// Which of the things that are written for it: a coordinate, a key.
+    pub(in crate::files::design) part: Option<usize>,
+    /// The place in the expression.
+    pub(in crate::files::design) within: Option<Range<usize>>,
+    pub(in crate::files::design) code: Code,
+    pub(in crate::files::design) message: String,
+    pub(in crate::files::design) help: String,
+}
+
+/// Names of the joints, and their coordinates where they are three numbers: not finite where they could not be read.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::files::design) struct Joints<'a> {
+    pub(in crate::files::design) names: [&'a [String]; 2],
+    pub(in crate::files::design) points: [&'a [Point3<f64>]; 2],
+    /// Parameters whose values could not be read.
+    pub(in crate::files::design) unread: &'a [String],
+}
+
+impl Constructions {
+    /// The exact coordinates of all joints, which are kept, and the doubles nearest to them; and the home pose, which is kept.
+    ///
+    /// Every fault is reported once: what depends on a faulty value is silent.
+    pub(in crate::files::design) fn resolve(
+        &mut self,
+        given: Joints<'_>,
+    ) -> Result<[Vec<Point3<f64>>; 2], Vec<Fault>> {
+        let mut faults = Vec::new();
+        self.limit_work(&mut faults);
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let parameters = self.parameters(given.unread, &mut faults);
+        let mut complete = true;
+        let mut points = [Vec::new(), Vec::new()];
+        for body in Body::BOTH {
+            let k = body.index();
+            if self.joints[k].is_empty() {
+                points[k] = given.points[k].to_vec();
+                self.exact[k] = Vec::new();
+                continue;
+            }
+            let found = self.body(body, given, &parameters, &mut faults);
+            points[k] =
+                found.iter().flatten().map(|p| p.each_ref().map(RealNumber::nearest).into()).collect();
+            for (j, p) in given.points[k].iter().enumerate() {
+                // what is given by three doubles stays what it is, the sign of zero too
+                if let (None, Some(own)) = (&self.joints[k][j], points[k].get_mut(j)) {
+                    *own = *p;
+                }
+            }
+            complete &= found.iter().all(Option::is_some);
+            self.exact[k] = found.into_iter().flatten().collect();
+        }
+        if let Some(mut home) = self.home.take() {
+            complete &= self.resolve_home(&mut home, (&parameters, given.unread), &mut faults).is_some();
+            self.home = Some(home);
+        }
+        if let Some(mut cranks) = self.cranks.take() {
+            let values = (parameters.as_slice(), given.unread);
+            complete &= self.resolve_cranks(&mut cranks, given.names[0], values, &mut faults).is_some();
+            self.cranks = Some(cranks);
+        }
+        if faults.is_empty() && complete { Ok(points) } else { Err(faults) }
+    }
+
+    fn limit_work(&self, faults: &mut Vec<Fault>) {
+        let parameters = self.parameters.iter().enumerate();
+        let parameters = parameters.map(|(i, (_, q))| (Owner::Parameter(i), q.expression().work()));
+        let joints = Body::BOTH.into_iter().flat_map(|body| {
+            self.joints[body.index()].iter().enumerate().filter_map(move |(j, c)| {
+                let own = c.as_ref()?.quantities().iter().map(|(_, q)| q.expression().work()).sum::<usize>();
+                Some((Owner::Joint(body, j), own + 20))
+            })
+        });
+        let home = self.home.iter().flat_map(WrittenHome::quantities);
+        let home = home.map(|(_, q)| (Owner::Home, q.expression().work()));
+        let cranks = self.cranks.iter().flat_map(WrittenCranks::all);
+        let cranks = cranks.flat_map(|(joint, crank)| {
+            let work = crank.quantities().into_iter().map(|(_, q)| q.expression().work());
+            work.map(move |work| (Owner::Crank(joint), work)).collect::<Vec<_>>()
+        });
+        let mut sum = 0;
+        for (owner, work) in parameters.chain(joints).chain(home).chain(cranks) {
+            sum += work;
+            if sum > MAX_WORK {
+                faults.push(Fault {
+                    owner,
+                    part: None,
+                    within: None,
+                    code: Code::TooComplex,
+                    message: format!("up to here the constructions take more than {MAX_WORK} operations"),
+                    help: "write the coordinates of joints that no leg uses as numbers, or leave them out"
+                        .into(),
+                });
+                return;
+            }
+        }
+    }
+
+    fn parameters(&self, unread: &[String], faults: &mut Vec<Fault>) -> Vec<Option<RealNumber>> {
+        let place = |name: &str| self.parameters.iter().position(|(n, _)| n == name);
+        let needs: Vec<Vec<usize>> = self
+            .parameters
+            .iter()
+            .map(|(_, q)| q.expression().names().into_iter().filter_map(place).collect())
+            .collect();
+        let mut values = vec![None; self.parameters.len()];
+        let (order, cycles) = ordered(&needs);
+        for i in order {
+            let owner = (Owner::Parameter(i), None);
+            values[i] = self.quantity(owner, &self.parameters[i].1, (&values, unread), faults);
+        }
+        for cycle in cycles {
+            let name = |i: &usize| self.parameters[*i].0.as_str();
+            faults.push(circle(Owner::Parameter(cycle[0]), "parameters", cycle.iter().map(name)));
+        }
+        values
+    }
+
+    /// The pose of home from its numbers.
+    fn resolve_home(
+        &self,
+        home: &mut WrittenHome,
+        parameters: (&[Option<RealNumber>], &[String]),
+        faults: &mut Vec<Fault>,
+    ) -> Option<()> {
+        // all of them, so that each fault is reported
+        let values: Vec<Option<f64>> = home
+            .quantities()
+            .map(|(part, q)| {
+                let value = self.quantity((Owner::Home, Some(part)), q, parameters, faults);
+                value.as_ref().map(RealNumber::nearest)
+            })
+            .collect();
+        let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
+        home.pose.position = Vector3::new(values[0], values[1], values[2]);
+        if let [roll, pitch, yaw] = values[3..] {
+            let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_radians);
+            home.pose.rotation = Rotation3::from_euler_angles(roll, pitch, yaw);
+        }
+        Some(())
+    }
+
+    pub(super) fn quantity(
+        &self,
+        (owner, part): (Owner, Option<usize>),
+        quantity: &WrittenNumber,
+        (values, unread): (&[Option<RealNumber>], &[String]),
+        faults: &mut Vec<Fault>,
+    ) -> Option<RealNumber> {
+        let named = |name: &str| {
+            let i = self.parameters.iter().position(|(n, _)| n == name);
+            match i {
+                Some(i) => values[i].clone().ok_or(Unsolved::Poisoned),
+                None if unread.iter().any(|n| n == name) => Err(Unsolved::Poisoned),
+                None => Err(Unsolved::Name(name.to_string())),
+            }
+        };
+        let expression: &Expression = quantity.expression();
+        let stuck = match expression.value(&named) {
+            Ok(value) => return Some(value),
+            Err(stuck) => stuck,
+        };
+        let (code, message, help) = match stuck.why {
+            Unsolved::Poisoned => return None,
+            Unsolved::Name(name) => {
+                let known: Vec<&str> = self.parameters.iter().map(|(n, _)| n.as_str()).collect();
+                let message = format!("`{name}` is not one of [parameters]");
+                (Code::UnknownName, message, known_names(&name, &known))
+            }
+            Unsolved::NoReal(why) => no_real(why),
+        };
+        faults.push(Fault { owner, part, within: Some(stuck.place), code, message, help });
+        None
+    }
+
+    fn body(
+        &self,
+        body: Body,
+        given: Joints<'_>,
+        parameters: &[Option<RealNumber>],
+        faults: &mut Vec<Fault>,
+    ) -> Vec<Option<RealPoint>> {
+        let (list, names) = (&self.joints[body.index()], given.names[body.index()]);
+        let needs: Vec<Vec<usize>> =
+            list.iter().map(|c| c.as_ref().map_or_else(Vec::new, |c| c.joints().to_vec())).collect();
+        let mut found: Vec<Option<RealPoint>> = vec![None; list.len()];
+        let (order, cycles) = ordered(&needs);
+        for i in order {
+            found[i] = match &list[i] {
+                None => {
+                    let p = &given.points[body.index()][i];
+                    p.iter().all(|x| x.is_finite()).then(|| exact_double(p))
+                }
+                Some(c) => {
+                    let values = (parameters, given.unread);
+                    self.point((body, i), c, names, &found, values, faults)
+                }
+            };
+        }
+        for cycle in cycles {
+            let name = |i: &usize| names[*i].as_str();
+            faults.push(circle(
+                Owner::Joint(body, cycle[0]),
+                &format!("{body} joints"),
+                cycle.iter().map(name),
+            ));
+        }
+        found
+    }
+
+    fn point(
+        &self,
+        (body, joint): (Body, usize),
+        construction: &Construction,
+        names: &[String],
+        found: &[Option<RealPoint>],
+        parameters: (&[Option<RealNumber>], &[String]),
+        faults: &mut Vec<Fault>,
+    ) -> Option<RealPoint> {
+        let owner = Owner::Joint(body, joint);
+        let quantities = construction.quantities();
+        // all of them, so that each fault is reported
+        let values: Vec<Option<RealNumber>> = quantities
+            .iter()
+            .map(|(part, q)| self.quantity((owner, Some(*part)), q, parameters, faults))
+            .collect();
+        let values: Vec<RealNumber> = values.into_iter().collect::<Option<_>>()?;
+        let points: Vec<&RealPoint> =
+            construction.joints().iter().map(|j| found[*j].as_ref()).collect::<Option<_>>()?;
+        let made = match construction {
+            Construction::Coordinates(_) => return <[RealNumber; 3]>::try_from(values).ok(),
+            Construction::OnLine { at, through } => {
+                let (a, b) = (points[0], points[1]);
+                on_line(a, b, at, &values[0]).unwrap_or_else(|| {
+                    let [a, b] = through.map(|j| &names[j]);
+                    faults.push(Fault {
+                        owner,
+                        part: Some(0),
+                        within: None,
+                        code: Code::NoLine,
+                        message: format!(
+                            "{a} and {b} are the same point, through which there is no one line"
+                        ),
+                        help: "name two joints that are apart".into(),
+                    });
+                    Ok(None)
+                })
+            }
+            Construction::Polar { .. } => {
+                let z = values.get(2).cloned().unwrap_or_else(|| RealNumber::integer(0));
+                values[1].turn().and_then(|(c, s)| Ok(Some([values[0].times(&c)?, values[0].times(&s)?, z])))
+            }
+            Construction::Turned { .. } => values[0].turn().and_then(|(c, s)| turned(points[0], &c, &s)),
+            Construction::Mirrored { plane, .. } => Ok(Some(mirrored(points[0], *plane))),
+        };
+        made.unwrap_or_else(|why| {
+            let (code, message, help) = no_real(why);
+            faults.push(Fault { owner, part: None, within: None, code, message, help });
+            None
+        })
+    }
+}
+
+/// `None` when the points are the same, or cannot be told apart.
+pub(super) fn on_line(
+    a: &RealPoint,
+    b: &RealPoint,
+    at: &LinePlace,
+    value: &RealNumber,
+) -> Option<Result<Option<RealPoint>, NoReal>> {
+    let share = || -> Result<Option<RealPoint>, NoReal> {
+        let way = [0, 1, 2].map(|i| b[i].minus(&a[i]));
+        let [x, y, z] = way;
+        let way = [x?, y?, z?];
+        let [x, y, z] = way.each_ref().map(|x| x.times(x));
+        let square = x?.plus(&y?)?.plus(&z?)?;
+        let share = match at {
+            LinePlace::Share(_) => {
+                if square.may_be_zero() {
+                    return Err(NoReal::DivisionByZero);
+                }
+                value.clone()
+            }
+            LinePlace::Offset(_) => value.over(&square.sqrt()?)?,
+        };
+        let [x, y, z] = [0, 1, 2].map(|i| a[i].plus(&way[i].times(&share)?));
+        Ok(Some([x?, y?, z?]))
+    };
+    match share() {
+        Err(NoReal::DivisionByZero | NoReal::DivisorNearZero | NoReal::RootNearZero) => None,
+        other => Some(other),
+    }
+}
+
+fn turned(p: &RealPoint, c: &RealNumber, s: &RealNumber) -> Result<Option<RealPoint>, NoReal> {
+    let [x, y, z] = p;
+    let along = x.times(c)?.minus(&y.times(s)?)?;
+    let across = x.times(s)?.plus(&y.times(c)?)?;
+    Ok(Some([along, across, z.clone()]))
+}
+
+fn mirrored(p: &RealPoint, plane: CoordinatePlane) -> RealPoint {
+    let mut image = p.clone();
+    image[plane.normal()] = image[plane.normal()].negated();
+    image
+}
+
+fn no_real(why: NoReal) -> (Code, String, String) {
+    let (code, help) = match why {
+        NoReal::DivisionByZero => (Code::DivisionByZero, "the divisor is exactly zero"),
+        NoReal::DivisorNearZero => (
+            Code::DivisionByZero,
+            "write the divisor so that it is a number of a field, without nested roots",
+        ),
+        NoReal::NegativeRoot => (Code::NegativeRoot, "coordinates are real numbers"),
+        NoReal::RootNearZero => {
+            (Code::NegativeRoot, "write what is under the root so that it is a number of a field")
+        }
+        NoReal::TooLong => (Code::OutOfRange, "coordinates stay below 1e60"),
+    };
+    (code, why.to_string(), help.to_string())
+}
+
+/// "did you mean", or all names.
+pub(in crate::files::design) fn known_names(given: &str, known: &[&str]) -> String {
+    if known.is_empty() {
+        return format!("add [parameters] with `{given} = ...`");
+    }
+    nearest_help("known names", given, &known[..known.len().min(200)])
+}
+
+fn circle<'a>(owner: Owner, what: &str, names: impl Iterator<Item = &'a str>) -> Fault {
+    let mut names: Vec<&str> = names.take(20).collect();
+    names.extend(names.first().copied());
+    Fault {
+        owner,
+        part: None,
+        within: None,
+        code: Code::Cycle,
+        message: format!("{what} follow from one another in a circle: {}", names.join(" -> ")),
+        help: "give one of them by numbers".into(),
+    }
+}
+
+/// An order in which everything comes after what it needs, and the circles, each from its first member on, that keep the rest from having one.
+pub(super) fn ordered(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
+    #[derive(Clone, Copy, PartialEq)]
+    enum State {
+        New,
+        Open,
+        Done,
+    }
+    let mut state = vec![State::New; needs.len()];
+    let (mut order, mut cycles) = (Vec::new(), Vec::new());
+    // members of a circle and what needs them: without a place in the order
+    let mut lost = vec![false; needs.len()];
+    for start in 0..needs.len() {
+        if state[start] != State::New {
+            continue;
+        }
+        let mut path = vec![(start, 0)];
+        state[start] = State::Open;
+        while let Some((i, next)) = path.last_mut() {
+            let i = *i;
+            let Some(&need) = needs[i].get(*next) else {
+                state[i] = State::Done;
+                path.pop();
+                lost[i] |= needs[i].iter().any(|n| lost[*n]);
+                if !lost[i] {
+                    order.push(i);
+                }
+                continue;
+            };
+            *next += 1;
+            match state[need] {
+                State::Done => {}
+                State::New => {
+                    state[need] = State::Open;
+                    path.push((need, 0));
+                }
+                State::Open => {
+                    let from = path.iter().position(|(j, _)| *j == need).unwrap_or(0);
+                    let mut members: Vec<usize> = path[from..].iter().map(|(j, _)| *j).collect();
+                    for j in &members {
+                        lost[*j] = true;
+                    }
+                    let first = members.iter().enumerate().min_by_key(|(_, j)| **j).map_or(0, |(k, _)| k);
+                    members.rotate_left(first);
+                    cycles.push(members);
+                }
+            }
+        }
+    }
+    (order, cycles)
+}

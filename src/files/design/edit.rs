@@ -1,0 +1,289 @@
+//! A design changed in place, with the text it was read from: comments, order and spelling of everything else stay.
+
+use nalgebra::Point3;
+use thiserror::Error;
+
+use super::model::NotBuilt;
+use super::tree::{Entry, Node, Span, Value, find};
+use super::violation::Findings;
+use super::{Design, Format, Warning, parse_with_cranks, toml_text};
+use crate::platform::manipulator::{Body, InvalidManipulator, Manipulator};
+
+/// The text a design was read from, and what is slippery in it. Two designs that say the same are equal however they are written.
+#[derive(Clone, Default)]
+pub(crate) struct Written {
+    /// `None` for designs that are from no TOML text.
+    toml: Option<String>,
+    warnings: Vec<Warning>,
+}
+
+impl PartialEq for Written {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// Without the text, for the same reason.
+impl std::fmt::Debug for Written {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Written")
+    }
+}
+
+impl Written {
+    pub(super) fn new(text: &str, format: Format, warnings: &[Warning]) -> Self {
+        Self { toml: (format == Format::Toml).then(|| text.to_string()), warnings: warnings.to_vec() }
+    }
+
+    pub(crate) fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// Puts other coordinates at a joint of the text. A text in which it is not found is not kept.
+    fn set_joint(&mut self, body: &str, name: &str, point: [f64; 3]) {
+        let edited = self.toml.take().and_then(|text| {
+            let mut out = text;
+            match given(&out, body, name)? {
+                Given::Coordinates(spans) => {
+                    // from the last to the first, so that the places of the others stay
+                    for (span, x) in spans.into_iter().zip(point).rev() {
+                        out.replace_range(span, &format!("{x:?}"));
+                    }
+                }
+                Given::Construction(span) => out.replace_range(span, &format!("{point:?}")),
+            }
+            Some(out)
+        });
+        self.toml = edited;
+    }
+}
+
+/// Where it stands what a joint is.
+enum Given {
+    /// The three coordinates, in this order.
+    Coordinates([Span; 3]),
+    /// A table.
+    Construction(Span),
+}
+
+fn given(text: &str, body: &str, name: &str) -> Option<Given> {
+    let root = toml_text::read(text, &mut Findings::new(text))?;
+    let inside = |node: &Node, key: &str| -> Option<Node> {
+        let Value::Table(entries) = &node.value else { return None };
+        find(entries, key).map(|e: &Entry| e.node.clone())
+    };
+    let joint = inside(&inside(&root, body)?, name)?;
+    match joint.value {
+        Value::Array(list) => {
+            <[_; 3]>::try_from(list).ok().map(|l| Given::Coordinates(l.map(|node| node.span)))
+        }
+        Value::Table(_) => Some(Given::Construction(joint.span)),
+        _ => None,
+    }
+}
+
+/// Why a joint cannot be changed. The design is then as it was.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum JointError {
+    /// There is no joint of this name.
+    #[error("there is no joint `{name}`; joints are {}", known.join(", "))]
+    Unknown {
+        /// The name given.
+        name: String,
+        /// All names, with their bodies.
+        known: Vec<String>,
+    },
+    /// Both bodies have a joint of this name.
+    #[error("both bodies have a joint `{name}`: write `base.{name}` or `platform.{name}`")]
+    Ambiguous {
+        /// The name given.
+        name: String,
+    },
+    /// The joints would make no manipulator.
+    #[error(transparent)]
+    Invalid(#[from] InvalidManipulator),
+    /// Another joint is constructed from this one and has no place then: a line through two equal points for instance.
+    #[error("{message}")]
+    Construction {
+        /// What is wrong.
+        message: String,
+    },
+}
+
+impl From<NotBuilt> for JointError {
+    fn from(why: NotBuilt) -> Self {
+        match why {
+            NotBuilt::Construction(fault) => Self::Construction { message: fault.to_string() },
+            NotBuilt::Manipulator(invalid) => Self::Invalid(invalid),
+        }
+    }
+}
+
+impl Design {
+    /// Moves a joint: its name, with the body before it where both have one of this name (`"base.P1"`), and its new coordinates in the frame of its body.
+    /// Everything else stays, lengths included, and so do the comments of the [`text`](Self::text). A construction of this joint gives way to the three numbers; joints that
+    /// are constructed from this one follow it.
+    ///
+    /// ```
+    /// use equipod::prelude::*;
+    /// let mut design = Design::load("designs/rbt-octahedral.toml")?;
+    /// design.set_joint("P4", [0.0, 0.0, 0.5])?;
+    /// assert!(design.text().contains("P4 = [0.0, 0.0, 0.5]"));
+    /// assert!(design.set_joint("P44", [0.0; 3]).is_err());
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`JointError`]; the design is then as it was.
+    pub fn set_joint(&mut self, name: &str, point: impl Into<Point3<f64>>) -> Result<(), JointError> {
+        let point = point.into();
+        let (body, index) = self.joint(name)?;
+        let m = self.manipulator();
+        let mut joints = [m.base_joints().to_vec(), m.platform_joints().to_vec()];
+        joints[body][index] = point;
+        let [base, platform] = joints;
+        let moved = Manipulator::try_new(base, platform, m.pairs())?;
+        let mut constructions = self.current_constructions();
+        constructions.forget(Body::BOTH[body], index);
+        let mut changed = self.clone();
+        changed.manipulator = moved;
+        let changed = changed.with_constructions(constructions)?;
+        let names = [("base", self.base_names()), ("platform", self.platform_names())];
+        let (body, name) = (names[body].0, names[body].1[index].clone());
+        (self.manipulator, self.constructions) = (changed.manipulator, changed.constructions);
+        self.written.set_joint(body, &name, point.coords.into());
+        Ok(())
+    }
+
+    /// Body and index of a joint, by its name.
+    fn joint(&self, name: &str) -> Result<(usize, usize), JointError> {
+        let bodies = [("base", self.base_names()), ("platform", self.platform_names())];
+        let found: Vec<(usize, usize)> = bodies
+            .iter()
+            .enumerate()
+            .filter_map(|(k, (_, names))| Some((k, names.iter().position(|n| n == name)?)))
+            .collect();
+        match found[..] {
+            [one] => return Ok(one),
+            [] => {}
+            _ => return Err(JointError::Ambiguous { name: name.to_string() }),
+        }
+        let qualified = bodies.iter().enumerate().find_map(|(k, (body, names))| {
+            let own = name.strip_prefix(body)?.strip_prefix('.')?;
+            Some((k, names.iter().position(|n| n == own)?))
+        });
+        qualified.ok_or_else(|| JointError::Unknown {
+            name: name.to_string(),
+            known: bodies
+                .iter()
+                .flat_map(|(body, names)| names.iter().map(move |n| format!("{body}.{n}")))
+                .collect(),
+        })
+    }
+
+    /// The TOML text the design was read from, comments and all, with the joints that were [moved](Self::set_joint) since; [`to_toml`](Self::to_toml) where it
+    /// was read from none, or where the text no longer says what the design is because something else was changed.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let kept = self.written.toml.as_ref().filter(|text| {
+            parse_with_cranks(text, Format::Toml).is_ok_and(|(mut read, _)| {
+                // the table of a trajectory is a file of its own
+                if let (Some(own), Some(t)) = (&self.workspace.trajectory, &mut read.workspace.trajectory) {
+                    t.poses.clone_from(&own.poses);
+                }
+                read == *self
+            })
+        });
+        kept.cloned().unwrap_or_else(|| self.to_toml())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::design::parse;
+    use crate::platform::manipulator::LegLengths;
+
+    const TEXT: &str = r#"# a design with words in it
+name = "words" # its name
+units = "mm"
+lengths = [17.0, 18.0, 18.0, 17.0, 15.0, 17.8]
+legs = [["A", "A"], ["B", "A"], ["B", "b"], ["C d", "b"], ["C d", "c"], ["A", "c"]]
+
+[base] # on the floor
+A = [0.0, 0.0, 0.0]
+"C d" = [ 12, # across
+  0.0,
+  0 ]
+B = [6.0, 1.0e1, 0.0]
+
+[platform]
+A = [0.0, 0.0, 0.0]
+b = [3.0, 5.0, 0.0]
+c = [6.0, 0.0, 0.0]
+"#;
+
+    fn design() -> Design {
+        parse(TEXT, Format::Toml).unwrap().0
+    }
+
+    #[test]
+    fn a_moved_joint_changes_three_numbers_of_the_text_and_nothing_else() {
+        let mut d = design();
+        assert_eq!(d.text(), TEXT);
+        d.set_joint("C d", [12.5, -1e-7, 0.1 + 0.2]).unwrap();
+        let expected = TEXT
+            .replace("[ 12, # across\n  0.0,\n  0 ]", "[ 12.5, # across\n  -1e-7,\n  0.30000000000000004 ]");
+        assert_eq!(d.text(), expected);
+        assert_eq!(d.lengths, Some(LegLengths::try_new([17.0, 18.0, 18.0, 17.0, 15.0, 17.8]).unwrap()));
+        assert_eq!(parse(&d.text(), Format::Toml).unwrap().0, d);
+        d.set_joint("platform.A", [0.0, 0.0, 1.0]).unwrap();
+        d.set_joint("base.A", [0.0, 0.0, 2.0]).unwrap();
+        assert_eq!(
+            d.text(),
+            expected.replacen("A = [0.0, 0.0, 0.0]", "A = [0.0, 0.0, 2.0]", 1).replacen(
+                "A = [0.0, 0.0, 0.0]",
+                "A = [0.0, 0.0, 1.0]",
+                1
+            )
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_moved_leaves_the_design_as_it_was() {
+        let mut d = design();
+        assert!(matches!(d.set_joint("A", [1.0; 3]), Err(JointError::Ambiguous { .. })));
+        let Err(JointError::Unknown { known, .. }) = d.set_joint("base.b", [1.0; 3]) else { panic!() };
+        assert!(known.contains(&"platform.b".to_string()));
+        for x in [f64::NAN, f64::INFINITY, 1e300] {
+            assert!(matches!(d.set_joint("b", [x, 0.0, 0.0]), Err(JointError::Invalid(_))), "{x}");
+        }
+        assert_eq!((d.text().as_str(), d), (TEXT, design()));
+    }
+
+    #[test]
+    fn a_text_that_no_longer_says_what_the_design_is_gives_way() {
+        let mut d = design();
+        d.name = "other".into();
+        assert_eq!(d.text(), d.to_toml());
+        d.name = "words".into();
+        assert_eq!(d.text(), TEXT, "it says so again");
+        let from_json = parse(&d.to_json(), Format::Json).unwrap().0;
+        assert_eq!((from_json.text(), &from_json), (d.to_toml(), &d));
+    }
+
+    #[test]
+    fn dotted_keys_and_inline_tables_are_edited_too() {
+        let (head, _) = TEXT.split_once("[base]").unwrap();
+        let text = format!(
+            "{head}base = {{ A = [0, 0, 0], \"C d\" = [12, 0, 0], B = [6, 10, 0] }}\nplatform.A = [0, 0, 0]\nplatform.b = [3, 5, 0] # b\nplatform.c = [6, 0, 0]\n"
+        );
+        let mut d = parse(&text, Format::Toml).unwrap().0;
+        d.set_joint("b", [3.5, 5.0, 0.25]).unwrap();
+        d.set_joint("B", [6.0, 11.0, 0.0]).unwrap();
+        let expected =
+            text.replace("[3, 5, 0] # b", "[3.5, 5.0, 0.25] # b").replace("[6, 10, 0]", "[6.0, 11.0, 0.0]");
+        assert_eq!(d.text(), expected);
+    }
+}

@@ -1,0 +1,167 @@
+//! Reads and writes design files: a manipulator with its joint names, home pose, workspace and options, as TOML or JSON.
+//!
+//! Everything here is pure: text in, [`Design`] or a list of [`Violation`]s out, and back to text. The
+//! format is described key by key in `docs/design-files.md`.
+
+mod construction;
+mod edit;
+#[cfg(test)]
+mod fixtures;
+mod json_text;
+mod likeness;
+mod model;
+mod outline;
+mod presets;
+#[cfg(test)]
+mod requirements_tests;
+mod save;
+mod scale;
+mod schema;
+#[cfg(feature = "sweep")]
+pub(crate) mod spanned;
+mod table;
+#[cfg(test)]
+mod tests;
+mod toml_text;
+mod tree;
+mod validate;
+mod violation;
+mod workspace;
+
+#[cfg(feature = "synthesis")]
+pub(crate) use construction::Origin;
+use construction::{Construction, Constructions, LinePlace, WrittenNumber};
+pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
+pub use edit::JointError;
+pub(crate) use edit::Written;
+#[cfg(feature = "cli")]
+pub(crate) use likeness::likeness;
+pub(crate) use likeness::nearest_word;
+pub use model::{
+    CalibratedNumber, CalibrationTable, Combination, Correlations, Design, NameCount, OptimizeTable,
+    SearchTable,
+};
+pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
+pub use presets::{PRESETS, Preset, PresetClass};
+pub(crate) use scale::{micrometres, unit_of_millimetres};
+pub use schema::SCHEMA;
+pub(crate) use table::{
+    DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidSeries, PointTable, SeriesKind, SeriesRow,
+    TimeSeries,
+};
+#[cfg(feature = "cli")]
+pub(crate) use table::{InvalidPointTable, RigSheet, SheetDialect};
+pub use violation::{Code, Violation, Warning};
+pub use workspace::{Trajectory, Workspace};
+
+use crate::num::names::{UnknownName, named};
+
+/// The two notations of the same structure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum Format {
+    /// TOML 1.
+    Toml,
+    /// JSON as in RFC 8259: no comments, no trailing commas.
+    Json,
+}
+
+impl Format {
+    /// The format a file name announces: `.json` in any case is JSON, everything else TOML.
+    #[must_use]
+    pub fn of_path(path: &std::path::Path) -> Self {
+        match path.extension() {
+            Some(ext) if ext.eq_ignore_ascii_case("json") => Self::Json,
+            _ => Self::Toml,
+        }
+    }
+
+    /// The name: `"toml"` or `"json"`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Toml => "toml",
+            Self::Json => "json",
+        }
+    }
+}
+
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl std::str::FromStr for Format {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        named("notation", text, &[Self::Toml, Self::Json], Self::name)
+    }
+}
+
+/// Reads a design from text.
+///
+/// ```
+/// use equipod::methods::design::{parse, Code, Format};
+/// let violations = parse("name = 'x'\nunit = 'mm'\n", Format::Toml).unwrap_err();
+/// assert_eq!(violations[0].code, Code::MissingKey);
+/// let slip = violations.iter().find(|v| v.code == Code::UnknownKey).unwrap();
+/// assert_eq!((slip.line, slip.help.contains("`units`")), (2, true));
+/// ```
+///
+/// # Errors
+/// All violations found, in the order of the text: a text with syntax errors is not examined further. A design whose legs are rods on cranks is one ([`Code::Rotary`]): what holds for legs that
+/// change their lengths does not hold for it, and [`parse_with_cranks`] reads it; so is one whose joints are not ideal ([`Code::NotIdeal`]).
+pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+    read(text, format, false)
+}
+
+/// Reads a design from text, also one whose legs are rods on cranks (`drive = "rotary"`), or whose joints are not ideal
+/// ([`Hardware::is_coupled`](crate::machine::requirements::Hardware::is_coupled)), so that the lengths of its drives are not the distances of its joints.
+///
+/// The base joints of such a design are the centres of its cranks: [`Design::manipulator`] joins them to the platform and says nothing of the rods. Ask [`Design::rotary`] for cranks and rods.
+///
+/// # Errors
+/// All violations found.
+pub fn parse_with_cranks(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+    read(text, format, true)
+}
+
+/// Reads a design whose joints are ideal, its legs drives or rods on cranks.
+///
+/// # Errors
+/// All violations found; joints that are not ideal are one ([`Code::NotIdeal`]).
+pub(crate) fn parse_ideal(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+    match parse(text, format) {
+        // cranks have no drives that couple a rotation to a length, so that this takes no more than them
+        Err(violations) if violations.iter().any(|v| v.code == Code::Rotary) => {
+            parse_with_cranks(text, format)
+        }
+        read => read,
+    }
+}
+
+fn read(text: &str, format: Format, takes_cranks: bool) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut report = violation::Findings::new(text);
+    if text.trim().is_empty() {
+        let help = "a design needs name, units, legs, [base] and [platform]; `designs/` has examples";
+        report.refuse(Code::Empty, &(0..0), "the file is empty", help);
+        return Err(report.into_violations());
+    }
+    let root = tree::read(text, format, &mut report);
+    let design = root.and_then(|root| validate::design(&root, &mut report, takes_cranks));
+    match design {
+        Some(mut design) if report.is_clean() => {
+            let warnings = report.into_warnings();
+            design.written = Written::new(text, format, &warnings);
+            Ok((design, warnings))
+        }
+        _ => Err(report.into_violations()),
+    }
+}

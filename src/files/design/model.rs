@@ -1,0 +1,831 @@
+//! The design: what a file holds once it is valid, with its requirements and what the optimiser may choose.
+
+use nalgebra::{DMatrix, Matrix3, Point3, Vector3};
+use thiserror::Error;
+
+use super::construction::resolve::{Fault, Joints};
+use super::construction::{RealPoint, WrittenHome};
+use super::scale::micrometres;
+use super::{Constructions, CrankLimits, DesignExactness, ExactJoint, Workspace, Written};
+use crate::machine::requirements::{
+    CrankedLeg, Cranks, Envelopes, ForceUnit, GRAVITY, Grid, Hardware, KeepOut, Load, MassUnit, MovingBodies,
+    Payload, PlateBody, PlateMass, PlateSolid, Plates, PlatformSpeed, PlatformStiffness, Quantity,
+    Requirements, Reserves, Term, TermKind, VibratingMasses,
+};
+use crate::machine::requirements::{KeptSymmetry, Objective, VariableKind};
+use crate::machine::rotary::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Body;
+use crate::platform::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
+
+/// A manipulator with names and everything else a design file may carry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// Name of the design.
+    pub name: String,
+    /// Label of the length unit; all lengths are in it.
+    pub units: String,
+    /// Where the numbers come from (paper, year, table).
+    pub source: Option<String>,
+    /// Free text.
+    pub description: Option<String>,
+    /// Leg lengths that belong to the design, those of a published example for instance.
+    pub lengths: Option<LegLengths>,
+    /// The pose the platform is built for.
+    pub home: Option<Pose>,
+    /// The poses the platform has to reach.
+    pub workspace: Workspace,
+    /// Limits for the optimisation of joint offsets.
+    pub optimize: OptimizeTable,
+    /// What the optimiser may choose and what is best; the other keys of `[optimize]`.
+    pub search: SearchTable,
+    /// Sizes and limits of joints, legs and drives.
+    pub hardware: Hardware,
+    /// How fast the platform has to move.
+    pub speed: Option<PlatformSpeed>,
+    /// How stiff the platform has to be on its legs.
+    pub stiffness: Option<PlatformStiffness>,
+    /// Loads on the platform.
+    pub loads: Vec<Load>,
+    /// Bodies that the legs must not touch.
+    pub keep_outs: Vec<KeepOut>,
+    /// What the platform carries.
+    pub payload: Option<Payload>,
+    /// Room that plates and machine may take up.
+    pub envelopes: Envelopes,
+    /// The plates that carry the joints.
+    pub plates: Plates,
+    /// The table of drives from which one is chosen: a file whose name is relative to the folder of the design.
+    pub drive_table: Option<String>,
+    /// What has to remain of each limit.
+    pub reserves: Reserves,
+    /// Where the joints of base and platform can be put; `None`: anywhere. At least one plate has a grid where holes are stated.
+    pub holes: Option<[Option<Grid>; 2]>,
+    /// Unit of forces; `None` where the file names none.
+    pub force_units: Option<ForceUnit>,
+    /// Unit of masses; `None` where the file names none.
+    pub mass_units: Option<MassUnit>,
+    /// What measurements of the machine say of it beside its joints.
+    pub calibration: Option<CalibrationTable>,
+    /// The text it was read from.
+    pub(crate) written: Written,
+    pub(super) manipulator: Manipulator,
+    pub(super) constructions: Constructions,
+    base_names: Vec<String>,
+    platform_names: Vec<String>,
+}
+
+/// Limits for the optimisation of joint offsets; what is absent is left to the optimiser.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OptimizeTable {
+    /// Smallest distance between two joints of one body, design units, positive.
+    pub min_joint_distance: Option<f64>,
+    /// Smallest `|det A|` of the leg map, dimensionless, positive.
+    pub min_abs_det: Option<f64>,
+    /// Length that turns angles into lengths, design units, positive.
+    pub characteristic_length: Option<f64>,
+}
+
+/// What a calibration says of a machine beside the joints, which stand where all joints do.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CalibrationTable {
+    /// What the length that each leg shows is longer than the distance of its joints, design units.
+    pub offsets: [f64; 6],
+    /// Standard deviations of the offsets, design units.
+    pub offset_deviations: Option<[f64; 6]>,
+    /// Standard deviations of the coordinates of the base joints, in joint order; `None` for joints about which nothing is said.
+    pub base_deviations: Vec<Option<Vector3<f64>>>,
+    /// Those of the platform joints.
+    pub platform_deviations: Vec<Option<Vector3<f64>>>,
+    /// How coordinates and offsets are off together; `None`: each for itself.
+    pub correlations: Option<Correlations>,
+}
+
+/// A number that a calibration finds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CalibratedNumber {
+    /// A coordinate of a joint, frame of its body.
+    Coordinate {
+        /// The body.
+        body: Body,
+        /// Index of the joint.
+        joint: usize,
+        /// 0, 1, 2: x, y, z.
+        axis: usize,
+    },
+    /// The offset of a leg, by its index.
+    Offset(usize),
+}
+
+impl CalibratedNumber {
+    /// What it is called: `base.A1.x`, `offset.3`.
+    #[must_use]
+    pub fn name(&self, design: &Design) -> String {
+        match *self {
+            Self::Coordinate { body, joint, axis } => {
+                format!("{body}.{}.{}", design.joint_names(body)[joint], ["x", "y", "z"][axis])
+            }
+            Self::Offset(leg) => format!("offset.{}", leg + 1),
+        }
+    }
+}
+
+/// Correlations of the numbers of a calibration. They have no unit; numbers that are not listed are off each for itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Correlations {
+    /// What rows and columns are about.
+    pub unknowns: Vec<CalibratedNumber>,
+    /// The lower triangle with the diagonal, which is 1: row `i` has `i + 1` numbers. The matrix is positive semidefinite up to rounding.
+    pub triangle: Vec<Vec<f64>>,
+}
+
+impl Correlations {
+    /// Those of a covariance `F F^T`, rounded to ten decimals; a number that is not uncertain is correlated with none.
+    #[must_use]
+    pub fn of_root(unknowns: Vec<CalibratedNumber>, root: &DMatrix<f64>) -> Self {
+        let units: Vec<_> = root.row_iter().map(|row| row.transpose().try_normalize(0.0)).collect();
+        let one = |i: usize, j: usize| match (&units[i], &units[j]) {
+            _ if i == j => 1.0,
+            (Some(a), Some(b)) => a.dot(b),
+            _ => 0.0,
+        };
+        // text, so that the file has no digits behind the tenth; adding zero takes the sign from -0
+        let kept = |x: f64| format!("{x:.10}").parse::<f64>().unwrap_or(x) + 0.0;
+        let row = |i: usize| (0..=i).map(|j| kept(one(i, j)).clamp(-1.0, 1.0)).collect();
+        Self { triangle: (0..unknowns.len()).map(row).collect(), unknowns }
+    }
+
+    /// The whole matrix.
+    #[must_use]
+    pub fn matrix(&self) -> DMatrix<f64> {
+        let n = self.triangle.len();
+        DMatrix::from_fn(n, n, |i, j| self.triangle[i.max(j)][i.min(j)])
+    }
+}
+
+impl CalibrationTable {
+    /// Standard deviations of the coordinates of a joint.
+    #[must_use]
+    pub fn deviation(&self, body: Body, joint: usize) -> Option<Vector3<f64>> {
+        body.of((&self.base_deviations, &self.platform_deviations)).get(joint).copied().flatten()
+    }
+
+    /// The standard deviation of a number; `None` where nothing is said.
+    #[must_use]
+    pub fn deviation_of(&self, number: CalibratedNumber) -> Option<f64> {
+        match number {
+            CalibratedNumber::Coordinate { body, joint, axis } => Some(self.deviation(body, joint)?[axis]),
+            CalibratedNumber::Offset(leg) => Some(self.offset_deviations?[leg]),
+        }
+    }
+
+    /// Correlations of these numbers: 1 of each with itself, what the table says of two that it lists, and 0 of others.
+    #[must_use]
+    pub fn correlations_of(&self, numbers: &[CalibratedNumber]) -> DMatrix<f64> {
+        let mut out = DMatrix::identity(numbers.len(), numbers.len());
+        let Some(known) = &self.correlations else { return out };
+        let listed = |number: &CalibratedNumber| known.unknowns.iter().position(|unknown| unknown == number);
+        let places: Vec<Option<usize>> = numbers.iter().map(listed).collect();
+        for (i, row) in places.iter().enumerate() {
+            for (j, column) in places.iter().enumerate() {
+                if let (Some(row), Some(column)) = (row, column) {
+                    out[(i, j)] = known.triangle[*row.max(column)][*row.min(column)];
+                }
+            }
+        }
+        out
+    }
+
+    /// Distances of the joints from lengths that the legs show: what every other question about lengths is asked in.
+    #[must_use]
+    pub fn distances(&self, shown: [f64; 6]) -> [f64; 6] {
+        std::array::from_fn(|leg| shown[leg] - self.offsets[leg])
+    }
+}
+
+/// There are not as many names as joints.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the {body} has {joints} joints, but {names} names were given for them")]
+pub struct NameCount {
+    /// The body.
+    pub body: Body,
+    /// Names given.
+    pub names: usize,
+    /// Joints there are.
+    pub joints: usize,
+}
+
+/// Why constructions make no design.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub(crate) enum NotBuilt {
+    /// One of them gives no point.
+    #[error("{0}")]
+    Construction(Fault),
+    /// The points make no manipulator.
+    #[error(transparent)]
+    Manipulator(#[from] InvalidManipulator),
+}
+
+impl From<Vec<Fault>> for NotBuilt {
+    fn from(mut faults: Vec<Fault>) -> Self {
+        if faults.is_empty() {
+            // what is not said to be at fault are coordinates that are not finite
+            return Self::Manipulator(InvalidManipulator::NoSize);
+        }
+        Self::Construction(faults.swap_remove(0))
+    }
+}
+
+impl Design {
+    /// A design with the joint names `A1, A2, ...` on the base and `B1, B2, ...` on the platform and
+    /// nothing optional.
+    #[must_use]
+    pub fn new(name: impl Into<String>, units: impl Into<String>, manipulator: Manipulator) -> Self {
+        let names = |letter: char, n: usize| (1..=n).map(|i| format!("{letter}{i}")).collect();
+        Self {
+            name: name.into(),
+            units: units.into(),
+            source: None,
+            description: None,
+            lengths: None,
+            home: None,
+            workspace: Workspace::default(),
+            optimize: OptimizeTable::default(),
+            search: SearchTable::default(),
+            hardware: Hardware::default(),
+            speed: None,
+            stiffness: None,
+            loads: Vec::new(),
+            keep_outs: Vec::new(),
+            payload: None,
+            envelopes: Envelopes::default(),
+            plates: Plates::default(),
+            drive_table: None,
+            reserves: Reserves::default(),
+            holes: None,
+            force_units: None,
+            mass_units: None,
+            calibration: None,
+            base_names: names('A', manipulator.base_joints().len()),
+            platform_names: names('B', manipulator.platform_joints().len()),
+            written: Written::default(),
+            manipulator,
+            constructions: Constructions::default(),
+        }
+    }
+
+    /// The same design with other joint names, in joint order.
+    ///
+    /// # Errors
+    /// [`NameCount`] unless there is one name for every joint. Names are not compared with each other
+    /// here; a file with the same name twice in a body is refused when it is read.
+    pub fn with_joint_names(mut self, base: Vec<String>, platform: Vec<String>) -> Result<Self, NameCount> {
+        let bodies = [
+            (Body::Base, base.len(), self.manipulator.base_joints().len()),
+            (Body::Platform, platform.len(), self.manipulator.platform_joints().len()),
+        ];
+        for (body, names, joints) in bodies {
+            if names != joints {
+                return Err(NameCount { body, names, joints });
+            }
+        }
+        (self.base_names, self.platform_names) = (base, platform);
+        Ok(self)
+    }
+
+    /// The same with the source and all tables of another design that say what is required: what a rearrangement of its legs does not change.
+    #[must_use]
+    pub fn with_tables_of(mut self, other: &Self) -> Self {
+        self.source.clone_from(&other.source);
+        (self.home, self.workspace, self.search) =
+            (other.home, other.workspace.clone(), other.search.clone());
+        (self.optimize, self.hardware) = (other.optimize, other.hardware);
+        (self.speed, self.stiffness) = (other.speed, other.stiffness);
+        (self.loads, self.keep_outs) = (other.loads.clone(), other.keep_outs.clone());
+        (self.payload, self.envelopes, self.reserves) =
+            (other.payload, other.envelopes, other.reserves.clone());
+        (self.force_units, self.mass_units) = (other.force_units, other.mass_units);
+        self.holes = other.holes;
+        self.plates = other.plates.clone();
+        self.drive_table.clone_from(&other.drive_table);
+        // other joints would give another length, and the conditioning another value
+        self.optimize.characteristic_length = Some(other.characteristic_length());
+        self
+    }
+
+    /// For each joint of a body whether no search may move it.
+    pub(crate) fn fixed_joints(&self, body: Body) -> Vec<bool> {
+        let fixed = &self.search.fixed[body.index()];
+        self.joint_names(body).iter().map(|name| fixed.contains(name)).collect()
+    }
+
+    /// Whether any joint may not be moved.
+    pub(crate) fn has_fixed_joints(&self) -> bool {
+        Body::BOTH.into_iter().any(|body| self.fixed_joints(body).contains(&true))
+    }
+
+    /// The cranks and rods of a design whose drive is rotary; `None` where legs change their lengths.
+    ///
+    /// ```
+    /// use equipod::methods::design::{Format, PRESETS, parse, parse_with_cranks};
+    /// let preset = PRESETS.iter().find(|p| p.name == "reachy-mini").expect("a preset");
+    /// assert!(parse(preset.text, Format::Toml).is_err(), "its legs do not change their lengths");
+    /// let (design, _) = parse_with_cranks(preset.text, Format::Toml).expect("a design");
+    /// let platform = design.rotary().expect("tips and joints make a platform").expect("it has cranks");
+    /// let angles = platform.ik(&design.home.expect("home")).expect("within reach");
+    /// assert!((angles[0].to_degrees() - 35.9).abs() < 0.05);
+    /// ```
+    ///
+    /// # Errors
+    /// Cranks and joints that make no platform, which can be where joints were [moved](Self::set_joint).
+    pub fn rotary(&self) -> Result<Option<RotaryPlatform>, InvalidRotary> {
+        let Some(cranks) = &self.constructions.cranks else { return Ok(None) };
+        let m = &self.manipulator;
+        let leg = |i: usize| {
+            let (a, b) = m.pairs()[i];
+            // a crank of which something is missing is refused when the design is read
+            let values =
+                cranks.values.get(a).and_then(|v| v.as_ref().ok()).ok_or(InvalidRotary::BadNumber(i))?;
+            Ok::<_, InvalidRotary>(RotaryLeg {
+                crank: Crank {
+                    centre: m.base_joints()[a],
+                    axis: values.axis,
+                    zero: values.zero,
+                    length: values.length,
+                },
+                rod: values.rod,
+                platform: m.platform_joints()[b],
+                elbow: values.elbow,
+                limits: values.limits_deg.map(|[least, most]| (least.to_radians(), most.to_radians())),
+            })
+        };
+        let legs = [leg(0)?, leg(1)?, leg(2)?, leg(3)?, leg(4)?, leg(5)?];
+        RotaryPlatform::try_new(legs).map(Some)
+    }
+
+    /// Whether the legs are rods on cranks.
+    #[must_use]
+    pub fn has_cranks(&self) -> bool {
+        self.constructions.cranks.is_some()
+    }
+
+    /// What the drives of the cranks can do; nothing is said of legs that change their lengths.
+    #[must_use]
+    pub fn crank_limits(&self) -> CrankLimits {
+        self.constructions.cranks.as_ref().map(|cranks| cranks.drives).unwrap_or_default()
+    }
+
+    /// Joints and legs. Where the legs are rods on [cranks](Self::rotary) the base joints are the centres of the cranks.
+    #[must_use]
+    pub fn manipulator(&self) -> &Manipulator {
+        &self.manipulator
+    }
+
+    /// Names of [`Manipulator::base_joints`], in the same order.
+    #[must_use]
+    pub fn base_names(&self) -> &[String] {
+        &self.base_names
+    }
+
+    /// Names of [`Manipulator::platform_joints`], in the same order.
+    #[must_use]
+    pub fn platform_names(&self) -> &[String] {
+        &self.platform_names
+    }
+
+    /// Names of the joints of a body, in joint order.
+    pub(crate) fn joint_names(&self, body: Body) -> &[String] {
+        body.of((&self.base_names, &self.platform_names))
+    }
+
+    /// The joints of a body as exactly as they are known, in joint order.
+    ///
+    /// A joint of three plain numbers is the three doubles. One that is constructed is what its construction says: fractions, sums of square roots, or bounds; the
+    /// coordinates in [`Self::manipulator`] are the doubles nearest to them.
+    ///
+    /// ```
+    /// use equipod::methods::design::{Exactness, Format, parse};
+    /// use equipod::prelude::Body;
+    /// let text = r#"
+    /// name = "triangles"
+    /// units = "m"
+    /// legs = [["A", "D"], ["B", "D"], ["B", "E"], ["C", "E"], ["C", "F"], ["A", "F"]]
+    /// [parameters]
+    /// r = 6
+    /// [base]
+    /// A = { radius = "r", angle_deg = 30 }
+    /// B = { turn = "A", deg = 120 }
+    /// C = { turn = "B", deg = 120 }
+    /// [platform]
+    /// D = [1, 0, 0]
+    /// E = ["1/3", "sqrt(2)", 0]
+    /// F = { mirror = "E", plane = "xz" }
+    /// "#;
+    /// let (design, _) = parse(text, Format::Toml).unwrap();
+    /// let base = design.exact_joints(Body::Base);
+    /// assert_eq!(base[0].coordinates, ["3*sqrt(3)", "3", "0"]);
+    /// assert_eq!(base[1].coordinates, ["-3*sqrt(3)", "3", "0"]);
+    /// assert_eq!((base[0].exactness, base[2].exactness), (Exactness::Field, Exactness::Rational));
+    /// ```
+    #[must_use]
+    pub fn exact_joints(&self, body: Body) -> Vec<ExactJoint> {
+        self.exact_points(body).iter().map(ExactJoint::of).collect()
+    }
+
+    /// How exactly all joints are known.
+    ///
+    /// ```
+    /// use equipod::prelude::*;
+    /// let design = Design::load("designs/rbt-octahedral.toml")?;
+    /// assert_eq!(design.exactness().to_string(), "exact numbers of Q(sqrt(3))");
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn exactness(&self) -> DesignExactness {
+        let constructed = Body::BOTH.iter().any(|body| {
+            (0..self.joint_names(*body).len()).any(|j| self.constructions.of(*body, j).is_some())
+        });
+        let known = |body| (body, self.joint_names(body), self.exact_points(body));
+        DesignExactness::of(constructed, Body::BOTH.map(known))
+    }
+
+    /// The numbers behind [`Self::exact_joints`].
+    pub(crate) fn exact_points(&self, body: Body) -> Vec<RealPoint> {
+        let m = &self.manipulator;
+        self.constructions.exact(body, body.of((m.base_joints(), m.platform_joints())))
+    }
+
+    /// The length that rotations are multiplied with where they are compared with translations, as in every inverse condition number of the Jacobian: that of `[optimize]`, else the RMS distance
+    /// of the platform's leg ends from their centroid.
+    #[must_use]
+    pub fn characteristic_length(&self) -> f64 {
+        self.optimize.characteristic_length.unwrap_or_else(|| self.manipulator.platform_rms_radius())
+    }
+
+    /// What is said of the joints beside three numbers each and of home beside plain numbers, without a home that has been given another pose since.
+    pub(super) fn current_constructions(&self) -> Constructions {
+        let mut constructions = self.constructions.clone();
+        constructions.home = self.written_home().cloned();
+        constructions
+    }
+
+    /// The home pose as it was written, where an expression gives a number of it and no other pose has been given since.
+    pub(super) fn written_home(&self) -> Option<&WrittenHome> {
+        self.constructions.home.as_ref().filter(|written| self.home == Some(written.pose))
+    }
+
+    /// The constructions have been resolved: home follows from them, and so do the coordinates of the manipulator, which get what they are where they are not the doubles.
+    pub(super) fn set_constructions(&mut self, constructions: Constructions) {
+        self.constructions = constructions;
+        if let Some(home) = &self.constructions.home {
+            self.home = Some(home.pose);
+        }
+        if !self.constructions.any_joint() {
+            return; // the doubles as written
+        }
+        let points = Body::BOTH.map(|body| self.exact_points(body));
+        let whole = |list: &[RealPoint]| list.iter().map(exact_point).collect::<Option<Vec<_>>>();
+        let exact = match points.each_ref().map(|list| whole(list)) {
+            [Some(base), Some(platform)] => Some([base, platform]),
+            _ => None,
+        };
+        let radius = Body::BOTH.map(|body| {
+            let doubles = self.manipulator.joints(body);
+            let one = |(p, d): (&RealPoint, &Point3<f64>)| {
+                p.iter().zip(d.iter()).map(|(x, d)| x.distance_from(*d)).fold(0.0, f64::max)
+            };
+            points[body.index()].iter().zip(doubles).map(one).collect()
+        });
+        let doubles = Body::BOTH.map(|body| self.manipulator.joints(body));
+        let values = JointValues::new(exact, radius, doubles);
+        self.manipulator = self.manipulator.clone().with_values(values);
+    }
+
+    /// The same with other constructions, and the coordinates that follow from them.
+    pub(crate) fn with_constructions(mut self, mut constructions: Constructions) -> Result<Self, NotBuilt> {
+        let m = &self.manipulator;
+        let names = [self.base_names.as_slice(), &self.platform_names];
+        let given = Joints { names, points: [m.base_joints(), m.platform_joints()], unread: &[] };
+        let [base, platform] = constructions.resolve(given)?;
+        self.manipulator = Manipulator::try_new(base, platform, m.pairs())?;
+        self.set_constructions(constructions);
+        Ok(self)
+    }
+
+    /// Base and platform joint name of every leg, in leg order.
+    #[must_use]
+    pub fn leg_names(&self) -> [(&str, &str); 6] {
+        self.manipulator.pairs().map(|(a, b)| (self.base_names[a].as_str(), self.platform_names[b].as_str()))
+    }
+
+    /// What the design has to satisfy, from all its tables.
+    #[must_use]
+    pub fn requirements(&self) -> Requirements {
+        Requirements {
+            hardware: self.hardware,
+            keep_outs: self.keep_outs.clone(),
+            loads: self.all_loads(),
+            platform_speed: self.speed,
+            platform_stiffness: self.stiffness,
+            vibrating: self.vibrating(),
+            min_joint_distance: self.optimize.min_joint_distance,
+            envelopes: self.envelopes,
+            plates: self.plates.clone(),
+            payload_shape: self.payload.and_then(|p| p.shape),
+            reserves: self.reserves.clone(),
+            cranks: self.limits_of_cranks().map(Box::new),
+        }
+    }
+
+    /// The limits of cranks and rods; `None` without cranks, or where they make no platform.
+    fn limits_of_cranks(&self) -> Option<Cranks> {
+        let platform = self.rotary().ok()??;
+        let values = &self.constructions.cranks.as_ref()?.values;
+        let pairs = self.manipulator.pairs();
+        let drives = self.crank_limits();
+        let mut legs = Vec::with_capacity(6);
+        for (leg, (joint, _)) in platform.legs().iter().zip(pairs) {
+            legs.push(CrankedLeg {
+                axis: leg.crank.axis.into_inner(),
+                zero: leg.crank.zero,
+                length: leg.crank.length,
+                rod: leg.rod,
+                greater: leg.elbow == Elbow::Plus,
+                limits_deg: values.get(joint)?.as_ref().ok()?.limits_deg,
+            });
+        }
+        Some(Cranks {
+            legs: legs.try_into().ok()?,
+            max_torque: drives.max_torque,
+            max_speed_deg: drives.max_speed_deg,
+            least_transmission_deg: drives.least_transmission_deg.unwrap_or(0.0),
+            tip_swing_deg: drives.tip_swing_deg,
+            platform_swing_deg: drives.platform_swing_deg,
+        })
+    }
+
+    /// What vibrates: the payload with the legs, whose unit of length is one that is known; `None` where one of them is not said.
+    ///
+    /// Without names of units forces are newtons and masses kilograms.
+    #[must_use]
+    pub fn vibrating(&self) -> Option<VibratingMasses> {
+        let metres = micrometres(&self.units)? as f64 * 1e-6;
+        let newtons = self.force_units.unwrap_or(ForceUnit::Newton).newtons();
+        let bodies = self.moving_bodies(metres)?;
+        Some(VibratingMasses { bodies, leg: self.hardware.leg_stiffness? * newtons / metres })
+    }
+
+    /// What the length that each leg shows is longer than the distance of its joints, design units: the offsets of the calibration, zero without one.
+    #[must_use]
+    pub fn leg_offsets(&self) -> [f64; 6] {
+        self.calibration.as_ref().map_or([0.0; 6], |table| table.offsets)
+    }
+
+    /// [What moves with the platform](Self::moving_payload) and the legs, where one design unit is so many metres: the masses of `motion`, of natural frequencies and of simulators.
+    /// `None` where nothing is known to move with the platform. [`mass_assumptions`](Self::mass_assumptions) says what is assumed.
+    #[must_use]
+    pub fn moving_bodies(&self, metres: f64) -> Option<MovingBodies> {
+        let unit = self.mass_units.unwrap_or(MassUnit::Kilogram);
+        Some(MovingBodies::new(&self.moving_payload()?, self.hardware.leg_masses.as_ref(), unit, metres))
+    }
+
+    /// Legs as the file has them, and a platform of a mass in kilograms whose centre is in the middle of its joints, with [the inertia of a ball](Self::moving_payload): for a file that
+    /// does not say what moves.
+    pub(crate) fn assumed_bodies(&self, mass: f64, metres: f64) -> MovingBodies {
+        let (center, inertia) = (self.platform_middle(), Some(self.ball(mass)));
+        let payload = Payload {
+            mass,
+            center,
+            inertia,
+            gravity: self.gravity(),
+            plate: PlateMass::Included,
+            shape: None,
+        };
+        let unit = self.mass_units.unwrap_or(MassUnit::Kilogram).kilograms();
+        let leg = self.hardware.leg_masses.map(|leg| leg.scaled(unit));
+        MovingBodies::new(&payload, leg.as_ref(), MassUnit::Kilogram, metres)
+    }
+
+    /// Gravity, base frame, m/s^2: that of the payload, else standard gravity along the third axis downwards.
+    pub(crate) fn gravity(&self) -> Vector3<f64> {
+        self.payload.map_or_else(|| Vector3::new(0.0, 0.0, -GRAVITY), |payload| payload.gravity)
+    }
+
+    /// Inertia of a ball whose radius of gyration is the root mean square distance of the platform joints from their middle.
+    fn ball(&self, mass: f64) -> Matrix3<f64> {
+        let joints = self.manipulator.platform_joints();
+        let middle = self.platform_middle();
+        let squares: f64 = joints.iter().map(|b| (b - middle).norm_squared()).sum();
+        Matrix3::identity() * (mass * squares / joints.len() as f64)
+    }
+
+    fn platform_middle(&self) -> Point3<f64> {
+        let joints = self.manipulator.platform_joints();
+        Point3::from(joints.iter().map(|b| b.coords).sum::<Vector3<f64>>() / joints.len() as f64)
+    }
+
+    /// What is assumed of masses and their units because the file doesn't say it, a sentence each.
+    #[must_use]
+    pub fn mass_assumptions(&self) -> Vec<String> {
+        if self.moving_payload().is_none() {
+            return vec!["The design has no [payload]: forces and powers are not computed.".to_owned()];
+        }
+        let mut out = Vec::new();
+        if self.payload.is_some_and(|payload| payload.inertia.is_none()) {
+            out.push("The payload has no inertia: that of a ball is taken whose radius of gyration is the root mean square distance of the platform joints from their middle.".to_owned());
+        }
+        if self.has_cranks() {
+            out.push("Cranks and rods are taken as massless.".into());
+        } else if self.hardware.leg_masses.is_none() {
+            out.push("The legs have no masses in [hardware]: they are taken as massless.".into());
+        }
+        if self.mass_units.is_none() {
+            out.push("The design names no unit of mass: masses are taken in kilograms.".into());
+        }
+        if self.force_units.is_none() {
+            out.push("The design names no unit of force: forces are taken in newtons.".into());
+        }
+        out
+    }
+
+    /// The plate of a body as a solid, where the file says something of it; the legs are on the side on which they are at home.
+    #[must_use]
+    pub fn plate(&self, body: Body) -> Option<PlateSolid> {
+        let home = self.home_or_default();
+        let solid = |plate| PlateSolid::of(plate, &self.manipulator, body, &self.hardware, &home);
+        self.plates.of(body).map(solid)
+    }
+
+    /// The plate of a body as a rigid body; `None` where its density or the unit of length is not known.
+    pub(crate) fn rigid_plate(&self, body: Body) -> Option<PlateBody> {
+        let metres = micrometres(&self.units)? as f64 * 1e-6;
+        self.plate(body)?.rigid(self.plates.of(body)?, metres)
+    }
+
+    /// Mass of the plate of a body without its holes, kilograms; `None` where its density or the unit of length is not known.
+    #[must_use]
+    pub fn plate_mass(&self, body: Body) -> Option<f64> {
+        self.rigid_plate(body).map(|plate| plate.mass)
+    }
+
+    /// What moves with the platform: the payload as the file states it, with the plate of the platform where the file says that it comes on top; the plate alone where the file has no
+    /// payload and the mass of the plate is known.
+    ///
+    /// With masses `m` and `n`, centres `c` and `d`, inertias `I` and `J`: mass `m + n`, centre `(m c + n d) / (m + n)`, inertia `I + J` and `m n / (m + n) (e . e - e e^T)` with
+    /// `e = c - d`. A payload without inertia has that of a ball whose radius of gyration is the root mean square distance of the platform joints from their middle.
+    #[must_use]
+    pub fn moving_payload(&self) -> Option<Payload> {
+        let plate = || {
+            let plate = self.rigid_plate(Body::Platform)?;
+            let unit = self.mass_units.unwrap_or(MassUnit::Kilogram).kilograms();
+            Some((plate.mass / unit, plate.center, plate.inertia / unit))
+        };
+        let Some(own) = self.payload else {
+            let (mass, center, inertia) = plate()?;
+            let gravity = Vector3::new(0.0, 0.0, -GRAVITY);
+            let (inertia, plate) = (Some(inertia), PlateMass::Included);
+            return Some(Payload { mass, center, inertia, gravity, plate, shape: None });
+        };
+        let moments = own.inertia.unwrap_or_else(|| self.ball(own.mass));
+        let Some((mass, center, inertia)) = plate().filter(|_| own.plate == PlateMass::Added) else {
+            return Some(Payload { inertia: Some(moments), ..own });
+        };
+        let all = own.mass + mass;
+        let apart = own.center - center;
+        let spread = Matrix3::identity() * apart.norm_squared() - apart * apart.transpose();
+        Some(Payload {
+            mass: all,
+            center: center + apart * (own.mass / all),
+            inertia: Some(moments + inertia + spread * (own.mass * mass / all)),
+            ..own
+        })
+    }
+
+    /// The weight of [what moves with the platform](Self::moving_payload), where there is something, and the loads of the file.
+    ///
+    /// Without names of units forces are newtons and masses kilograms.
+    #[must_use]
+    pub fn all_loads(&self) -> Vec<Load> {
+        let weight = self.moving_payload().map(|p| {
+            let (mass, force) = (self.mass_units, self.force_units);
+            let mut load = p.weight(mass.unwrap_or(MassUnit::Kilogram), force.unwrap_or(ForceUnit::Newton));
+            if self.payload.is_none() {
+                "platform plate".clone_into(&mut load.name);
+            }
+            load
+        });
+        weight.into_iter().chain(self.loads.iter().cloned()).collect()
+    }
+}
+
+impl Design {
+    /// Leg, joint, keep-out and load names of a requirement.
+    pub(crate) fn names_of(&self, term: Term) -> Vec<String> {
+        let leg = |i: usize| format!("leg {}", i + 1);
+        let joints = |names: &[String]| vec![names[term.first].clone(), names[term.second].clone()];
+        match term.kind {
+            TermKind::BaseSpacing => joints(self.base_names()),
+            TermKind::PlatformSpacing => joints(self.platform_names()),
+            TermKind::LegClearance => vec![leg(term.first), leg(term.second)],
+            TermKind::KeepOut => vec![leg(term.first), self.keep_outs[term.second].name.clone()],
+            TermKind::LegForce | TermKind::CrankTorque => {
+                vec![leg(term.first), self.all_loads()[term.second].name.clone()]
+            }
+            TermKind::BaseHoleGap if term.first != term.second => joints(self.base_names()),
+            TermKind::PlatformHoleGap if term.first != term.second => joints(self.platform_names()),
+            TermKind::PlatformEnvelope | TermKind::PlatformHoleEdge | TermKind::PlatformHoleGap => {
+                vec![self.platform_names()[term.first].clone()]
+            }
+            TermKind::PlateClearance => {
+                let body = Body::BOTH[term.second.min(1)];
+                vec![leg(term.first), format!("{body} plate")]
+            }
+            TermKind::PayloadClearance => vec![leg(term.first), "payload".to_owned()],
+            TermKind::BaseEnvelope | TermKind::BaseHoleEdge | TermKind::BaseHoleGap => {
+                vec![self.base_names()[term.first].clone()]
+            }
+            TermKind::MachineEnvelope => {
+                let (base, platform) = self.leg_names()[term.first];
+                vec![if term.second == 0 { base } else { platform }.to_owned()]
+            }
+            kind if kind.is_of_platform() => vec!["platform".to_owned()],
+            _ => vec![leg(term.first)],
+        }
+    }
+
+    /// The legs that a requirement is about, counted from 1: all of them for what the platform as a whole has.
+    pub(crate) fn legs_of(&self, term: Term) -> Vec<usize> {
+        let pairs = self.manipulator.pairs();
+        let at = |body: Body| {
+            let holds = |i: &usize| [term.first, term.second].contains(&body.of(pairs[*i]));
+            (0..6).filter(holds).map(|i| i + 1).collect()
+        };
+        match term.kind {
+            TermKind::BaseSpacing | TermKind::BaseEnvelope => at(Body::Base),
+            TermKind::PlatformSpacing | TermKind::PlatformEnvelope => at(Body::Platform),
+            kind if kind.plate().is_some() => at(kind.plate().unwrap_or(Body::Base)),
+            TermKind::LegClearance => vec![term.first + 1, term.second + 1],
+            kind if kind.is_of_platform() => (1..=6).collect(),
+            _ => vec![term.first + 1],
+        }
+    }
+
+    /// The unit of a margin.
+    pub(crate) fn unit_of(&self, quantity: Quantity) -> String {
+        match quantity {
+            Quantity::Length => self.units.clone(),
+            Quantity::Angle => "deg".to_string(),
+            Quantity::Force => self.force_units.map_or("force", ForceUnit::label).to_string(),
+            Quantity::Speed => format!("{}/s", self.units),
+            Quantity::LinearStiffness => format!("{}/{}", self.unit_of(Quantity::Force), self.units),
+            Quantity::AngularStiffness => format!("{} {}/rad", self.unit_of(Quantity::Force), self.units),
+            Quantity::Frequency => "Hz".to_string(),
+            Quantity::Torque => format!("{} {}", self.unit_of(Quantity::Force), self.units),
+            Quantity::AngularSpeed => "deg/s".to_string(),
+        }
+    }
+}
+
+/// How several objectives are combined.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Combination {
+    /// The weighted sum of the gains.
+    Weighted,
+    /// One after the other; later levels may take this share of the gains of the earlier ones.
+    Lexicographic {
+        /// Share, positive.
+        slack: f64,
+    },
+    /// Designs of which none is better in every objective.
+    Pareto {
+        /// Steps between the extremes of each objective but the first.
+        points: usize,
+    },
+}
+
+/// The keys of `[optimize]` that ask for more than the six offsets with the best worst-case conditioning.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SearchTable {
+    /// What may be chosen; empty: the offsets.
+    pub variables: Vec<VariableKind>,
+    /// The symmetry that the platform has to keep; when absent the three-fold one of a design that has it, as long as a platform with it meets the requirements.
+    pub symmetry: Option<KeptSymmetry>,
+    /// Objectives with weights, or in the order of their levels; empty: the worst-case conditioning.
+    pub objectives: Vec<(Objective, f64)>,
+    /// How objectives are combined, weighted when absent.
+    pub mode: Option<Combination>,
+    /// Least and greatest offset; 0 and 1 are the ends of the edge.
+    pub offset_bounds: Option<(f64, f64)>,
+    /// Least and greatest change of a triangle, as a share of its size.
+    pub stretch_bounds: Option<(f64, f64)>,
+    /// Least and greatest change of the height of home, in sizes of the design.
+    pub height_bounds: Option<(f64, f64)>,
+    /// Names of the joints of base and platform that no search may move.
+    pub fixed: [Vec<String>; 2],
+}
+
+/// The coordinates when all three are known exactly.
+fn exact_point(p: &RealPoint) -> Option<SurdPoint> {
+    let [x, y, z] = p;
+    Some([x.exact()?.clone(), y.exact()?.clone(), z.exact()?.clone()])
+}

@@ -1,0 +1,506 @@
+//! The twelve ends of the legs out of a table, however its rows and columns are arranged.
+
+use nalgebra::Point3;
+use thiserror::Error;
+
+use super::hal::{HOME_OF_COMMENT, HexapodPins, home_of};
+use super::header::{UNITS, plain};
+use super::mjcf;
+use super::sheet::{InvalidSheet, Sheet, SheetRow};
+use super::text::decode;
+use crate::files::design::{Design, NameCount};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
+
+/// Rows have at least so many numbers: the joints of a flat body are often given by x and y alone.
+const LEAST_NUMBERS: usize = 2;
+
+/// The ends of the six legs as a table has them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PointTable {
+    /// The legs, in leg order: the base end in the base frame, the platform end in the platform frame.
+    pub(crate) legs: [Leg; 6],
+    /// Names of the base and platform ends, in leg order, where the table has names that can stand in a design.
+    pub(crate) names: Option<[[String; 6]; 2]>,
+    /// The length unit that the header names.
+    pub(crate) units: Option<String>,
+    /// Where the platform frame is at home, base frame, when a comment says so or the table has both bodies in one frame.
+    pub(crate) home: Option<Pose>,
+    /// What was guessed, a sentence each.
+    pub(crate) guesses: Vec<String>,
+}
+
+/// Why a table does not give the ends of six legs.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub(crate) enum InvalidPointTable {
+    /// It is no table of numbers.
+    #[error(transparent)]
+    Sheet(#[from] InvalidSheet),
+    /// Its rows or columns are not those of twelve points.
+    #[error("{0}")]
+    Form(String),
+    /// It is a model of `MuJoCo`, or other XML, without six legs in it.
+    #[error("{0}")]
+    Mjcf(String),
+    /// It is an exchange file of a CAD program (ISO 10303-21), which is not read.
+    #[error("this is a STEP file, and assemblies are not read")]
+    Step,
+    /// The points make no manipulator.
+    #[error(transparent)]
+    Manipulator(#[from] InvalidManipulator),
+}
+
+impl PointTable {
+    /// Reads six rows of two points, base end first, or twelve rows of one point, in whatever notation.
+    ///
+    /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one point belong to the body that a cell, a title above them
+    /// or their name says, else the first six to the base. Settings of `genhexkins` and models of `MuJoCo` are read too.
+    ///
+    /// # Errors
+    /// [`InvalidPointTable`].
+    pub(crate) fn read(bytes: &[u8]) -> Result<Self, InvalidPointTable> {
+        let text = decode(bytes).map(|decoded| decoded.text).unwrap_or_default();
+        if text.trim_start().starts_with("ISO-10303-21") {
+            return Err(InvalidPointTable::Step);
+        }
+        if mjcf::is_xml(&text) {
+            return mjcf::read(&text).map_err(InvalidPointTable::Mjcf);
+        }
+        if let Some(pins) = HexapodPins::read(&text) {
+            let HexapodPins { legs, home, guesses } = pins?;
+            return Ok(Self { legs, names: None, units: None, home, guesses });
+        }
+        let mut sheet = Sheet::read(bytes, LEAST_NUMBERS)?;
+        let mut guesses = std::mem::take(&mut sheet.guesses);
+        let rows = data_rows(&sheet, &mut guesses)?;
+        let columns = match sheet.header.as_ref().and_then(|h| PointColumns::named(h, &mut guesses)) {
+            Some(columns) => columns,
+            None => PointColumns::numbered(&sheet, &rows, &mut guesses)?,
+        };
+        let points = match columns.second {
+            Some(_) => six_rows(&sheet, &rows, &columns, &mut guesses)?,
+            None => twelve_rows(&sheet, &rows, &columns, &mut guesses)?,
+        };
+        let units = sheet.header.as_ref().and_then(|header| unit_of(header));
+        guesses.extend(units.iter().map(|unit| format!("The lengths are in {unit}, as the header says.")));
+        let names = names(&points);
+        let mut table = Self {
+            legs: std::array::from_fn(|i| Leg { base: points[0][i].at, platform: points[1][i].at }),
+            names,
+            units,
+            home: text.lines().find_map(home_of),
+            guesses,
+        };
+        if table.home.is_some() {
+            table.guesses.push(HOME_OF_COMMENT.to_string());
+        } else {
+            table.part_frames();
+        }
+        Ok(table)
+    }
+
+    /// When one body is all above the other the table has both in one frame, as a drawing has them: the platform frame is then put at the mean height of the platform joints.
+    fn part_frames(&mut self) {
+        let heights = |body: Body| self.legs.map(|leg| leg.end(body).z);
+        let range = |z: [f64; 6]| {
+            (z.into_iter().fold(f64::INFINITY, f64::min), z.into_iter().fold(f64::NEG_INFINITY, f64::max))
+        };
+        let (base, platform) = (range(heights(Body::Base)), range(heights(Body::Platform)));
+        if platform.0 <= base.1 && base.0 <= platform.1 {
+            return;
+        }
+        let heights = heights(Body::Platform);
+        // a common height is kept to the last digit
+        let level = heights.iter().all(|z| z.to_bits() == heights[0].to_bits());
+        let height = if level { heights[0] } else { heights.iter().sum::<f64>() / 6.0 };
+        for leg in &mut self.legs {
+            leg.platform.z -= height;
+        }
+        let rotation = nalgebra::Rotation3::identity();
+        self.home = Some(Pose::new([0.0, 0.0, height], rotation));
+        self.guesses.push(format!(
+            "The platform joints are all {} those of the base: both are read in the base frame, and home is at z = {height}.",
+            if platform.0 > base.1 { "above" } else { "below" }
+        ));
+    }
+
+    /// The design with these joints: ends at exactly the same place are one joint of several legs.
+    ///
+    /// # Errors
+    /// [`InvalidManipulator`].
+    pub(crate) fn design(&mut self, name: &str, units: &str) -> Result<Design, InvalidManipulator> {
+        let manipulator = Manipulator::from_legs(self.legs)?;
+        let counts = Body::BOTH.map(|body| manipulator.joints(body).len());
+        for (body, count) in Body::BOTH.into_iter().zip(counts).filter(|(_, count)| *count < 6) {
+            let sentence = format!(
+                "Legs of the {body} that end at the same place share a joint: it has {count} joints."
+            );
+            if !self.guesses.contains(&sentence) {
+                self.guesses.push(sentence);
+            }
+        }
+        let pairs = manipulator.pairs();
+        let mut design = Design::new(name, units, manipulator);
+        if let Some(names) = &self.names {
+            let of = |body: Body| -> Vec<String> {
+                let leg = |j: usize| pairs.iter().position(|(a, b)| body.of((*a, *b)) == j);
+                (0..counts[body.index()]).filter_map(|j| Some(names[body.index()][leg(j)?].clone())).collect()
+            };
+            let named: Result<Design, NameCount> =
+                design.clone().with_joint_names(of(Body::Base), of(Body::Platform));
+            design = named.unwrap_or(design);
+        }
+        design.home = self.home;
+        Ok(design)
+    }
+}
+
+/// A point with its name.
+struct NamedPoint {
+    at: Point3<f64>,
+    name: Option<String>,
+}
+
+/// A row with numbers, and the body that a title above it names.
+struct PointRow<'a> {
+    row: &'a SheetRow,
+    body: Option<Body>,
+}
+
+/// The rows with numbers; rows of words are titles of a body, or the header once more.
+fn data_rows<'a>(
+    sheet: &'a Sheet,
+    guesses: &mut Vec<String>,
+) -> Result<Vec<PointRow<'a>>, InvalidPointTable> {
+    let mut body = None;
+    let mut rows = Vec::new();
+    for row in &sheet.rows {
+        let numbers = row.cells.iter().filter(|c| sheet.number(c).is_some()).count();
+        if numbers >= LEAST_NUMBERS {
+            rows.push(PointRow { row, body });
+            continue;
+        }
+        let title = row.cells.join(" ");
+        let named = row.cells.iter().find_map(|c| body_of_word(&plain(c)));
+        let repeated = row.cells.iter().all(|c| axis_of(&plain(c)).is_some());
+        match named {
+            Some(said) if numbers == 0 => {
+                body = Some(said);
+                guesses.push(format!(
+                    "Line {}, `{title}`, says that the rows below it are of the {said}.",
+                    row.line
+                ));
+            }
+            _ if repeated => {}
+            _ if numbers == 0 && (rows.is_empty() || row.cells.len() == 1) => {
+                guesses.push(format!("Line {}, `{title}`, has no numbers and is passed over.", row.line));
+            }
+            _ => {
+                let message = format!("line {}, `{title}`, has fewer than two numbers", row.line);
+                return Err(InvalidPointTable::Form(message));
+            }
+        }
+    }
+    Ok(rows)
+}
+
+/// Columns of the coordinates of one end of a leg; a missing z is zero.
+type CoordinateColumns = (usize, usize, Option<usize>);
+
+/// Which columns hold what.
+struct PointColumns {
+    first: CoordinateColumns,
+    /// With two points a row: those of the platform end.
+    second: Option<CoordinateColumns>,
+    /// The column with the number of the leg.
+    leg: Option<usize>,
+}
+
+/// The one unit that the columns of coordinates name.
+fn unit_of(header: &[String]) -> Option<String> {
+    let unit = |name: &String| {
+        axis_of(&plain(name))?;
+        let name = name.to_lowercase();
+        let last = name.split(|c: char| !c.is_alphanumeric()).rfind(|word| !word.is_empty())?;
+        UNITS.iter().find(|(spelling, _)| *spelling == last).map(|(_, label)| *label)
+    };
+    let mut found: Vec<&str> = header.iter().filter_map(unit).collect();
+    found.dedup();
+    if let [one] = found[..] { Some(one.to_string()) } else { None }
+}
+
+/// The coordinate that a plain name ends or begins with, 0 to 2, and the rest of the name.
+fn axis_of(name: &str) -> Option<(usize, &str)> {
+    let axis = |c: char| "xyz".find(c);
+    let last = name.chars().last().and_then(axis).map(|k| (k, &name[..name.len() - 1]));
+    let first = name.chars().next().and_then(axis).map(|k| (k, &name[1..]));
+    // `index`, `matrix`: a word with an x is no coordinate
+    let known = |(_, rest): &(usize, &str)| {
+        rest.chars().count() <= 2
+            || body_of_word(rest).is_some()
+            || ["pos", "position", "coord", "coordinate", "point", "joint"].contains(rest)
+    };
+    last.filter(known).or(first.filter(known))
+}
+
+/// The body that a plain word names without doubt.
+pub(super) fn body_of_word(word: &str) -> Option<Body> {
+    const BASE: [&str; 8] = ["base", "fixed", "lower", "bottom", "ground", "fest", "unten", "basis"];
+    const PLATFORM: [&str; 8] =
+        ["platform", "moving", "mobile", "upper", "top", "effector", "plattform", "oben"];
+    let has = |list: &[&str]| list.iter().any(|w| word.contains(w));
+    match (has(&BASE), has(&PLATFORM)) {
+        (true, false) => Some(Body::Base),
+        (false, true) => Some(Body::Platform),
+        _ => None,
+    }
+}
+
+/// Pairs of letters, the base first: usual ways to tell the bodies by one letter.
+const LETTERS: [(&str, &str); 9] = [
+    ("a", "b"),
+    ("b", "p"),
+    ("b", "t"),
+    ("b", "m"),
+    ("l", "u"),
+    ("f", "m"),
+    ("1", "2"),
+    ("0", "1"),
+    ("g", "p"),
+];
+
+/// The bodies that two different words tell apart: by what they mean, or in the order in which they appear.
+fn bodies_of_words(first: &str, second: &str, guesses: &mut Vec<String>) -> [Body; 2] {
+    let said = [first, second].map(body_of_word);
+    let is_pair = |(a, b): (&str, &str)| LETTERS.contains(&(a, b));
+    let order = match said {
+        [Some(body), other] if other != Some(body) => [body, body.other()],
+        [None, Some(body)] => [body.other(), body],
+        _ if is_pair((first, second)) => Body::BOTH,
+        _ if is_pair((second, first)) => [Body::Platform, Body::Base],
+        _ => Body::BOTH,
+    };
+    guesses.push(format!("`{first}` is the {} and `{second}` the {}.", order[0], order[1]));
+    order
+}
+
+impl PointColumns {
+    /// By the names in the header: `None` where they do not name coordinates.
+    fn named(header: &[String], guesses: &mut Vec<String>) -> Option<Self> {
+        let names: Vec<String> = header.iter().map(|name| plain(name)).collect();
+        // columns of each word that stands with an axis, in the order in which the words appear
+        let mut words: Vec<(&str, Vec<(usize, usize)>)> = Vec::new();
+        for (column, name) in names.iter().enumerate() {
+            let Some((axis, word)) = axis_of(name) else { continue };
+            let word =
+                word.trim_start_matches("coordinate").trim_start_matches("coord").trim_start_matches("pos");
+            // x, y, z a second time are the other end
+            let open =
+                words.iter_mut().find(|(known, list)| *known == word && list.iter().all(|(a, _)| *a != axis));
+            match open {
+                Some((_, list)) => list.push((axis, column)),
+                None => words.push((word, vec![(axis, column)])),
+            }
+        }
+        let triple = |list: &[(usize, usize)]| -> Option<CoordinateColumns> {
+            let of = |axis: usize| list.iter().find(|(a, _)| *a == axis).map(|(_, column)| *column);
+            Some((of(0)?, of(1)?, of(2)))
+        };
+        let leg = names.iter().position(|name| LEG_WORDS.contains(&name.as_str()));
+        match &words[..] {
+            [(_, list)] => Some(Self { first: triple(list)?, second: None, leg }),
+            [(a, first), (b, second)] => {
+                let (first, second) = (triple(first)?, triple(second)?);
+                let order = if a == b { Body::BOTH } else { bodies_of_words(a, b, guesses) };
+                let (first, second) = if order[0] == Body::Base { (first, second) } else { (second, first) };
+                Some(Self { first, second: Some(second), leg })
+            }
+            _ => None,
+        }
+    }
+
+    /// By the order of the columns that hold a number in every row.
+    fn numbered(
+        sheet: &Sheet,
+        rows: &[PointRow<'_>],
+        guesses: &mut Vec<String>,
+    ) -> Result<Self, InvalidPointTable> {
+        let value = |row: &PointRow<'_>, c: usize| row.row.cells.get(c).and_then(|cell| sheet.number(cell));
+        let width = rows.iter().map(|r| r.row.cells.len()).max().unwrap_or(0);
+        // a column of numbers with a word in it is a slip, not a column of names
+        let count = |c: usize| rows.iter().filter(|row| value(row, c).is_some()).count();
+        let mut columns: Vec<usize> = (0..width).filter(|c| 2 * count(*c) > rows.len()).collect();
+        if let Some((row, c)) =
+            rows.iter().find_map(|row| Some((row.row, *columns.iter().find(|c| value(row, **c).is_none())?)))
+        {
+            return Err(not_a_number(row, c));
+        }
+        let counts = |c: usize| {
+            let step = |pair: &[PointRow<'_>]| match (value(&pair[0], c), value(&pair[1], c)) {
+                // twelve rows may be counted twice from one to six
+                (Some(a), Some(b)) => (b - a - 1.0).abs() < 0.5 || (a - b - 5.0).abs() < 0.5,
+                _ => false,
+            };
+            let starts = rows.first().and_then(|row| value(row, c)).is_some_and(|x| (0.0..1.5).contains(&x));
+            let whole = rows.iter().all(|row| value(row, c).is_some_and(|x| x.fract() == 0.0));
+            starts && whole && rows.windows(2).all(step)
+        };
+        if [4, 5, 7].contains(&columns.len()) && columns.first().is_some_and(|c| counts(*c)) {
+            columns.remove(0);
+            guesses.push("The first column of numbers counts the rows.".into());
+        }
+        let triple = |c: &[usize]| (c[0], c[1], c.get(2).copied());
+        let (first, second) = match columns.len() {
+            6 => (triple(&columns[..3]), Some(triple(&columns[3..]))),
+            4 => (triple(&columns[..2]), Some(triple(&columns[2..]))),
+            3 | 2 => (triple(&columns), None),
+            n => {
+                let message = format!(
+                    "the rows have {n} columns of numbers: a point has two or three, the two ends of a leg have four or six"
+                );
+                return Err(InvalidPointTable::Form(message));
+            }
+        };
+        let order = if second.is_some() {
+            "of the base end and then of the platform end of a leg"
+        } else {
+            "of a joint"
+        };
+        guesses.push(format!("The columns are the coordinates {order}."));
+        if first.2.is_none() {
+            guesses.push("There is no z: all joints are at z = 0 of their body.".into());
+        }
+        Ok(Self { first, second, leg: None })
+    }
+}
+
+/// The point in three columns of a row.
+fn point(
+    sheet: &Sheet,
+    row: &SheetRow,
+    (x, y, z): CoordinateColumns,
+) -> Result<Point3<f64>, InvalidPointTable> {
+    let value = |column: usize| {
+        let cell = row.cells.get(column).map_or("", String::as_str);
+        sheet.number(cell).ok_or_else(|| not_a_number(row, column))
+    };
+    Ok(Point3::new(value(x)?, value(y)?, z.map_or(Ok(0.0), value)?))
+}
+
+fn not_a_number(row: &SheetRow, column: usize) -> InvalidPointTable {
+    let cell = row.cells.get(column).map_or("", String::as_str);
+    InvalidPointTable::Form(format!("line {}, column {}: `{cell}` is not a number", row.line, column + 1))
+}
+
+/// What a column with the numbers of the legs is called.
+const LEG_WORDS: [&str; 6] = ["leg", "legnumber", "legno", "strut", "actuator", "limb"];
+
+/// The cells of a row that are no numbers.
+fn words<'a>(sheet: &Sheet, row: &'a SheetRow) -> Vec<&'a str> {
+    row.cells.iter().filter(|c| !c.is_empty() && sheet.number(c).is_none()).map(String::as_str).collect()
+}
+
+/// The points of base and platform, in leg order.
+type Ends = [Vec<NamedPoint>; 2];
+
+fn six_rows(
+    sheet: &Sheet,
+    rows: &[PointRow<'_>],
+    columns: &PointColumns,
+    guesses: &mut Vec<String>,
+) -> Result<Ends, InvalidPointTable> {
+    if rows.len() != 6 {
+        let message = format!("there are {} rows with both ends of a leg instead of six", rows.len());
+        return Err(InvalidPointTable::Form(message));
+    }
+    let mut rows: Vec<&SheetRow> = rows.iter().map(|r| r.row).collect();
+    let number = |row: &SheetRow| sheet.number(row.cells.get(columns.leg?)?);
+    let numbers: Option<Vec<f64>> = rows.iter().map(|row| number(row)).collect();
+    if numbers.is_some_and(|list| list.windows(2).any(|pair| pair[0] >= pair[1])) {
+        rows.sort_by(|a, b| number(a).unwrap_or(0.0).total_cmp(&number(b).unwrap_or(0.0)));
+        guesses.push("The legs are put in the order of their numbers.".into());
+    }
+    let mut ends: Ends = [Vec::new(), Vec::new()];
+    for row in rows {
+        let words = words(sheet, row);
+        let name = |i: usize| if words.len() == 2 { words.get(i).map(ToString::to_string) } else { None };
+        ends[0].push(NamedPoint { at: point(sheet, row, columns.first)?, name: name(0) });
+        ends[1].push(NamedPoint {
+            at: point(sheet, row, columns.second.unwrap_or(columns.first))?,
+            name: name(1),
+        });
+    }
+    Ok(ends)
+}
+
+fn twelve_rows(
+    sheet: &Sheet,
+    rows: &[PointRow<'_>],
+    columns: &PointColumns,
+    guesses: &mut Vec<String>,
+) -> Result<Ends, InvalidPointTable> {
+    if rows.len() != 12 {
+        let message = format!(
+            "there are {} rows of one point instead of twelve, six of the base and six of the platform; a joint of two legs stands there twice",
+            rows.len()
+        );
+        return Err(InvalidPointTable::Form(message));
+    }
+    let words: Vec<Vec<&str>> = rows.iter().map(|r| words(sheet, r.row)).collect();
+    let said = |k: usize| rows[k].body.or_else(|| words[k].iter().find_map(|w| body_of_word(&plain(w))));
+    let bodies: Vec<Option<Body>> = (0..12).map(said).collect();
+    let said: Option<Vec<Body>> = bodies.iter().copied().collect();
+    let bodies = said.or_else(|| by_letters(&words, guesses)).unwrap_or_else(|| {
+        guesses.push("The first six rows are joints of the base, the other six of the platform.".into());
+        (0..12).map(|k| Body::BOTH[k / 6]).collect()
+    });
+    let count = bodies.iter().filter(|b| **b == Body::Base).count();
+    if count != 6 {
+        let message =
+            format!("{count} rows are joints of the base and {} of the platform; each needs six", 12 - count);
+        return Err(InvalidPointTable::Form(message));
+    }
+    let mut ends: Ends = [Vec::new(), Vec::new()];
+    for ((PointRow { row, .. }, body), words) in rows.iter().zip(bodies).zip(&words) {
+        let name = words.iter().find(|w| !["base", "platform"].contains(&plain(w).as_str()));
+        let at = point(sheet, row, columns.first)?;
+        ends[body.index()].push(NamedPoint { at, name: name.map(ToString::to_string) });
+    }
+    guesses.push("Leg 1 joins the first joint of the base and the first of the platform, and so on.".into());
+    Ok(ends)
+}
+
+/// The bodies by what stands before the numbers of the names: `A1`, `B1` for example.
+fn by_letters(words: &[Vec<&str>], guesses: &mut Vec<String>) -> Option<Vec<Body>> {
+    let letters = |list: &Vec<&str>| {
+        Some(plain(list.first()?).trim_end_matches(|c: char| c.is_ascii_digit()).to_string())
+    };
+    let letters: Vec<String> = words.iter().map(letters).collect::<Option<_>>()?;
+    let first = letters.first()?;
+    let second = letters.iter().find(|l| *l != first)?;
+    if letters.iter().any(|l| l != first && l != second)
+        || letters.iter().filter(|l| *l == first).count() != 6
+    {
+        return None;
+    }
+    let order = bodies_of_words(first, second, guesses);
+    Some(letters.iter().map(|l| order[usize::from(l != first)]).collect())
+}
+
+/// The names, where every end has one that can stand in a file, and no two ends of a body the same unless they are at the same place.
+fn names(ends: &Ends) -> Option<[[String; 6]; 2]> {
+    let usable = |name: &str| {
+        name.chars().count() <= 32 && name.chars().all(|c| c.is_alphanumeric() || "_-. ".contains(c))
+    };
+    let of = |list: &Vec<NamedPoint>| -> Option<[String; 6]> {
+        let named: Vec<String> =
+            list.iter().map(|p| p.name.clone().filter(|n| usable(n))).collect::<Option<_>>()?;
+        let differ = |i: usize, j: usize| (named[i] == named[j]) == (list[i].at == list[j].at);
+        let distinct = (0..named.len()).all(|i| (0..i).all(|j| differ(i, j)));
+        if distinct { named.try_into().ok() } else { None }
+    };
+    Some([of(&ends[0])?, of(&ends[1])?])
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,106 @@
+//! The small spanned tree both file formats are read into.
+
+use std::ops::Range;
+
+use super::violation::Findings;
+use super::{Code, Format, json_text, toml_text};
+use crate::num::names::changes_direction;
+
+/// Byte range in the text.
+pub(crate) type Span = Range<usize>;
+
+/// Values nested deeper than this are refused; a design needs three levels.
+pub(crate) const MAX_DEPTH: usize = 32;
+
+/// A value with the place it stands at.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Node {
+    pub(crate) span: Span,
+    pub(crate) value: Value,
+}
+
+/// What a design file can be made of.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Value {
+    Text(String),
+    /// Correctly rounded; infinite when the text is too large for a double.
+    Number(f64),
+    Array(Vec<Node>),
+    /// Entries in the order of the file.
+    Table(Vec<Entry>),
+    /// Anything a design never holds, by name: "boolean", "null", "datetime".
+    Other(&'static str),
+}
+
+/// `key = value`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Entry {
+    pub(crate) key: String,
+    pub(crate) key_span: Span,
+    pub(crate) node: Node,
+}
+
+impl Value {
+    /// The kind with its article, for messages.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Text(_) => "a string",
+            Self::Number(_) => "a number",
+            Self::Array(_) => "an array",
+            Self::Table(_) => "a table",
+            Self::Other(kind) => kind,
+        }
+    }
+}
+
+/// The entry named `key`.
+pub(crate) fn find<'a>(entries: &'a [Entry], key: &str) -> Option<&'a Entry> {
+    entries.iter().find(|e| e.key == key)
+}
+
+/// Reads a text; `None` where it is not TOML or not JSON, with the reasons in the report.
+pub(crate) fn read(text: &str, format: Format, report: &mut Findings<'_>) -> Option<Node> {
+    let root = match format {
+        Format::Toml => toml_text::read(text, report),
+        Format::Json => json_text::read(text, report),
+    };
+    if let Some(root) = &root {
+        refuse_directions(root, report);
+    }
+    root
+}
+
+/// Names and texts with characters that change the direction of text: on a drawing, in a table or on a page something else would be shown than what is written.
+fn refuse_directions(node: &Node, report: &mut Findings<'_>) {
+    let mut refuse = |text: &str, span: &Span| {
+        if let Some(c) = text.chars().find(|c| changes_direction(*c)) {
+            let message = format!(
+                "the text holds {}, which changes the direction of what follows it",
+                c.escape_unicode()
+            );
+            report.refuse(
+                Code::TextDirection,
+                span,
+                message,
+                "leave the character out: scripts that run from right to left need none",
+            );
+        }
+    };
+    match &node.value {
+        Value::Text(text) => refuse(text, &node.span),
+        Value::Array(list) => {
+            for node in list {
+                refuse_directions(node, report);
+            }
+        }
+        Value::Table(entries) => {
+            for entry in entries {
+                refuse(&entry.key, &entry.key_span);
+            }
+            for entry in entries {
+                refuse_directions(&entry.node, report);
+            }
+        }
+        Value::Number(_) | Value::Other(_) => {}
+    }
+}

@@ -1,0 +1,55 @@
+//! `"normal"` among the axes of joints: the normal of the plane of the joints of a body, from base to platform.
+
+use nalgebra::{Unit, Vector3};
+
+use super::joint_models::check_axes;
+use super::tables::is_normal;
+use crate::files::design::Design;
+use crate::files::design::tree::{Entry, Node, Value, find};
+use crate::files::design::violation::Findings;
+use crate::machine::requirements::{JointAxes, plate_normal};
+use crate::platform::manipulator::Body;
+
+/// Puts the normals in where the file names them, and checks the axes of universal joints once more.
+pub(super) fn turn_to_normals(report: &mut Findings<'_>, top: &[Entry], design: &mut Design) {
+    let Some(Value::Table(hardware)) = find(top, "hardware").map(|e| &e.node.value) else { return };
+    for body in Body::BOTH {
+        let Some(entry) = find(hardware, body.of(("base_axes", "platform_axes"))) else { continue };
+        let named = named(&entry.node);
+        if !named.contains(&true) {
+            continue;
+        }
+        let normal = normal(design, body);
+        let turned = |axes: &mut JointAxes| {
+            if let JointAxes::Given(axes) = axes {
+                axes.iter_mut().zip(named).filter(|(_, is)| *is).for_each(|(axis, _)| *axis = normal);
+            }
+        };
+        let h = &mut design.hardware;
+        let swing = body.of((&mut h.base_swing, &mut h.platform_swing));
+        swing.as_mut().map(|s| &mut s.axes).map(turned);
+        let universal = body.of((&mut h.base_universal, &mut h.platform_universal));
+        if let Some(joint) = universal {
+            turned(&mut joint.axes);
+            let joint = *joint;
+            check_axes(report, entry, joint.axes, &joint);
+        }
+    }
+}
+
+/// Which of the six axes are named so.
+pub(super) fn named(node: &Node) -> [bool; 6] {
+    match &node.value {
+        Value::Array(list) => std::array::from_fn(|i| list.get(i).is_some_and(is_normal)),
+        _ => [is_normal(node); 6],
+    }
+}
+
+/// The normal of the greatest triangle of the joints, towards the other body at home on the base, away from it on the platform.
+fn normal(design: &Design, body: Body) -> Unit<Vector3<f64>> {
+    let (m, home) = (design.manipulator(), design.home_or_default());
+    let lines: Vector3<f64> = m.legs().iter().map(|l| home.transform(&l.platform) - l.base).sum();
+    let towards = if body == Body::Base { lines } else { home.rotation.inverse() * lines };
+    let normal = plate_normal(m.joints(body), &towards, m.size());
+    Unit::new_normalize(if normal.dot(&towards) < 0.0 { -normal } else { normal })
+}

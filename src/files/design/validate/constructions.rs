@@ -1,0 +1,370 @@
+//! `[parameters]`, and joints that are given in other ways than by three numbers.
+
+use std::collections::BTreeMap;
+
+use super::cranks::CrankPlaces;
+use super::joints::NamedJoints;
+use super::{LARGEST, check_keys, nearest_help, number, shown, table};
+use crate::files::design::Code;
+use crate::files::design::construction::expression::{Slip, function_names, is_name};
+use crate::files::design::construction::resolve::{Joints, Owner};
+use crate::files::design::construction::{
+    Construction, Constructions, CoordinatePlane, LinePlace, WrittenCranks, WrittenHome, WrittenNumber,
+};
+use crate::files::design::tree::{Entry, Node, Span, Value, find};
+use crate::files::design::violation::Findings;
+
+/// Keys of joints that are given as tables; the first of each decides what the others are.
+const FORMS: [&[&str]; 4] =
+    [&["on", "t", "offset"], &["radius", "angle_deg", "z"], &["turn", "deg"], &["mirror", "plane"]];
+
+/// Where something that may be at fault stands.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Places {
+    pub(super) whole: Span,
+    /// Numbers and names in it, by the parts of a construction.
+    pub(super) parts: Vec<Span>,
+}
+
+/// `[parameters]` with their places; those without a value could not be read.
+pub(super) type Parameters = Vec<(String, Option<WrittenNumber>, Places)>;
+
+pub(super) fn parameters(report: &mut Findings<'_>, top: &[Entry]) -> Parameters {
+    let Some(entries) = find(top, "parameters").and_then(|e| table(report, &e.node, "[parameters]")) else {
+        return Vec::new();
+    };
+    let mut list = Vec::new();
+    for e in entries {
+        if !is_name(&e.key) {
+            let message = format!("the parameter `{}` has a name that expressions cannot use", shown(&e.key));
+            let help = format!(
+                "take letters, digits and underscores, a letter first, and not {}",
+                function_names().join(", ")
+            );
+            report.refuse(Code::Expression, &e.key_span, message, help);
+        }
+        let value = quantity(report, &e.node, &format!("the parameter `{}`", shown(&e.key)));
+        let places = Places { whole: e.key_span.clone(), parts: vec![e.node.span.clone()] };
+        list.push((e.key.clone(), value, places));
+    }
+    list
+}
+
+/// A number, which is the decimal that is written, or an expression in quotes.
+pub(super) fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<WrittenNumber> {
+    let read = match &node.value {
+        Value::Text(text) => WrittenNumber::text(text),
+        Value::Number(_) => {
+            let x = number(report, node, what)?;
+            let digits = report.source(&node.span).replace('_', "");
+            WrittenNumber::decimal(digits.trim_start_matches('+'), x)
+        }
+        other => {
+            let message = format!("{what} is {}, not a number", other.kind());
+            let help = "write a number, or an expression in quotes such as \"6*sqrt(3)\"";
+            report.refuse(Code::WrongType, &node.span, message, help);
+            return None;
+        }
+    };
+    match read {
+        Ok(quantity) => Some(quantity),
+        Err(Slip { place, message, too_complex }) => {
+            let code = if too_complex { Code::TooComplex } else { Code::Expression };
+            let help =
+                "write numbers, names of [parameters], + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg()";
+            let span = inner(report, &node.span, Some(&place));
+            report.refuse(code, &span, format!("{what}: {message}"), help);
+            None
+        }
+    }
+}
+
+/// The place in the text of a file of a place in an expression.
+fn inner(report: &Findings<'_>, span: &Span, place: Option<&Span>) -> Span {
+    let source = report.source(span);
+    // escapes and quotes of three make it unclear which character is which
+    let quoted = source.starts_with(['"', '\'']);
+    let plain = !source.contains('\\') && !source.starts_with("\"\"\"") && !source.starts_with("'''");
+    match place {
+        Some(place) if plain => {
+            let from = span.start + usize::from(quoted);
+            from + place.start..from + place.end
+        }
+        _ => span.clone(),
+    }
+}
+
+/// Whether a joint is given by other than three numbers: by a table, or by an array with texts.
+pub(super) fn is_constructed(node: &Node) -> bool {
+    match &node.value {
+        Value::Table(_) => true,
+        Value::Array(list) => list.iter().any(|e| matches!(e.value, Value::Text(_))),
+        _ => false,
+    }
+}
+
+/// A joint that [is constructed](is_constructed), with its places.
+pub(super) fn joint(
+    report: &mut Findings<'_>,
+    node: &Node,
+    what: &str,
+    names: &BTreeMap<String, usize>,
+) -> Option<(Construction, Places)> {
+    let (made, parts) = match &node.value {
+        Value::Array(_) => {
+            let (list, parts) = three_quantities(report, node, what, ("coordinate", "coordinates x, y, z"))?;
+            (Construction::Coordinates(list), parts)
+        }
+        Value::Table(entries) => form(report, node, entries, what, names)?,
+        _ => return None,
+    };
+    Some((made, Places { whole: node.span.clone(), parts }))
+}
+
+/// An array of three numbers or expressions, with their places. `number` is one of them, `noun` all three.
+pub(super) fn three_quantities(
+    report: &mut Findings<'_>,
+    node: &Node,
+    what: &str,
+    (number, noun): (&str, &str),
+) -> Option<([WrittenNumber; 3], Vec<Span>)> {
+    let Value::Array(list) = &node.value else {
+        let message = format!("{what} is {}, not an array", node.value.kind());
+        report.refuse(Code::WrongType, &node.span, message, format!("write an array of 3 {noun}"));
+        return None;
+    };
+    let [x, y, z] = list.as_slice() else {
+        let message = format!("{what} has {} {number}s instead of 3", list.len());
+        report.refuse(Code::CoordinateCount, &node.span, message, format!("give 3 {noun}"));
+        return None;
+    };
+    let mut place = 0;
+    // all of them, so that each fault is reported
+    let [a, b, c] = [x, y, z].map(|e| {
+        place += 1;
+        quantity(report, e, &format!("{number} {place} of {what}"))
+    });
+    Some(([a?, b?, c?], [x, y, z].map(|e| e.span.clone()).to_vec()))
+}
+
+fn form(
+    report: &mut Findings<'_>,
+    node: &Node,
+    entries: &[Entry],
+    what: &str,
+    names: &BTreeMap<String, usize>,
+) -> Option<(Construction, Vec<Span>)> {
+    let Some(keys) = FORMS.into_iter().find(|keys| find(entries, keys[0]).is_some()) else {
+        let first = entries.iter().find(|e| FORMS.iter().all(|keys| !keys.contains(&e.key.as_str())));
+        let kinds = FORMS.map(|keys| keys[0]);
+        let (span, help) = match first {
+            Some(e) if !report.is_full() => (&e.key_span, nearest_help("known keys", &e.key, &kinds)),
+            _ => (&node.span, format!("begin with one of {}", kinds.join(", "))),
+        };
+        report.refuse(Code::MissingKey, span, format!("{what} has none of {}", kinds.join(", ")), help);
+        return None;
+    };
+    check_keys(report, entries, keys, what);
+    let span = |key: &str| find(entries, key).map_or_else(|| node.span.clone(), |e| e.node.span.clone());
+    let mut number_of = |key: &str, optional: bool| match find(entries, key) {
+        Some(e) => quantity(report, &e.node, &format!("`{key}` of {what}")).map(Some),
+        None if optional => Some(None),
+        None => {
+            let help = format!("a joint with `{}` takes {}", keys[0], keys.join(", "));
+            report.refuse(Code::MissingKey, &node.span, format!("`{key}` of {what} is missing"), help);
+            None
+        }
+    };
+    Some(match keys[0] {
+        "radius" => {
+            let (radius, angle_deg, z) =
+                (number_of("radius", false), number_of("angle_deg", false), number_of("z", true));
+            let made = Construction::Polar { radius: radius??, angle_deg: angle_deg??, z: z? };
+            (made, keys.iter().map(|k| span(k)).collect())
+        }
+        "turn" => {
+            let deg = number_of("deg", false);
+            let joint = reference(report, &find(entries, "turn")?.node, what, names);
+            (Construction::Turned { joint: joint?, deg: deg?? }, vec![span("turn"), span("deg")])
+        }
+        "mirror" => {
+            let joint = reference(report, &find(entries, "mirror")?.node, what, names);
+            let plane = plane(report, node, entries, what);
+            (Construction::Mirrored { joint: joint?, plane: plane? }, vec![span("mirror")])
+        }
+        _ => {
+            let (t, offset) = (number_of("t", true), number_of("offset", true));
+            let through = line(report, &find(entries, "on")?.node, what, names);
+            let (at, place) = match (t?, offset?) {
+                (Some(t), None) => (LinePlace::Share(t), span("t")),
+                (None, Some(offset)) => (LinePlace::Offset(offset), span("offset")),
+                (both, _) => {
+                    let (code, says) = if both.is_some() {
+                        (Code::ConflictingKeys, "both `t` and `offset`")
+                    } else {
+                        (Code::MissingKey, "neither `t` nor `offset`")
+                    };
+                    let help = "give one: t = \"1/5\" of the way from the first joint to the second, or offset = 2.4 in units of length";
+                    report.refuse(code, &node.span, format!("{what} has {says}"), help);
+                    return None;
+                }
+            };
+            (Construction::OnLine { through: through?, at }, vec![span("on"), span("on"), place])
+        }
+    })
+}
+
+fn plane(report: &mut Findings<'_>, node: &Node, entries: &[Entry], what: &str) -> Option<CoordinatePlane> {
+    let help = "write plane = \"xy\", \"xz\" or \"yz\"";
+    let Some(entry) = find(entries, "plane") else {
+        report.refuse(Code::MissingKey, &node.span, format!("`plane` of {what} is missing"), help);
+        return None;
+    };
+    let known = |text: &str| CoordinatePlane::ALL.into_iter().find(|p| p.name() == text);
+    let plane = if let Value::Text(text) = &entry.node.value { known(text) } else { None };
+    if plane.is_none() {
+        let message = format!("`plane` of {what} is no plane of two axes");
+        report.refuse(Code::WrongType, &entry.node.span, message, help);
+    }
+    plane
+}
+
+fn line(
+    report: &mut Findings<'_>,
+    node: &Node,
+    what: &str,
+    names: &BTreeMap<String, usize>,
+) -> Option<[usize; 2]> {
+    let Value::Array(list) = &node.value else {
+        let message = format!("`on` of {what} is {}, not a pair of joints", node.value.kind());
+        report.refuse(Code::WrongType, &node.span, message, "write on = [\"P1\", \"P2\"]");
+        return None;
+    };
+    let [a, b] = list.as_slice() else {
+        let message = format!("`on` of {what} names {} joints instead of two", list.len());
+        report.refuse(Code::CoordinateCount, &node.span, message, "write on = [\"P1\", \"P2\"]");
+        return None;
+    };
+    let ends = [a, b].map(|e| reference(report, e, what, names));
+    Some([ends[0]?, ends[1]?])
+}
+
+/// A joint of the same body.
+fn reference(
+    report: &mut Findings<'_>,
+    node: &Node,
+    what: &str,
+    names: &BTreeMap<String, usize>,
+) -> Option<usize> {
+    let Value::Text(name) = &node.value else {
+        let message = format!("{what} starts from {}, not from a joint", node.value.kind());
+        report.refuse(
+            Code::WrongType,
+            &node.span,
+            message,
+            "write the name of a joint of the same body in quotes",
+        );
+        return None;
+    };
+    let found = names.get(name).copied();
+    if found.is_none() {
+        let known: Vec<&str> =
+            if report.is_full() { Vec::new() } else { names.keys().take(200).map(String::as_str).collect() };
+        let message = format!("{what} starts from `{}`, which is not a joint of the same body", shown(name));
+        report.refuse(Code::UnknownName, &node.span, message, nearest_help("known names", name, &known));
+    }
+    found
+}
+
+/// What besides joints has numbers that follow from parameters, with its places.
+pub(super) struct BesideJoints<'a> {
+    pub(super) home: Option<(WrittenHome, Places)>,
+    pub(super) cranks: (Option<WrittenCranks>, &'a CrankPlaces),
+}
+
+/// Gives every joint its coordinates; the constructions when all of them have some.
+pub(super) fn resolve(
+    report: &mut Findings<'_>,
+    parameters: Parameters,
+    (base, platform): (&mut NamedJoints, &mut NamedJoints),
+    BesideJoints { home, cranks: (cranks, crank_places) }: BesideJoints<'_>,
+) -> Option<Constructions> {
+    let mut constructions = Constructions::default();
+    let (home, home_places) = home.unzip();
+    let home_places = home_places.unwrap_or_default();
+    (constructions.home, constructions.cranks) = (home, cranks);
+    let (mut places, mut unread) = (Vec::new(), Vec::new());
+    for (name, value, place) in parameters {
+        match value {
+            Some(value) => {
+                constructions.parameters.push((name, value));
+                places.push(place);
+            }
+            None => unread.push(name),
+        }
+    }
+    constructions.joints = [&*base, &*platform].map(NamedJoints::constructions);
+    if constructions.is_empty() {
+        return Some(constructions);
+    }
+    let names = [base.names(), platform.names()];
+    let points = [base.points(), platform.points()];
+    let given = Joints {
+        names: names.each_ref().map(Vec::as_slice),
+        points: points.each_ref().map(Vec::as_slice),
+        unread: &unread,
+    };
+    match constructions.resolve(given) {
+        Ok([on_base, on_platform]) => {
+            let mut sound = true;
+            for (body, points) in [(base, on_base), (platform, on_platform)] {
+                for (joint, point) in body.joints.iter_mut().zip(points) {
+                    joint.point = point.into();
+                    if joint.constructed && joint.point.iter().any(|x| x.is_nan()) {
+                        // of a fault that is reported where it is
+                        (joint.intact, sound) = (false, false);
+                    } else if joint.constructed && joint.point.iter().any(|x| x.abs() > LARGEST) {
+                        let message = format!("{} is too far out to compute with", shown(&joint.name));
+                        let help = format!("stay below {LARGEST:e}; use a larger unit");
+                        report.refuse(Code::OutOfRange, &joint.places.whole, message, help);
+                        (joint.intact, sound) = (false, false);
+                    }
+                }
+            }
+            let out = |home: &WrittenHome| home.pose.position.iter().any(|x| !(x.abs() <= LARGEST));
+            if constructions.home.as_ref().is_some_and(out) {
+                let help = format!("stay below {LARGEST:e}; use a larger unit");
+                let message = "[home] is too far out to compute with";
+                report.refuse(Code::OutOfRange, &home_places.whole, message, help);
+                sound = false;
+            }
+            sound.then_some(constructions)
+        }
+        Err(faults) => {
+            for fault in faults {
+                let place = match fault.owner {
+                    Owner::Parameter(i) => &places[i],
+                    Owner::Joint(body, j) => &body.of((&*base, &*platform)).joints[j].places,
+                    Owner::Home => &home_places,
+                    Owner::Crank(joint) => crank_places.of(joint),
+                };
+                let part = match fault.owner {
+                    Owner::Parameter(_) => fault.within.as_ref().map(|_| 0),
+                    Owner::Joint(..) | Owner::Home | Owner::Crank(_) => fault.part,
+                };
+                let span = part.and_then(|k| place.parts.get(k)).unwrap_or(&place.whole);
+                let span = inner(report, span, fault.within.as_ref());
+                report.refuse(fault.code, &span, shown_all(&fault.message), fault.help);
+            }
+            for body in [base, platform] {
+                body.joints.iter_mut().filter(|j| j.constructed).for_each(|j| j.intact = false);
+            }
+            None
+        }
+    }
+}
+
+/// Names in a message may hold anything.
+fn shown_all(message: &str) -> String {
+    message.chars().take(400).map(|c| if c.is_control() { ' ' } else { c }).collect()
+}

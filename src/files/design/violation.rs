@@ -1,0 +1,386 @@
+//! What is wrong with a design file, and where: violations are collected with their line and column.
+
+use std::fmt;
+
+use super::tree::Span;
+use crate::platform::manipulator::Body;
+
+/// What kind of violation; the name in [`Code::as_str`] is stable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Code {
+    /// The text is not TOML or not JSON.
+    Syntax,
+    /// There is nothing in the file.
+    Empty,
+    /// A key stands twice in one table.
+    DuplicateKey,
+    /// Values are nested deeper than any design needs.
+    NestingTooDeep,
+    /// A key no version of the format knows.
+    UnknownKey,
+    /// A required key is absent.
+    MissingKey,
+    /// A value of another kind than the key takes.
+    WrongType,
+    /// A name, unit or joint name without a character.
+    EmptyName,
+    /// A text with characters that change the direction of text.
+    TextDirection,
+    /// A point or vector with other than three coordinates.
+    CoordinateCount,
+    /// NaN or infinite.
+    NonFinite,
+    /// So large or so small that squares leave the range of doubles.
+    OutOfRange,
+    /// Other than six legs.
+    LegCount,
+    /// A leg that is not a pair of joint names.
+    LegShape,
+    /// A leg names a joint that does not exist.
+    MissingJoint,
+    /// Two legs join the same pair of joints.
+    IdenticalLegs,
+    /// A body with exactly three joints in use has them on one line.
+    CollinearTriangle,
+    /// All joints of each body coincide.
+    NoSize,
+    /// Other than six leg lengths.
+    LengthCount,
+    /// A leg length below zero.
+    NegativeLength,
+    /// A quantity that must be above zero (or not below) is not.
+    NotPositive,
+    /// None or several of `rpy_deg`, `quat_wxyz`, `rotation`, or numbers that are not a rotation.
+    Rotation,
+    /// A workspace box without the `[home]` it lies around.
+    MissingHome,
+    /// Two keys that say the same thing in different ways.
+    ConflictingKeys,
+    /// A grid with other than 1 to 5 points an axis.
+    Grid,
+    /// A text that is no arithmetic expression.
+    Expression,
+    /// An expression or a construction names what does not exist.
+    UnknownName,
+    /// Parameters or joints that follow from one another in a circle.
+    Cycle,
+    /// An expression divides by zero, or by what cannot be told from it.
+    DivisionByZero,
+    /// A square root of a number that is negative, or may be.
+    NegativeRoot,
+    /// The line through two joints that are the same point.
+    NoLine,
+    /// Rods on cranks where legs that change their lengths are asked for.
+    Rotary,
+    /// Joints that are not ideal where the length of a drive is taken for the distance of its joints.
+    NotIdeal,
+    /// Expressions or constructions longer or more than any design needs.
+    TooComplex,
+    /// More violations than are worth listing.
+    TooMany,
+}
+
+impl Code {
+    /// The stable name, `design::unknown_key` for example.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Syntax => "design::syntax",
+            Self::Empty => "design::empty",
+            Self::DuplicateKey => "design::duplicate_key",
+            Self::NestingTooDeep => "design::nesting_too_deep",
+            Self::UnknownKey => "design::unknown_key",
+            Self::MissingKey => "design::missing_key",
+            Self::WrongType => "design::wrong_type",
+            Self::EmptyName => "design::empty_name",
+            Self::TextDirection => "design::text_direction",
+            Self::CoordinateCount => "design::coordinate_count",
+            Self::NonFinite => "design::non_finite",
+            Self::OutOfRange => "design::out_of_range",
+            Self::LegCount => "design::leg_count",
+            Self::LegShape => "design::leg_shape",
+            Self::MissingJoint => "design::missing_joint",
+            Self::IdenticalLegs => "design::identical_legs",
+            Self::CollinearTriangle => "design::collinear_triangle",
+            Self::NoSize => "design::no_size",
+            Self::LengthCount => "design::length_count",
+            Self::NegativeLength => "design::negative_length",
+            Self::NotPositive => "design::not_positive",
+            Self::Rotation => "design::rotation",
+            Self::MissingHome => "design::missing_home",
+            Self::ConflictingKeys => "design::conflicting_keys",
+            Self::Grid => "design::grid",
+            Self::Expression => "design::expression",
+            Self::UnknownName => "design::unknown_name",
+            Self::Cycle => "design::cycle",
+            Self::DivisionByZero => "design::division_by_zero",
+            Self::NegativeRoot => "design::negative_root",
+            Self::NoLine => "design::no_line",
+            Self::Rotary => "design::rotary",
+            Self::NotIdeal => "design::not_ideal",
+            Self::TooComplex => "design::too_complex",
+            Self::TooMany => "design::too_many",
+        }
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// One thing wrong with a design file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Violation {
+    /// What kind.
+    pub code: Code,
+    /// Line, 1-based.
+    pub line: usize,
+    /// Column in characters, 1-based.
+    pub column: usize,
+    /// Number of characters of the text at fault on that line, at least 1.
+    pub width: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it.
+    pub help: String,
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: {}: {} ({})", self.line, self.column, self.code, self.message, self.help)
+    }
+}
+
+/// Something that is allowed but is often a slip.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// A joint no leg is attached to.
+    UnusedJoint {
+        /// The body.
+        body: Body,
+        /// Its name.
+        name: String,
+        /// Line, 1-based.
+        line: usize,
+    },
+    /// Two names at exactly the same coordinates.
+    CoincidentJoints {
+        /// The body.
+        body: Body,
+        /// The name that comes first.
+        first: String,
+        /// The name that comes later.
+        second: String,
+        /// Line of the later one, 1-based.
+        line: usize,
+    },
+    /// Two legs between the same two points, under one name or two.
+    CoincidentLegs {
+        /// The legs, counted from 1.
+        legs: [usize; 2],
+        /// Line of the later one, 1-based.
+        line: usize,
+    },
+    /// `legs` was written below a table header, so that TOML counts it to that table.
+    LegsInsideTable {
+        /// The table.
+        table: &'static str,
+        /// Line, 1-based.
+        line: usize,
+    },
+}
+
+impl Warning {
+    /// The stable name.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::UnusedJoint { .. } => "design::unused_joint",
+            Self::CoincidentJoints { .. } => "design::coincident_joints",
+            Self::CoincidentLegs { .. } => "design::coincident_legs",
+            Self::LegsInsideTable { .. } => "design::legs_inside_table",
+        }
+    }
+
+    /// The line it is about, 1-based.
+    #[must_use]
+    pub fn line(&self) -> usize {
+        match self {
+            Self::UnusedJoint { line, .. }
+            | Self::CoincidentJoints { line, .. }
+            | Self::CoincidentLegs { line, .. }
+            | Self::LegsInsideTable { line, .. } => *line,
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn advice(&self) -> String {
+        match self {
+            Self::UnusedJoint { name, .. } => format!("attach a leg to {name} or remove it"),
+            Self::CoincidentJoints { first, second, .. } => format!(
+                "if the legs share one joint there, name {first} in all of them; {first} and {second} count as two joints"
+            ),
+            Self::CoincidentLegs { .. } => {
+                "give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid"
+                    .into()
+            }
+            Self::LegsInsideTable { .. } => {
+                "move `legs` above the first [table] of the file; it is read as a top-level key".into()
+            }
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnusedJoint { body, name, .. } => write!(f, "{body} joint {name} carries no leg"),
+            Self::CoincidentJoints { body, first, second, .. } => {
+                write!(f, "{body} joints {first} and {second} have the same coordinates")
+            }
+            Self::CoincidentLegs { legs: [a, b], .. } => {
+                write!(f, "legs {a} and {b} join the same two points")
+            }
+            Self::LegsInsideTable { table, .. } => write!(f, "`legs` stands inside [{table}]"),
+        }
+    }
+}
+
+/// After this many violations the rest is only counted.
+const MAX_VIOLATIONS: usize = 100;
+
+/// Violations and warnings found so far in one text.
+#[derive(Debug)]
+pub(crate) struct Findings<'t> {
+    text: &'t str,
+    line_starts: Vec<usize>,
+    violations: Vec<Violation>,
+    warnings: Vec<Warning>,
+    unlisted: usize,
+}
+
+impl<'t> Findings<'t> {
+    pub(crate) fn new(text: &'t str) -> Self {
+        let starts = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i + 1);
+        let line_starts = std::iter::once(0).chain(starts).collect();
+        Self { text, line_starts, violations: Vec::new(), warnings: Vec::new(), unlisted: 0 }
+    }
+
+    /// Line of a byte offset, 1-based.
+    pub(crate) fn line(&self, offset: usize) -> usize {
+        self.line_starts.partition_point(|&start| start <= offset).max(1)
+    }
+
+    /// Text of a line, 1-based, with its end of line.
+    pub(crate) fn line_text(&self, line: usize) -> &'t str {
+        let start = self.line_starts.get(line - 1).copied().unwrap_or(self.text.len());
+        let end = self.line_starts.get(line).copied().unwrap_or(self.text.len());
+        &self.text[start..end]
+    }
+
+    pub(crate) fn refuse(
+        &mut self,
+        code: Code,
+        span: &Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        if self.is_full() {
+            self.unlisted += 1;
+            return;
+        }
+        let (line, column, width) = self.locate(span);
+        let (message, help) = (message.into(), help.into());
+        self.violations.push(Violation { code, line, column, width, message, help });
+    }
+
+    pub(crate) fn warn(&mut self, warning: Warning) {
+        if self.warnings.len() < MAX_VIOLATIONS {
+            self.warnings.push(warning);
+        }
+    }
+
+    /// The text at a place.
+    pub(crate) fn source(&self, span: &Span) -> &'t str {
+        self.text.get(span.clone()).unwrap_or_default()
+    }
+
+    /// Whether further violations are only counted.
+    pub(crate) fn is_full(&self) -> bool {
+        self.violations.len() >= MAX_VIOLATIONS
+    }
+
+    /// How many violations there are so far.
+    pub(crate) fn count(&self) -> usize {
+        self.violations.len() + self.unlisted
+    }
+
+    pub(crate) fn is_clean(&self) -> bool {
+        self.violations.is_empty()
+    }
+
+    /// The violations in the order of the text, closed by a count of those not listed.
+    pub(crate) fn into_violations(mut self) -> Vec<Violation> {
+        self.violations.sort_by_key(|v| (v.line, v.column));
+        if self.unlisted > 0 {
+            self.violations.push(Violation {
+                code: Code::TooMany,
+                line: self.line_starts.len(),
+                column: 1,
+                width: 1,
+                message: format!("{} more violations are not listed", self.unlisted),
+                help: "mend the listed ones first".into(),
+            });
+        }
+        self.violations
+    }
+
+    pub(crate) fn into_warnings(mut self) -> Vec<Warning> {
+        self.warnings.sort_by_key(Warning::line);
+        self.warnings
+    }
+
+    /// Line, column and width on that line, all in characters.
+    fn locate(&self, span: &Span) -> (usize, usize, usize) {
+        let line = self.line(span.start.min(self.text.len()));
+        let start = self.line_starts[line - 1];
+        let end = self.line_starts.get(line).map_or(self.text.len(), |next| next - 1);
+        let chars = |from: usize, to: usize| self.text.get(from..to).map_or(0, |s| s.chars().count());
+        let column = chars(start, span.start.min(self.text.len())) + 1;
+        let width = chars(span.start.min(end), span.end.min(end)).max(1);
+        (line, column, width)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_counted_in_characters() {
+        let text = "a\n\u{e9}\u{e9} = x\r\n";
+        let mut report = Findings::new(text);
+        let at = text.find('x').unwrap();
+        report.refuse(Code::Syntax, &(at..at + 1), "m", "h");
+        report.refuse(Code::Syntax, &(text.len()..text.len()), "m", "h");
+        let found: Vec<_> = report.into_violations().iter().map(|v| (v.line, v.column, v.width)).collect();
+        assert_eq!(found, [(2, 6, 1), (3, 1, 1)]);
+    }
+
+    #[test]
+    fn endless_violations_end_in_a_count() {
+        let mut report = Findings::new("x");
+        for _ in 0..250 {
+            report.refuse(Code::UnknownKey, &(0..1), "m", "h");
+        }
+        let violations = report.into_violations();
+        assert_eq!(violations.len(), 101);
+        assert_eq!(violations[100].code, Code::TooMany);
+        assert!(violations[100].message.starts_with("150 more"));
+    }
+}

@@ -1,0 +1,163 @@
+//! C99 for drives that are not as long as the distances of their joints: corrected lengths of poses, one pose followed from lengths to lengths, and a proved bound of its error.
+//!
+//! `equipod_drives.c` and `equipod_drives.h` are the same for every design and stand beside this file; the poses of distances are followed by `equipod.c`.
+
+use std::fmt::Write as _;
+
+use nalgebra::Vector3;
+
+use super::vectors::{list, moved, pose_numbers, row};
+use super::{
+    ExportedFile, OwnLibrary, SwingAxes, braces, heading, legs, limits, matrix, number, points, reals,
+};
+use crate::files::export::Export;
+use crate::fk::NearOptions;
+use crate::machine::coupled::{CoupledLegs, CoupledStatus, CoupledTracker};
+use crate::num::Rng;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Body;
+
+/// Seed of the poses.
+const SEED: u64 = 29;
+/// Poses about home: this far turned, radians, and moved, over the size.
+const AWAY: f64 = 0.08;
+/// Poses looked at.
+const POSES: usize = 16;
+
+pub(super) fn files(export: &Export, drives: &CoupledLegs) -> Vec<ExportedFile> {
+    let library = OwnLibrary {
+        name: "equipod_drives",
+        header: include_str!("equipod_drives.h"),
+        source: include_str!("equipod_drives.c"),
+        selftest: include_str!("equipod_selftest.c"),
+    };
+    let mut files = library.files(header(export), source(export, drives), vectors(export, drives));
+    files.extend(super::kinematics_modules());
+    files
+}
+
+fn header(export: &Export) -> String {
+    let mut out = heading(export);
+    let _ = write!(
+        out,
+        "#ifndef EQUIPOD_DESIGN_H\n#define EQUIPOD_DESIGN_H\n\n#include \"equipod_drives.h\"\n\n\
+         #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
+         /* The joints of the design, and what makes its drives longer or shorter than their distances. */\n\
+         extern const equipod_legs equipod_nominal;\nextern const equipod_drives equipod_design_drives;\n\
+         /* Marks such a design for the kinematics modules. */\n#define EQUIPOD_HAS_DRIVES 1\n\
+         /* Limits of lengths, which are those of drives, and of swing. */\nextern const equipod_limits equipod_design_limits;\n\
+         /* The home pose, from which turns of the legs count. */\nextern const equipod_pose equipod_home;\n\
+         /* Millimetres of a unit of length. */\n#define EQUIPOD_UNIT_MILLIMETRES {}\n",
+        number(export.unit.millimetres)
+    );
+    if export.leg_offsets.is_some() {
+        out.push_str(
+            "\n/* Leg offsets of the calibration: the length of the drive of leg i is the one it shows less equipod_leg_offsets[i]. */\n\
+             #define EQUIPOD_HAS_LEG_OFFSETS 1\nextern const real_t equipod_leg_offsets[6];\n",
+        );
+    }
+    out.push_str("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
+    out
+}
+
+fn source(export: &Export, drives: &CoupledLegs) -> String {
+    let mut out = heading(export);
+    out.push_str("#include \"equipod_design.h\"\n\n#include <math.h>\n\n#define R(x) ((real_t)(x))\n\n");
+    legs(&mut out, "equipod_nominal", &export.manipulator);
+    let axes = Body::BOTH.map(|body| points(&drives.first_axes(body).map(Into::into)));
+    let _ = writeln!(
+        out,
+        "const equipod_drives equipod_design_drives = {{\n    {{{}}},\n    {},\n    R({}),\n    {},\n    R({})\n}};\n",
+        axes.join(", "),
+        reals(drives.offsets()),
+        number(drives.lead_per_radian()),
+        reals(drives.turned_at_home()),
+        number(export.size),
+    );
+    limits(&mut out, &export.hardware, &SwingAxes::of(export));
+    let r = export.home.rotation.matrix();
+    let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
+    let _ = writeln!(
+        out,
+        "const equipod_pose equipod_home = {{\n    {},\n    {}\n}};",
+        matrix(&rows),
+        reals(export.home.position.iter().copied())
+    );
+    if let Some(offsets) = export.leg_offsets {
+        let _ = writeln!(out, "\nconst real_t equipod_leg_offsets[6] = {};", reals(offsets));
+    }
+    out
+}
+
+/// Numbers of the library for the self-test: poses about home, one at which a leg goes along its first axis, and ways from one to the next.
+fn vectors(export: &Export, drives: &CoupledLegs) -> String {
+    let mut rng = Rng::new(SEED);
+    let about: Vec<Pose> = (0..POSES).map(|_| moved(&export.home, AWAY, export.size, &mut rng)).collect();
+    let mut out = heading(export);
+    let all = export.workspace.iter().take(9).chain(&about).copied().chain(along_axis(export, drives));
+    list(&mut out, "drive_vector", "drive_vectors", all.map(|pose| lengths(drives, &pose)));
+    let mut tracker = CoupledTracker::new(drives.clone(), export.home);
+    let steps = about.iter().filter_map(|pose| follow(drives, &mut tracker, pose));
+    let steps: Vec<String> = steps.collect();
+    list(&mut out, "follow_vector", "follow_vectors", steps);
+    out
+}
+
+/// A pose at which the first leg goes along a first axis.
+fn along_axis(export: &Export, drives: &CoupledLegs) -> Option<Pose> {
+    let leg = export.manipulator.legs()[0];
+    let axis = drives.first_axes(Body::Base)[0];
+    let there = leg.base.coords + axis * export.size;
+    let pose = Pose { position: there - export.home.rotation * leg.platform.coords, ..export.home };
+    (axis != Vector3::zeros()).then_some(pose)
+}
+
+fn lengths(drives: &CoupledLegs, pose: &Pose) -> String {
+    let zeros = row(&[0.0; 6]);
+    let (Ok(states), Ok(lengths)) = (drives.states(pose), drives.drives(pose)) else {
+        let missing = (0..6).find(|i| drives.state_of(*i, pose).is_err()).map_or(0, |i| i + 1);
+        let nothing = braces(std::iter::repeat_n(row(&[0.0; 3]), 6));
+        let no_rates = braces(std::iter::repeat_n(zeros.clone(), 6));
+        let entries = [pose_numbers(pose), zeros.clone(), missing.to_string()];
+        return braces(entries.into_iter().chain([zeros.clone(), zeros.clone(), zeros, nothing, no_rates]));
+    };
+    braces([
+        pose_numbers(pose),
+        row(&lengths),
+        "0".to_string(),
+        row(&states.map(|s| s.correction)),
+        row(&states.map(|s| s.of_offsets)),
+        row(&states.map(|s| s.twist)),
+        braces(states.iter().map(|s| row(s.line.as_slice()))),
+        braces(states.iter().map(|s| row(&s.rates))),
+    ])
+}
+
+/// The way to the lengths of a pose.
+fn follow(drives: &CoupledLegs, tracker: &mut CoupledTracker, pose: &Pose) -> Option<String> {
+    let lengths = drives.drives(pose).ok()?;
+    let start = tracker.pose();
+    let found = tracker.step(&lengths);
+    let (status, bound) = match found.status {
+        CoupledStatus::Proved(bound) => ("EQUIPOD_DRIVES_REACHED", Some(bound)),
+        CoupledStatus::Unproved => ("EQUIPOD_DRIVES_REACHED", None),
+        CoupledStatus::NotContracting => ("EQUIPOD_DRIVES_NOT_CONTRACTING", None),
+        CoupledStatus::NotTracked => ("EQUIPOD_DRIVES_NOT_TRACKED", None),
+        CoupledStatus::NoLength(_) => ("EQUIPOD_DRIVES_NO_LENGTH", None),
+    };
+    Some(braces([
+        pose_numbers(&start),
+        row(&lengths),
+        NearOptions::default().segments.to_string(),
+        status.to_string(),
+        pose_numbers(found.near.pose()),
+        row(&found.distances),
+        number(found.near.evidence().frobenius_ratio),
+        number(found.factor),
+        found.steps.to_string(),
+        u8::from(bound.is_some()).to_string(),
+        number(bound.map_or(0.0, |b| b.position)),
+        number(bound.map_or(0.0, |b| b.angle)),
+        number(bound.map_or(0.0, |b| b.contraction)),
+    ]))
+}

@@ -1,0 +1,244 @@
+//! Writes a design as files for the programs that come next: CAD, simulators, machine controls, tables, drawings.
+//!
+//! [`Export`] holds everything the formats need, worked out once: plates around the joints, legs at home, the length unit.
+//! A [`Writer`] turns it into the text of one or more files; it is pure, and the same input gives the same bytes. Every file states its
+//! frames and its unit.
+//!
+//! Frames, all right-handed. *Base*: the frame of the base joints of the design. *Platform*: that of the platform joints; at the pose `(R, p)`
+//! a point is `x_base = R x_platform + p`. *Plate*: origin on the lower face of the plate, in the foot of the body's origin; third axis along the
+//! normal of the plate, which points to positive z of the body; where the plate is parallel to the x-y plane of the body, plate coordinates
+//! `(u, v)` are the body's `(x, y)`.
+
+mod controller;
+mod csv;
+mod drawing;
+mod dxf;
+mod hal;
+mod json;
+mod matlab;
+mod mjcf;
+mod model;
+mod parts;
+mod plate;
+#[cfg(test)]
+mod round_trip;
+mod sizes;
+mod step;
+mod stl;
+mod telescope;
+#[cfg(test)]
+mod tests;
+mod text;
+mod triangulate;
+mod units;
+
+use thiserror::Error;
+
+use crate::num::names::{UnknownName, named};
+use crate::platform::manipulator::Body;
+
+pub use crate::machine::requirements::{Outline, OutlinePart};
+pub use controller::EquivalentOctahedral;
+pub use model::{Export, ExportBody, ExportCalibration, ExportCranks, ExportLeg, ExportedJoint};
+pub use parts::{PART_COLUMNS, PartLine};
+pub use plate::{Plate, PlateHole};
+pub use sizes::{ExportOptions, NoExport, SizeChoice};
+pub(crate) use text::csv_field;
+pub use units::{LengthUnit, UnknownUnit};
+
+/// A file: its name and its text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExportedFile {
+    /// Name, after `linuxcnc/` for files of the folder of that name.
+    pub name: String,
+    /// All of it.
+    pub text: String,
+}
+
+impl ExportedFile {
+    fn new(name: &str, text: String) -> Self {
+        Self { name: name.to_string(), text }
+    }
+}
+
+/// Why a format cannot hold a design.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Unsupported {
+    /// Two seats of a plate run into each other.
+    #[error(
+        "the {parts} of the joints {first} and {second} of the {body} overlap: their axes are {distance} apart and {parts} are {diameter} wide (design units)"
+    )]
+    SeatsOverlap {
+        /// The body.
+        body: Body,
+        /// `"holes"`, or `"posts"` where a joint stands on one.
+        parts: &'static str,
+        /// Name of a joint.
+        first: String,
+        /// Name of another joint.
+        second: String,
+        /// Distance of the axes, design units.
+        distance: f64,
+        /// What they are wide, design units.
+        diameter: f64,
+    },
+    /// A hole of a plate runs into another one or into the outline.
+    #[error("in the plate of the {body} {first} runs into {second} by {by} (design units)")]
+    HolesMeet {
+        /// The body.
+        body: Body,
+        /// A hole.
+        first: String,
+        /// Another hole, or the outline.
+        second: String,
+        /// How far, design units.
+        by: f64,
+    },
+    /// A leg has no room for a body between its joints.
+    #[error(
+        "leg {leg} is {length} long at home and its joints take {taken} (design units), which leaves no room for a cylinder and a rod"
+    )]
+    LegTooShort {
+        /// 1-based number.
+        leg: usize,
+        /// Length at home, design units.
+        length: f64,
+        /// What the balls and the cylinder take, design units.
+        taken: f64,
+    },
+    /// The format is about legs that change their lengths.
+    #[error("the format holds legs that change their lengths, and those of the design are rods on cranks")]
+    Cranks,
+    /// The format takes drives to be as long as the distances of their joints.
+    #[error(
+        "the joints are not ideal (`offset` of universal joints or `screw_lead` in [hardware]), and the format has drives as long as the distances of their joints"
+    )]
+    NotIdeal,
+    /// The format has one greatest swing for all joints of a body.
+    #[error(
+        "the joints of the {0} have different greatest angles (`swing_deg`), and the format has one for all joints of a body"
+    )]
+    SwingOfLegs(Body),
+    /// A rod is along the axis of its crank at home.
+    #[error("the rod of leg {leg} is along the axis of its crank at home, where the crank does not move it")]
+    RodAlongAxis {
+        /// 1-based number.
+        leg: usize,
+    },
+    /// A leg has no direction at home.
+    #[error("leg {leg} has length zero at home, and so no direction")]
+    NoDirection {
+        /// 1-based number.
+        leg: usize,
+    },
+}
+
+/// A format.
+pub trait Writer: std::fmt::Debug + Sync {
+    /// Its name on the command line.
+    fn name(&self) -> &'static str;
+
+    /// What it is for, in a few words.
+    fn purpose(&self) -> &'static str;
+
+    /// What of a design the format leaves out; empty when nothing worth a word.
+    fn leaves_out(&self) -> &'static str {
+        ""
+    }
+
+    /// Whether it holds rods on cranks too.
+    fn takes_cranks(&self) -> bool {
+        false
+    }
+
+    /// Whether it holds drives that are not as long as the distances of their joints.
+    fn takes_coupled(&self) -> bool {
+        false
+    }
+
+    /// The files. Where the legs are rods on cranks only formats that [take them](Self::takes_cranks) are asked.
+    ///
+    /// # Errors
+    /// What the format cannot express.
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported>;
+}
+
+/// A format by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ExportFormat {
+    /// C99 for controllers.
+    C,
+    /// Joints, lengths at home, workspace and trajectory as tables.
+    Csv,
+    /// Hole plans of both plates.
+    Dxf,
+    /// Geometry for `genhexkins` of `LinuxCNC`.
+    Hal,
+    /// Everything, for programs.
+    Json,
+    /// MATLAB and Octave.
+    Matlab,
+    /// A closed mechanism for `MuJoCo` and other simulators.
+    Mjcf,
+    /// Solids for CAD programs.
+    Step,
+    /// Solids as meshes.
+    Stl,
+    /// A drawing with three views.
+    Drawing,
+}
+
+impl ExportFormat {
+    /// Every format, by name.
+    pub const ALL: [Self; 10] = [
+        Self::C,
+        Self::Csv,
+        Self::Dxf,
+        Self::Hal,
+        Self::Json,
+        Self::Matlab,
+        Self::Mjcf,
+        Self::Step,
+        Self::Stl,
+        Self::Drawing,
+    ];
+
+    /// What writes it.
+    #[must_use]
+    pub fn writer(self) -> &'static dyn Writer {
+        match self {
+            Self::C => &controller::C,
+            Self::Csv => &csv::Csv,
+            Self::Dxf => &dxf::Dxf,
+            Self::Hal => &hal::Hal,
+            Self::Json => &json::Json,
+            Self::Matlab => &matlab::Matlab,
+            Self::Mjcf => &mjcf::Mjcf,
+            Self::Step => &step::StepFile,
+            Self::Stl => &stl::Stl,
+            Self::Drawing => &drawing::Drawing,
+        }
+    }
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.writer().name()
+    }
+}
+
+impl std::fmt::Display for ExportFormat {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl std::str::FromStr for ExportFormat {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        named("format", text, &Self::ALL, Self::name)
+    }
+}

@@ -1,0 +1,321 @@
+//! Sizes of plates, joints and legs: chosen, from `[hardware]`, or by rule.
+
+use nalgebra::{Point3, Vector3};
+use thiserror::Error;
+
+use super::model::ExportedJoint;
+use super::telescope::has_room;
+use super::units::{LengthUnit, UnknownUnit};
+use crate::files::design::Design;
+use crate::machine::requirements::{Hardware, MovingBodies, PlateDesign, seat_height};
+use crate::platform::manipulator::Body;
+
+/// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that [`Export::choices`](super::Export::choices) states.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct ExportOptions {
+    /// What one unit of the design is, where its label does not say it.
+    pub unit: Option<LengthUnit>,
+    /// Thickness of the plates.
+    pub thickness: Option<f64>,
+    /// Distance of the outline of a plate from the hull of its joints.
+    pub margin: Option<f64>,
+    /// Diameter of the holes in the plates.
+    pub hole: Option<f64>,
+    /// Diameter of the balls of the joints.
+    pub ball: Option<f64>,
+    /// Mass of the platform with its payload, kilograms.
+    pub mass: Option<f64>,
+    /// Whether simulators are told to carry the weight of all bodies.
+    pub gravity_compensation: bool,
+}
+
+impl ExportOptions {
+    /// The defaults: every size from `[hardware]` or by rule.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// What one unit of the design is.
+    #[must_use]
+    pub fn unit(mut self, unit: LengthUnit) -> Self {
+        self.unit = Some(unit);
+        self
+    }
+
+    /// Thickness of the plates, design units.
+    #[must_use]
+    pub fn thickness(mut self, thickness: f64) -> Self {
+        self.thickness = Some(thickness);
+        self
+    }
+
+    /// Distance of the outline of a plate from the hull of its joints, design units.
+    #[must_use]
+    pub fn margin(mut self, margin: f64) -> Self {
+        self.margin = Some(margin);
+        self
+    }
+
+    /// Diameter of the holes in the plates, design units.
+    #[must_use]
+    pub fn hole(mut self, hole: f64) -> Self {
+        self.hole = Some(hole);
+        self
+    }
+
+    /// Diameter of the balls of the joints, design units.
+    #[must_use]
+    pub fn ball(mut self, ball: f64) -> Self {
+        self.ball = Some(ball);
+        self
+    }
+
+    /// Mass of the platform with its payload, kilograms.
+    #[must_use]
+    pub fn mass(mut self, mass: f64) -> Self {
+        self.mass = Some(mass);
+        self
+    }
+
+    /// Whether simulators are told to carry the weight of all bodies.
+    #[must_use]
+    pub fn gravity_compensation(mut self, wanted: bool) -> Self {
+        self.gravity_compensation = wanted;
+        self
+    }
+}
+
+/// Sizes of the joints and the plate of a body, design units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sizes {
+    pub(super) ball: f64,
+    pub(super) hole: f64,
+    pub(super) thickness: f64,
+    pub(super) margin: f64,
+    /// Of the lowest joint centre above the face.
+    pub(super) height: f64,
+}
+
+/// Sizes of the bodies of the legs, design units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LegSizes {
+    pub(super) cylinder_diameter: f64,
+    pub(super) rod_diameter: f64,
+    pub(super) cylinder_length: f64,
+}
+
+/// A size and where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SizeChoice {
+    /// What it is the size of.
+    pub what: String,
+    /// Its value in `unit`.
+    pub value: f64,
+    /// `"design units"` or `"kg"`.
+    pub unit: &'static str,
+    /// Option, table of the design, or rule.
+    pub from: &'static str,
+}
+
+/// Why there is nothing to export.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum NoExport {
+    /// The unit of the design is not a length unit.
+    #[error(transparent)]
+    Unit(#[from] UnknownUnit),
+    /// The legs are rods on cranks, which hold no pose at home, or make no platform.
+    #[error("{0}")]
+    Cranks(String),
+    /// Joints that are not ideal and hold no pose at home.
+    #[error("{0}")]
+    Joints(String),
+    /// A size that nothing can be made of.
+    #[error("{what} is {value}: {why}")]
+    BadSize {
+        /// What has the size.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+}
+
+/// Where sizes of plates are stated.
+const PLATES: &str = "[plates]";
+
+const RULE_CYLINDER: &str = "rule: half the shortest leg at home";
+const RULE_STROKE: &str = "rule: what holds a rod over the stroke, but no more than leaves room for the platform joint at the least length";
+
+const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
+
+/// Edge of the housing that a ball can have; where joints have different ones, the ball that fits into each.
+fn housing_width(hardware: &Hardware, body: Body) -> Option<f64> {
+    hardware.joint_widths(body).map(|[least, _]| least)
+}
+
+/// Least distance of the axes of two seats, lines along `normal` through the joints, that do not coincide.
+pub(super) fn least_distance(joints: &[ExportedJoint], normal: &Vector3<f64>, size: f64) -> f64 {
+    let apart = |a: &Point3<f64>, b: &Point3<f64>| {
+        let d = b - a;
+        (d - normal * normal.dot(&d)).norm()
+    };
+    let pairs = joints.iter().enumerate();
+    let pairs = pairs.flat_map(|(i, a)| joints[i + 1..].iter().map(move |b| apart(&a.at, &b.at)));
+    pairs.filter(|d| *d > 1e-9 * size).fold(f64::INFINITY, f64::min)
+}
+
+/// The first value there is, with its origin, noted in `choices`.
+fn choose<const N: usize>(
+    choices: &mut Vec<SizeChoice>,
+    what: &str,
+    candidates: [(Option<f64>, &'static str); N],
+    rule: (f64, &'static str),
+) -> f64 {
+    let given = candidates.into_iter().find_map(|(value, from)| value.map(|v| (v, from)));
+    let (value, from) = given.unwrap_or(rule);
+    choices.push(SizeChoice { what: what.to_string(), value, unit: "design units", from });
+    value
+}
+
+pub(super) fn positive(what: &'static str, value: f64) -> Result<(), NoExport> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(NoExport::BadSize { what, value, why: "it has to be positive and finite" })
+}
+
+impl Sizes {
+    pub(super) fn of(
+        body: Body,
+        (hardware, plate): (&Hardware, Option<&PlateDesign>),
+        options: &ExportOptions,
+        rule_ball: f64,
+        choices: &mut Vec<SizeChoice>,
+    ) -> Result<Self, NoExport> {
+        let ball = choose(
+            choices,
+            &format!("ball diameter, {body}"),
+            [(options.ball, "option"), (housing_width(hardware, body), "[hardware]")],
+            (rule_ball, RULE_BALL),
+        );
+        let hole = choose(
+            choices,
+            &format!("hole diameter, {body}"),
+            [(options.hole, "option"), (plate.map(|p| p.hole), PLATES)],
+            (0.5 * ball, "rule: half a ball"),
+        );
+        let thickness = choose(
+            choices,
+            &format!("plate thickness, {body}"),
+            [(options.thickness, "option"), (plate.map(|p| p.thickness), PLATES)],
+            (0.5 * ball, "rule: half a ball"),
+        );
+        let margin = choose(
+            choices,
+            &format!("plate margin, {body}"),
+            [(options.margin, "option"), (plate.map(|p| p.margin), PLATES)],
+            (ball, "rule: one ball"),
+        );
+        for (what, value) in
+            [("the ball", ball), ("the hole", hole), ("the thickness", thickness), ("the margin", margin)]
+        {
+            positive(what, value)?;
+        }
+        let stated = plate.and_then(|p| p.height);
+        if hole >= ball && stated.is_none() {
+            let why = "a ball has to be wider than the hole it sits on";
+            return Err(NoExport::BadSize { what: "the hole", value: hole, why });
+        }
+        if 2.0 * margin <= hole {
+            let why = "a hole has to end inside the outline: the margin is more than half of it";
+            return Err(NoExport::BadSize { what: "the margin", value: margin, why });
+        }
+        if let Some(height) = stated {
+            let _ = choose(
+                choices,
+                &format!("height of the joints, {body}"),
+                [(Some(height), PLATES)],
+                (height, PLATES),
+            );
+        }
+        let height = stated.unwrap_or_else(|| seat_height(ball, hole));
+        Ok(Self { ball, hole, thickness, margin, height })
+    }
+}
+
+impl LegSizes {
+    pub(super) fn of(
+        hardware: &Hardware,
+        [base_ball, platform_ball]: [f64; 2],
+        shortest: f64,
+        choices: &mut Vec<SizeChoice>,
+    ) -> Self {
+        let body = hardware.leg_body;
+        let smaller_ball = base_ball.min(platform_ball);
+        let cylinder_diameter = choose(
+            choices,
+            "cylinder diameter",
+            [(body.map(|b| b.diameter), "[hardware]")],
+            (0.6 * smaller_ball, "rule: 0.6 of the smaller ball"),
+        );
+        let rod_diameter = choose(
+            choices,
+            "rod diameter",
+            [(body.and_then(|b| b.rod.map(|r| r.1)), "[hardware]")],
+            (0.6 * cylinder_diameter, "rule: 0.6 of the cylinder"),
+        );
+        let half = 0.5 * shortest;
+        let by_rule = hardware.leg_length.map_or(half, |limits| {
+            let (least, greatest) = limits.range();
+            let (foot, tip) = (0.5 * base_ball, 0.5 * platform_ball);
+            // floor, stroke and a guide of two rods; the platform joint has to stay outside at the least length
+            let deep =
+                foot + 0.5 * (cylinder_diameter - rod_diameter) + (greatest - least) + 2.0 * rod_diameter;
+            let bounded = half.max(deep).min(least - tip);
+            // a machine that is in at home, or whose joints take nearly all of its least length, has no room for that
+            if has_room(foot, bounded, shortest - tip) { bounded } else { half }
+        });
+        let cylinder_length = choose(
+            choices,
+            "cylinder length from the base joint",
+            [(body.and_then(|b| b.rod.map(|r| r.0)), "[hardware]")],
+            (by_rule, if by_rule.total_cmp(&half).is_eq() { RULE_CYLINDER } else { RULE_STROKE }),
+        );
+        Self { cylinder_diameter, rod_diameter, cylinder_length }
+    }
+}
+
+/// What moves: as the design says, its platform as heavy as `given` with the same shape where that is said. Without a mass, Froude scaling: with masses as lengths cubed and times as
+/// their square roots, platforms of all sizes move alike.
+///
+/// # Errors
+/// [`NoExport::BadSize`].
+pub(super) fn moving(
+    design: &Design,
+    given: Option<f64>,
+    metres: f64,
+    choices: &mut Vec<SizeChoice>,
+) -> Result<MovingBodies, NoExport> {
+    let stated = design.moving_bodies(metres);
+    let mut moving = stated.unwrap_or_else(|| {
+        let mass = 20.0 * (design.manipulator().size() * metres).powi(3);
+        design.assumed_bodies(mass, metres)
+    });
+    let mass = given.unwrap_or(moving.mass);
+    positive("the mass", mass)?;
+    moving.inertia *= mass / moving.mass;
+    moving.mass = mass;
+    let from = match (given, stated) {
+        (Some(_), _) => "option",
+        (None, None) => "rule: 20 kg times the cube of the size in metres",
+        (None, Some(_)) if design.payload.is_some() => "[payload]",
+        (None, Some(_)) => "[plates.platform]",
+    };
+    let what = "mass of the platform with payload".to_owned();
+    choices.push(SizeChoice { what, value: mass, unit: "kg", from });
+    Ok(moving)
+}

@@ -1,0 +1,184 @@
+//! STEP AP242 (ISO 10303-242) assembly: base and platform with plate and joints, and legs with cylinder and rod, as exact solids.
+//!
+//! Legs of a kind are places of one part. Its rod stands in the bore of its cylinder as it does at home; both fit over the whole stroke ([`Telescope`]).
+
+mod assembly;
+mod builder;
+mod solids;
+
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+
+use self::assembly::{Group, Part, StepAssembly};
+use super::telescope::{LegKind, Telescope, kind_suffix};
+use super::text::rounded;
+use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
+use crate::machine::requirements::Housing;
+use crate::platform::geom::{Pose, any_across};
+
+/// The format `step`.
+#[derive(Debug)]
+pub(super) struct StepFile;
+
+impl Writer for StepFile {
+    fn name(&self) -> &'static str {
+        "step"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "AP242 assembly at home (millimetres): plates with holes, joints, and legs with rods that run in their cylinders, as exact solids, for CAD"
+    }
+
+    fn leaves_out(&self) -> &'static str {
+        "joints as constraints: the parts stand at home; a joint is drawn as a ball whatever its kind, which its part names, and inside the box of its housing where it has one; legs that share a ball run into each other near it"
+    }
+
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+        Ok(vec![ExportedFile::new("platform.step", assembly(export)?)])
+    }
+}
+
+/// The frame with its third axis along `d`.
+fn along(origin: &Point3<f64>, d: &Vector3<f64>) -> Pose {
+    let x = any_across(d);
+    let axes = Matrix3::from_columns(&[x, d.cross(&x), *d]);
+    Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: origin.coords }
+}
+
+/// `inner` seen from outside `outer`.
+fn within(outer: &Pose, inner: &Pose) -> Pose {
+    Pose {
+        rotation: outer.rotation * inner.rotation,
+        position: outer.rotation * inner.position + outer.position,
+    }
+}
+
+fn plate_frame(plate: &Plate) -> Pose {
+    Pose { rotation: Rotation3::from_matrix_unchecked(plate.axes), position: plate.origin.coords }
+}
+
+/// Plate, joints and posts of a body in its own frame.
+fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Part, Unsupported> {
+    let mm = export.unit.millimetres;
+    let plate = body.plate()?;
+    let frame = plate_frame(plate);
+    let mut group = Group::default();
+    let name = format!("{} plate", body.body);
+    let material = plate.material.as_deref().unwrap_or_default();
+    let part = a.part((&name, material), |b| solids::plate(b, &name, plate, mm));
+    a.place(&mut group, part, &name, &frame);
+    let kinds = export.joint_kinds(body);
+    for (k, (sort, joints)) in kinds.iter().enumerate() {
+        let name = format!("{} joint of the {}{}", sort.models, body.body, kind_suffix(k, kinds.len()));
+        let ball =
+            a.part((&name, &sort.description(mm)), |b| solids::ball(b, &name, body.ball_diameter * mm));
+        for joint in body.joints.iter().filter(|j| joints.contains(&j.name.as_str())) {
+            let at = Pose { rotation: Rotation3::identity(), position: joint.at.coords };
+            a.place(&mut group, ball, &joint.name, &at);
+        }
+        // the box that distances of joints and envelopes take, along the axes of the body
+        let Some(Housing::Box(edges)) = sort.housing else { continue };
+        let name = format!("housing of the {name}");
+        let block = a.part((&name, ""), |b| solids::block(b, &name, &(edges * mm)));
+        for joint in body.joints.iter().filter(|j| joints.contains(&j.name.as_str())) {
+            let at = Pose { rotation: Rotation3::identity(), position: joint.at.coords };
+            a.place(&mut group, block, &format!("housing of {}", joint.name), &at);
+        }
+    }
+    for hole in plate.holes.iter().filter(|h| h.post > 0.0) {
+        let name = format!("post of {}", hole.joints.join("/"));
+        let (diameter, height) = (plate.post_diameter * mm, hole.post * mm);
+        let part = a.part((&name, material), |b| solids::cylinder(b, &name, diameter, height));
+        let foot = Vector3::new(hole.at.x, hole.at.y, plate.post_span(hole).0);
+        let local = Pose { rotation: Rotation3::identity(), position: foot };
+        a.place(&mut group, part, &name, &within(&frame, &local));
+    }
+    Ok(a.assembled(body.body.name(), "", &group))
+}
+
+/// What a leg of a kind does over its stroke, for the header.
+fn stroke(kind: &LegKind, t: &Telescope, mm: f64) -> String {
+    let [least, greatest] = t.range.map(|l| rounded(l * mm));
+    let (name, numbers, rod) = (kind.name("leg"), kind.numbers(), rounded(t.rod * mm));
+    let held = match t.held() {
+        x if x > 0.0 => format!("in its cylinder by {} or more", rounded(x * mm)),
+        x if x < 0.0 => format!("out of its cylinder by up to {}", rounded(-x * mm)),
+        _ => "just in its cylinder at the greatest length".to_owned(),
+    };
+    let met = if t.room() < 0.0 {
+        format!("; the cylinder meets the platform joint by up to {}", rounded(-t.room() * mm))
+    } else {
+        String::new()
+    };
+    format!("Part {name} ({numbers}), {least} to {greatest} long: the rod of {rod} is {held}{met}")
+}
+
+/// Cylinders and rods, each shape once: legs that differ in length alone may have the same ones.
+#[derive(Default)]
+struct LegParts {
+    cylinder: Option<Part>,
+    rods: Vec<(f64, Part)>,
+}
+
+/// A leg of a kind from the origin along the third axis.
+fn leg(
+    a: &mut StepAssembly,
+    export: &Export,
+    (kind, t): (&LegKind, &Telescope),
+    (parts, rod_name): (&mut LegParts, &str),
+) -> Part {
+    let mm = export.unit.millimetres;
+    let (thick, thin) = export.legs[kind.legs[0]].diameters;
+    let mut group = Group::default();
+    let up = |z: f64| Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, z) };
+    let height = (t.mouth - t.foot) * mm;
+    // sizes of cylinders are those of the machine
+    let cylinder = *parts.cylinder.get_or_insert_with(|| {
+        a.part(("cylinder", ""), |b| {
+            if t.floor < t.mouth {
+                solids::sleeve(b, "cylinder", (thick * mm, thin * mm), ((t.floor - t.foot) * mm, height))
+            } else {
+                solids::cylinder(b, "cylinder", thick * mm, height)
+            }
+        })
+    });
+    a.place(&mut group, cylinder, "cylinder", &up(t.foot));
+    let known = parts.rods.iter().find(|(length, _)| length.total_cmp(&t.rod).is_eq()).map(|(_, part)| *part);
+    let rod = known.unwrap_or_else(|| {
+        let part = a.part((rod_name, ""), |b| solids::cylinder(b, rod_name, thin * mm, t.rod * mm));
+        parts.rods.push((t.rod, part));
+        part
+    });
+    a.place(&mut group, rod, "rod", &up(t.tail(kind.length)));
+    a.assembled(&kind.name("leg"), "", &group)
+}
+
+fn assembly(export: &Export) -> Result<String, Unsupported> {
+    let mm = export.unit.millimetres;
+    let kinds: Vec<(LegKind, Telescope)> = (export.leg_kinds().into_iter())
+        .map(|kind| export.telescope(&kind).map(|t| (kind, t)))
+        .collect::<Result<_, _>>()?;
+    let lines = kinds.iter().map(|(kind, t)| stroke(kind, t, mm)).collect();
+    let mut a = StepAssembly::new(export, lines);
+    let mut whole = Group::default();
+    let base_frame = Pose { rotation: Rotation3::identity(), position: Vector3::zeros() };
+    for (of, placed) in export.bodies.iter().zip([base_frame, export.home]) {
+        let part = body(&mut a, export, of)?;
+        a.place(&mut whole, part, of.body.name(), &placed);
+    }
+    let mut legs: Vec<(usize, Part)> = Vec::new();
+    let mut parts = LegParts::default();
+    // parts of different shapes have names of their own: programs keep parts by their names
+    let first = kinds[0].1.rod;
+    let one_rod = kinds.iter().all(|(_, t)| t.rod.total_cmp(&first).is_eq());
+    for (kind, t) in &kinds {
+        let name = if one_rod { "rod".to_owned() } else { kind.name("rod") };
+        let part = leg(&mut a, export, (kind, t), (&mut parts, &name));
+        legs.extend(kind.legs.iter().map(|i| (*i, part)));
+    }
+    legs.sort_unstable_by_key(|(i, _)| *i);
+    for (i, part) in legs {
+        let of = &export.legs[i];
+        a.place(&mut whole, part, &format!("leg {}", of.number), &along(&of.foot, &of.direction()?));
+    }
+    Ok(a.finish(&whole))
+}

@@ -1,0 +1,13 @@
+//! What goes in and out as text: design files, tables, drawings, models of simulators, code of controllers, pictures.
+//!
+//! It knows `num`, `platform`, `fk`, `synthesis`, `verify` and `machine`; it turns text into values and values into text, and opens no file.
+//!
+//! * [`Design`](design::Design): what a design file holds once it is valid.
+//! * [`Export`](export::Export): a design with all sizes that a file for other programs needs.
+//! * [`Plot`](plot::Plot): a picture, written as SVG.
+//!
+//! A text is read into a table with places, checked key by key, and becomes a design; a design becomes an export, and each format writes its texts from that.
+
+pub(crate) mod design;
+pub(crate) mod export;
+pub(crate) mod plot;

@@ -1,0 +1,112 @@
+//! From the frames in which poses were measured to those of a design.
+
+use nalgebra::{DMatrix, Matrix3, Point3, Vector3};
+
+use super::model::{LegModel, Unknowns};
+use crate::num::small::bounded_svd;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Body;
+
+/// Points whose spread across a line is below this share of that along it have no rotation of their own.
+const ON_A_LINE: f64 = 1e-6;
+
+/// The rigid motion that takes measured joints nearest to nominal ones.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrameMotion {
+    /// `x_design = R x_measured + p`.
+    pub motion: Pose,
+    /// Root mean square of the distances that remain, design units.
+    pub rms: f64,
+}
+
+/// The motions of both frames, and the model carried by them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CarriedFrames {
+    /// Of the base.
+    pub base: FrameMotion,
+    /// Of the platform.
+    pub platform: FrameMotion,
+}
+
+/// The rotation and translation with the least sum of squared distances between `R from + p` and `to` (Umeyama 1991, without scale): no reflections, so that
+/// points in a plane are turned to their places.
+///
+/// `None` where points are on a line, about which any turn is as good.
+#[must_use]
+pub fn rigid_motion(from: &[Point3<f64>], to: &[Point3<f64>]) -> Option<FrameMotion> {
+    let count = from.len().min(to.len());
+    if count < 3 {
+        return None;
+    }
+    let mean = |points: &[Point3<f64>]| {
+        points[..count].iter().map(|p| p.coords).sum::<Vector3<f64>>() / count as f64
+    };
+    let (a, b) = (mean(from), mean(to));
+    let pairs = from.iter().zip(to);
+    let cross = pairs.map(|(x, y)| (y.coords - b) * (x.coords - a).transpose()).sum::<Matrix3<f64>>();
+    let svd = bounded_svd(&cross)?;
+    let (u, v_t) = (svd.u?, svd.v_t?);
+    if !(svd.singular_values[1] > ON_A_LINE * svd.singular_values[0]) {
+        return None;
+    }
+    let sign = if (u * v_t).determinant() < 0.0 { -1.0 } else { 1.0 };
+    let rotation = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * v_t;
+    let rotation = crate::platform::geom::nearest_rotation(&rotation);
+    let motion = Pose { rotation, position: b - rotation * a };
+    let squares = from.iter().zip(to).map(|(x, y)| (motion.transform(x) - y).norm_squared());
+    Some(FrameMotion { motion, rms: (squares.sum::<f64>() / count as f64).sqrt() })
+}
+
+impl CarriedFrames {
+    /// The motions that take the joints of a model nearest to those of another with the same legs. Joints count once, those without legs not at all.
+    #[must_use]
+    pub fn between(measured: &LegModel, nominal: &LegModel) -> Option<Self> {
+        let of = |body: Body| {
+            let points = |m: &LegModel| -> Vec<Point3<f64>> {
+                let joints = body.of((&m.base, &m.platform));
+                let used = |j: &usize| m.pairs.iter().any(|pair| body.of(*pair) == *j);
+                (0..joints.len()).filter(used).map(|j| joints[j]).collect()
+            };
+            rigid_motion(&points(measured), &points(nominal))
+        };
+        Some(Self { base: of(Body::Base)?, platform: of(Body::Platform)? })
+    }
+
+    /// The model in the frames of the design.
+    #[must_use]
+    pub fn carry(&self, measured: &LegModel) -> LegModel {
+        let moved = |points: &[Point3<f64>], frame: &FrameMotion| {
+            points.iter().map(|p| frame.motion.transform(p)).collect()
+        };
+        LegModel {
+            base: moved(&measured.base, &self.base),
+            platform: moved(&measured.platform, &self.platform),
+            ..measured.clone()
+        }
+    }
+
+    /// A root of the covariance of the unknowns, turned with the joints. The motions are taken as they are: their own uncertainty is that of the joints.
+    #[must_use]
+    pub fn carry_root(&self, unknowns: &Unknowns, root: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut out = root.clone();
+        let joints = [(Body::Base, &self.base), (Body::Platform, &self.platform)];
+        for (body, frame) in joints {
+            for column in unknowns.joint_columns(body) {
+                let turned = frame.motion.rotation.matrix() * root.rows(column, 3);
+                out.rows_mut(column, 3).copy_from(&turned);
+            }
+        }
+        out
+    }
+
+    /// The pose that is measured where the design means `pose`.
+    #[must_use]
+    pub fn measured_pose(&self, pose: &Pose) -> Pose {
+        let back = self.base.motion.rotation.inverse();
+        let at = pose.rotation * self.platform.motion.position + pose.position;
+        Pose {
+            rotation: back * pose.rotation * self.platform.motion.rotation,
+            position: back * (at - self.base.motion.position),
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! The pose for given lengths of drives, near a known one.
+//!
+//! The lengths asked for less the correction at the last pose are distances of joints; the pose for them is followed by [`NearSolver`]; with its correction the next distances follow. This is the fixed
+//! point of `rho -> c - corr(pose(rho))`, which contracts by the derivative of the correction times the inverse Jacobian of the distances.
+
+use super::proof::PoseBound;
+use super::{CoupledLegs, DriveState, NoDriveLength};
+use crate::fk::{NearOutcome, NearSolver};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::LegLengths;
+
+/// Most steps of the fixed point.
+const STEPS: u32 = 200;
+
+/// Steps in which the change has to become smaller at least once.
+const PATIENCE: u32 = 8;
+
+/// What came of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CoupledStatus {
+    /// The pose found is that of the drives within the bound, which is proved: there is exactly one pose with these lengths of drives in a neighbourhood.
+    Proved(PoseBound),
+    /// The fixed point was reached, and no bound of its error is proved.
+    Unproved,
+    /// The corrections did not settle: no pose is given.
+    NotContracting,
+    /// The pose of the distances was not followed to its end.
+    NotTracked,
+    /// A drive has no length at a pose on the way.
+    NoLength(NoDriveLength),
+}
+
+impl CoupledStatus {
+    /// `true` where the pose reached has the lengths asked for.
+    #[must_use]
+    pub fn is_reached(&self) -> bool {
+        matches!(self, Self::Proved(_) | Self::Unproved)
+    }
+
+    /// The word used in JSON.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Proved(_) => "proved",
+            Self::Unproved => "unproved",
+            Self::NotContracting => "not_contracting",
+            Self::NotTracked => "not_tracked",
+            Self::NoLength(_) => "no_length",
+        }
+    }
+}
+
+/// The pose for lengths of drives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoupledOutcome {
+    /// How the pose of the last distances was followed from the one before; its pose is the last one.
+    pub near: NearOutcome,
+    /// What is known of it.
+    pub status: CoupledStatus,
+    /// Distances of the joints that the last pose was followed to.
+    pub distances: [f64; 6],
+    /// Steps of the fixed point.
+    pub steps: u32,
+    /// The largest ratio of changes of the corrections in two steps, as long as they told more than rounding; 0 where there were none.
+    pub factor: f64,
+}
+
+impl CoupledOutcome {
+    /// The pose, where the corrections settled.
+    #[must_use]
+    pub fn pose(&self) -> Option<&Pose> {
+        self.near.tracked().filter(|_| self.status.is_reached())
+    }
+}
+
+/// Follows a pose of a machine whose joints are not ideal.
+#[derive(Debug, Clone)]
+pub struct CoupledTracker {
+    legs: CoupledLegs,
+    solver: NearSolver,
+    pose: Pose,
+}
+
+fn corrections(states: &[DriveState; 6]) -> [f64; 6] {
+    states.map(|s| s.correction)
+}
+
+impl CoupledTracker {
+    /// Begins at a pose.
+    #[must_use]
+    pub fn new(legs: CoupledLegs, pose: Pose) -> Self {
+        Self { solver: NearSolver::new(legs.manipulator()), legs, pose }
+    }
+
+    /// Where the platform is.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        self.pose
+    }
+
+    /// Continues to other lengths of drives; where no pose is found the tracker stays where it was.
+    pub fn step(&mut self, drives: &[f64; 6]) -> CoupledOutcome {
+        let found = self.find(drives);
+        if let Some(pose) = found.pose() {
+            self.pose = *pose;
+        }
+        found
+    }
+
+    /// The pose for lengths of drives near that of the tracker.
+    #[must_use]
+    pub fn find(&self, drives: &[f64; 6]) -> CoupledOutcome {
+        let stay = NearOutcome::Lost {
+            pose: self.pose,
+            reason: crate::fk::WhyLost::NoConvergence,
+            fraction: 0.0,
+            evidence: crate::fk::NearEvidence::default(),
+        };
+        let mut out = CoupledOutcome {
+            near: stay,
+            status: CoupledStatus::NotContracting,
+            distances: *drives,
+            steps: 0,
+            factor: 0.0,
+        };
+        let size = self.legs.manipulator().size();
+        let mut from = self.pose;
+        let mut states = match self.legs.states(&from) {
+            Ok(states) => states,
+            Err(why) => return CoupledOutcome { status: CoupledStatus::NoLength(why), ..out },
+        };
+        let (mut last, mut least, mut since) = (f64::INFINITY, f64::INFINITY, 0);
+        while out.steps < STEPS {
+            let before = corrections(&states);
+            out.distances = std::array::from_fn(|i| drives[i] - before[i]);
+            let Ok(lengths) = LegLengths::try_new(out.distances) else {
+                return CoupledOutcome { status: CoupledStatus::NotTracked, ..out };
+            };
+            out.near = self.solver.solve(&lengths.squared(), &from);
+            out.steps += 1;
+            let Some(pose) = out.near.tracked() else {
+                return CoupledOutcome { status: CoupledStatus::NotTracked, ..out };
+            };
+            from = *pose;
+            states = match self.legs.states(&from) {
+                Ok(states) => states,
+                Err(why) => return CoupledOutcome { status: CoupledStatus::NoLength(why), ..out },
+            };
+            let after = corrections(&states);
+            let change = (0..6).map(|i| (after[i] - before[i]).abs()).fold(0.0, f64::max);
+            // what rounding leaves of a change
+            let settled = change <= 16.0 * f64::EPSILON * size;
+            if !settled {
+                if last.is_finite() && out.steps > 2 {
+                    out.factor = out.factor.max(change / last);
+                }
+                since = if change < 0.9 * least { 0 } else { since + 1 };
+                (last, least) = (change, least.min(change));
+                if since < PATIENCE {
+                    continue;
+                }
+            }
+            // rounding of the pose may keep corrections from settling to the last bit
+            if settled || least <= 1e-13 * size {
+                let bound = self.legs.bound(&from, &states, drives);
+                out.status = bound.map_or(CoupledStatus::Unproved, CoupledStatus::Proved);
+            }
+            return out;
+        }
+        out
+    }
+}

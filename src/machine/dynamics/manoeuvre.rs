@@ -1,0 +1,181 @@
+//! Standard manoeuvres: a sine in one freedom, and an acceleration from rest.
+
+use std::str::FromStr;
+
+use nalgebra::{Rotation3, Unit, Vector3};
+use thiserror::Error;
+
+use super::MotionState;
+use crate::platform::geom::Pose;
+
+/// A freedom of the platform: along an axis of the base frame, or about the line through the platform origin that is parallel to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum PlatformFreedom {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+    /// Along z.
+    Z,
+    /// About x.
+    Roll,
+    /// About y.
+    Pitch,
+    /// About z.
+    Yaw,
+}
+
+impl PlatformFreedom {
+    /// Every freedom.
+    pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Z, Self::Roll, Self::Pitch, Self::Yaw];
+
+    /// Its word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        ["x", "y", "z", "roll", "pitch", "yaw"][self as usize]
+    }
+
+    /// `true` for the three turns, whose amounts are in degrees.
+    #[must_use]
+    pub fn is_turn(self) -> bool {
+        self as usize >= 3
+    }
+
+    fn axis(self) -> Unit<Vector3<f64>> {
+        [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][self as usize % 3]
+    }
+
+    /// The state of a platform that was at `about` before it moved by `amount` (design units or radians) in this freedom, with the derivatives of the amount.
+    fn state(self, about: &Pose, [amount, speed, acceleration]: [f64; 3]) -> MotionState {
+        let axis = self.axis();
+        let rest = MotionState::at_rest(*about);
+        if self.is_turn() {
+            let rotation = Rotation3::from_axis_angle(&axis, amount) * about.rotation;
+            return MotionState {
+                pose: Pose { rotation, ..*about },
+                angular_velocity: axis.scale(speed),
+                angular_acceleration: axis.scale(acceleration),
+                ..rest
+            };
+        }
+        MotionState {
+            pose: Pose { position: about.position + axis.scale(amount), ..*about },
+            velocity: axis.scale(speed),
+            acceleration: axis.scale(acceleration),
+            ..rest
+        }
+    }
+}
+
+/// A standard manoeuvre. Amounts are design units along an axis and degrees about one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Manoeuvre {
+    /// `amplitude sin(2 pi frequency t)` over one period.
+    Sine {
+        /// What moves.
+        freedom: PlatformFreedom,
+        /// Design units or degrees.
+        amplitude: f64,
+        /// Hertz, positive.
+        frequency: f64,
+    },
+    /// At rest with an acceleration: what it takes to start or to stop.
+    Acceleration {
+        /// What moves.
+        freedom: PlatformFreedom,
+        /// Design units or degrees per second squared.
+        acceleration: f64,
+    },
+}
+
+/// A text that is no manoeuvre.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum InvalidManoeuvre {
+    /// It does not have as many parts.
+    #[error("`{0}` is not of the form {1}")]
+    Form(String, &'static str),
+    /// Its freedom is none.
+    #[error("`{0}` is no freedom: x, y, z, roll, pitch or yaw")]
+    Freedom(String),
+    /// A number of it is none, or has the wrong sign.
+    #[error("`{0}` is not {1}")]
+    Number(String, &'static str),
+}
+
+impl FromStr for PlatformFreedom {
+    type Err = InvalidManoeuvre;
+
+    fn from_str(word: &str) -> Result<Self, InvalidManoeuvre> {
+        let found = Self::ALL.into_iter().find(|f| f.name() == word.trim());
+        found.ok_or_else(|| InvalidManoeuvre::Freedom(word.into()))
+    }
+}
+
+fn finite(text: &str) -> Result<f64, InvalidManoeuvre> {
+    let value = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    value.ok_or_else(|| InvalidManoeuvre::Number(text.into(), "a number"))
+}
+
+fn positive(text: &str) -> Result<f64, InvalidManoeuvre> {
+    let value = finite(text)?;
+    if value > 0.0 { Ok(value) } else { Err(InvalidManoeuvre::Number(text.into(), "a positive number")) }
+}
+
+impl Manoeuvre {
+    /// Reads `FREEDOM:AMPLITUDE:HERTZ`.
+    ///
+    /// # Errors
+    /// [`InvalidManoeuvre`].
+    pub fn sine(text: &str) -> Result<Self, InvalidManoeuvre> {
+        let parts: Vec<&str> = text.split(':').collect();
+        let [freedom, amplitude, frequency] = parts[..] else {
+            return Err(InvalidManoeuvre::Form(text.into(), "AXIS:AMPLITUDE:HERTZ"));
+        };
+        let freedom = freedom.parse()?;
+        Ok(Self::Sine { freedom, amplitude: positive(amplitude)?, frequency: positive(frequency)? })
+    }
+
+    /// Reads `FREEDOM:ACCELERATION`.
+    ///
+    /// # Errors
+    /// [`InvalidManoeuvre`].
+    pub fn acceleration(text: &str) -> Result<Self, InvalidManoeuvre> {
+        let parts: Vec<&str> = text.split(':').collect();
+        let [freedom, acceleration] = parts[..] else {
+            return Err(InvalidManoeuvre::Form(text.into(), "AXIS:ACCELERATION"));
+        };
+        Ok(Self::Acceleration { freedom: freedom.parse()?, acceleration: finite(acceleration)? })
+    }
+
+    /// How long it takes, seconds; an acceleration from rest is an instant.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        match self {
+            Self::Sine { frequency, .. } => 1.0 / frequency,
+            Self::Acceleration { .. } => 0.0,
+        }
+    }
+
+    /// The state at a time.
+    #[must_use]
+    pub fn at(&self, about: &Pose, time: f64) -> MotionState {
+        let in_freedom =
+            |freedom: PlatformFreedom, x: f64| if freedom.is_turn() { x.to_radians() } else { x };
+        match *self {
+            Self::Sine { freedom, amplitude, frequency } => {
+                let a = in_freedom(freedom, amplitude);
+                let w = std::f64::consts::TAU * frequency;
+                let (sine, cosine) = (w * time).sin_cos();
+                freedom.state(about, [a * sine, a * w * cosine, -a * w * w * sine])
+            }
+            Self::Acceleration { freedom, acceleration } => {
+                freedom.state(about, [0.0, 0.0, in_freedom(freedom, acceleration)])
+            }
+        }
+    }
+}

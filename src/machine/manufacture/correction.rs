@@ -1,0 +1,137 @@
+//! What a controller computes: the pose by the octahedral formula, then Newton steps on the calibrated joints.
+
+use nalgebra::Point3;
+use thiserror::Error;
+
+use super::uncertainty::{MachineUncertainty, PoseCovariance};
+use crate::fk::{FkError, NearSolver, OcticSolver};
+use crate::num::linalg::LinalgError;
+use crate::platform::geom::{ComplexPose, Pose};
+use crate::platform::manipulator::{InvalidManipulator, Manipulator, Octahedral, SquaredLegLengths};
+use crate::synthesis::singularity::GriffisDuffy;
+use crate::synthesis::{AffineLegMap, LegMapTolerances, Relation, SingularMap, leg_map};
+
+/// Imaginary parts of a real pose of the octic are below this, relative.
+const REAL: f64 = 1e-7;
+
+/// Why there is no octahedral formula for a design.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum NoFormula {
+    /// The octahedral platform is none.
+    #[error(transparent)]
+    NotOctahedral(#[from] FkError),
+    /// The design is not equivalent to the octahedral platform.
+    #[error("the design is not equivalent to the octahedral platform (relation: {})", .0.as_str())]
+    NotEquivalent(Relation),
+    /// The leg map could not be computed.
+    #[error(transparent)]
+    LegMap(#[from] LinalgError),
+    /// The leg map has no inverse.
+    #[error(transparent)]
+    Singular(#[from] SingularMap),
+}
+
+/// The octahedral platform that a platform without shared joints is equivalent to: its two triangles with the legs
+/// `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`.
+///
+/// # Errors
+/// When a triangle is degenerate.
+pub fn octahedral_of(m: &Manipulator, found: &GriffisDuffy) -> Result<Manipulator, InvalidManipulator> {
+    let legs = m.legs();
+    let [p1, p2, p3] = [5, 1, 3].map(|k| legs[found.order[k]].base);
+    let [p4, p5, p6] = [0, 2, 4].map(|k| legs[found.order[k]].platform);
+    let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    Manipulator::try_new(vec![p1, p2, p3], vec![p4, p5, p6], pairs)
+}
+
+/// The octahedral platform equivalent to a design that is octahedral itself or has one joint on each side of two triangles.
+#[must_use]
+pub fn equivalent_octahedral(m: &Manipulator) -> Option<Manipulator> {
+    let merged = Manipulator::from_legs(m.legs()).ok()?;
+    if Octahedral::recognise(&merged).is_ok() {
+        return Some(merged);
+    }
+    let found = GriffisDuffy::recognise(m)?;
+    if found.is_nearly_singular() {
+        return None;
+    }
+    octahedral_of(m, &found).ok()
+}
+
+/// Forward kinematics of a machine that is nominally equivalent to an octahedral platform. Made once; what it computes allocates nothing.
+///
+/// ```text
+/// s_o = A^-1 (s - c),   pose = octic(s_o), the real pose nearest to the last one;   then Newton's method on |R b + p - a|^2 = s.
+/// ```
+///
+/// `s` are the squared lengths that the machine measures, `A` and `c` the leg map of the nominal design, `a` and `b` the calibrated joints. The first pose is
+/// off by the first-order error of [`Sensitivity`](super::Sensitivity); a step of Newton's method squares it.
+#[derive(Debug, Clone)]
+pub struct Controller {
+    to_octahedral: AffineLegMap,
+    octic: OcticSolver,
+    follow: NearSolver,
+    calibrated: NearSolver,
+    machine: Manipulator,
+    size: f64,
+}
+
+impl Controller {
+    /// Prepares an octahedral platform, a nominal design equivalent to it, and the calibrated joints of the machine (in the leg order and the
+    /// frames of the nominal design).
+    ///
+    /// # Errors
+    /// [`NoFormula`].
+    pub fn new(
+        octahedral: &Manipulator,
+        nominal: &Manipulator,
+        calibrated: &Manipulator,
+    ) -> Result<Self, NoFormula> {
+        let octic = OcticSolver::new(octahedral)?;
+        let map = leg_map(octahedral, nominal, LegMapTolerances::default())?;
+        let Some(forward) = map.map().filter(|_| map.is_regular_within_rounding()) else {
+            return Err(NoFormula::NotEquivalent(map.relation));
+        };
+        Ok(Self {
+            to_octahedral: forward.invert()?,
+            octic,
+            follow: NearSolver::new(octahedral),
+            calibrated: NearSolver::new(calibrated),
+            machine: calibrated.clone(),
+            size: octahedral.size(),
+        })
+    }
+
+    /// The pose by the octahedral formula: of the real poses the one nearest to `last`. Lengths at which the octic is degenerate (a symmetric home
+    /// pose is) are solved from `last` by [`NearSolver`]. `None` when no real pose has these lengths.
+    #[must_use]
+    pub fn formula(&self, s: &SquaredLegLengths, last: &Pose) -> Option<Pose> {
+        let squares = self.to_octahedral.apply(s).ok()?;
+        let Some(found) = self.octic.solve(&squares) else {
+            return self.follow.solve(&squares, last).tracked().copied();
+        };
+        let start = ComplexPose::from(*last);
+        let real = found.poses.iter().filter(|p| p.imaginary_size(self.size) < REAL);
+        let near = real.map(|p| (p.distance(&start, self.size), p));
+        near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, p)| p.real_part())
+    }
+
+    /// `steps` Newton steps from `pose` on the leg equations of the calibrated joints; `None` at a singular pose.
+    #[must_use]
+    pub fn corrected(&self, s: &SquaredLegLengths, pose: &Pose, steps: u32) -> Option<Pose> {
+        self.calibrated.newton_steps(s, pose, steps)
+    }
+
+    /// The covariance of a [corrected](Self::corrected) pose by what is not known of the calibrated joints and offsets, to first order; the noise of the lengths is not in it.
+    /// `None` at a singular pose and for an uncertainty of another machine.
+    #[must_use]
+    pub fn covariance(
+        &self,
+        known: &MachineUncertainty,
+        pose: &Pose,
+        tool: &Point3<f64>,
+    ) -> Option<PoseCovariance> {
+        known.pose_covariance(&self.machine, pose, tool)
+    }
+}

@@ -1,0 +1,403 @@
+//! Puts the joints of a design on a grid of holes, and says what the rounded design is worth: conditioning, requirements, distances of joints.
+
+mod exact;
+mod free;
+mod grid;
+mod nearest;
+mod plate;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Point3, Vector3};
+use thiserror::Error;
+
+pub use self::exact::ExactRounding;
+use self::exact::Roles;
+use self::grid::GridHole;
+pub use self::nearest::NearestRounding;
+use self::plate::PlateHoles;
+pub(crate) use self::plate::holes_turn;
+use super::joint::{Joint, joints};
+use crate::machine::requirements::{Grid, HolePattern, PoseSpace, Requirements, TermKind, Terms};
+use crate::platform::geom::{Pose, SamplePlan};
+use crate::platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
+
+/// Sets of leg lengths at which a rounded design is compared with what it should be equivalent to.
+const SAMPLES: usize = 3;
+
+/// A design to put on a grid, and what it is judged by.
+#[derive(Debug, Clone, Copy)]
+pub struct RoundingProblem<'a> {
+    /// The design as wanted.
+    pub manipulator: &'a Manipulator,
+    /// Grids of base and platform; `None` for a plate whose joints stay where they are.
+    pub grids: [Option<Grid>; 2],
+    /// Whether origins and angles are chosen too; the grids as they are given then take part, so that the answer is never worse than theirs.
+    pub free: bool,
+    /// For each joint of base and platform whether it stays where it is; empty: none does.
+    pub fixed: [&'a [bool]; 2],
+    /// What it has to satisfy.
+    pub requirements: &'a Requirements,
+    /// The poses it has to reach.
+    pub space: &'a PoseSpace,
+    /// Poses at which it is judged, at least one.
+    pub poses: &'a [Pose],
+    /// Length that turns angles into lengths in the inverse condition number, design units.
+    pub characteristic_length: f64,
+    /// Least `|det A|`, where one is required.
+    pub min_abs_det: Option<f64>,
+    /// Tool point at which errors of the pose are measured, platform frame.
+    pub tool: Point3<f64>,
+    /// Triangles of each body that are combined in the first search.
+    pub candidates: usize,
+    /// The exact rounding is chosen when its objective is at least this share of the wanted design's.
+    pub keep: f64,
+    /// Random poses for the error of the nearest rounding.
+    pub trials: usize,
+    /// Seed.
+    pub seed: u64,
+}
+
+impl RoundingProblem<'_> {
+    /// Whether a joint stays where it is.
+    fn holds(&self, joint: Joint) -> bool {
+        self.fixed[joint.body.index()].get(joint.index) == Some(&true)
+    }
+}
+
+/// Why there is no rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NoRounding {
+    /// The joints of a body do not lie in a plane.
+    #[error("the joints of the {0} do not lie in a plane, as the holes of a grid do")]
+    NotPlanar(Body),
+    /// A pitch, radius or number of holes is not positive, or another value of a grid is not finite.
+    #[error(
+        "the grid of the {0} has no positive finite pitch, radius or number of holes, or an origin or angle that is not finite"
+    )]
+    BadGrid(Body),
+    /// An exact rounding needs lines through many holes.
+    #[error(
+        "the {0} has no square or triangular grid: lines through holes on circles pass no further holes, and joints that stay where they are lie on no holes"
+    )]
+    NoLines(Body),
+    /// Origins and angles are chosen for square grids alone.
+    #[error("the origin and the angle of the grid of the {0} cannot be chosen: its holes lie on no squares")]
+    FreePattern(Body),
+    /// The design is neither octahedral nor has it one joint on each side of two triangles.
+    #[error(
+        "the design is neither octahedral nor has one joint on each side of two triangles, so there are no lines to keep the joints on"
+    )]
+    NoTriangles,
+    /// No triangle on the grid is near enough.
+    #[error(
+        "the grid is too coarse or too fine for the {0}: no triangle near the wanted one has grid points where joints are wanted"
+    )]
+    NoTriangleNear(Body),
+    /// No combination of triangles makes a regular platform.
+    #[error("no combination of triangles on the grid makes a regular platform")]
+    Singular,
+    /// Two joints fall on one hole.
+    #[error("two joints of the {0} fall on one hole")]
+    JointsCoincide(Body),
+    /// A pose at which the design is judged is singular.
+    #[error("the design is singular at one of its poses")]
+    SingularPose,
+}
+
+/// A joint on its hole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoundedJoint {
+    /// The joint.
+    pub joint: Joint,
+    /// Hole: counted from the origin of the grid along its axes, or circle and number on it; `None` where the joint stays where it was wanted.
+    pub cell: Option<[i64; 2]>,
+    /// How far it is from where it was wanted, frame of the body, design units.
+    pub moved: Vector3<f64>,
+    /// Distance from the line of its side: of the new triangle for the exact rounding, of the wanted one for the nearest; `None` for joints
+    /// that are corners or belong to no triangle.
+    pub off_line: Option<f64>,
+}
+
+/// Both roundings of a design.
+#[derive(Debug, Clone)]
+pub struct Rounding {
+    /// The design as wanted, judged in the same way.
+    pub wanted: Judgement,
+    /// All joints on the grid and exactly on the lines of two triangles.
+    pub exact: Result<ExactRounding, NoRounding>,
+    /// All joints on grid points next to where they are wanted.
+    pub nearest: Result<NearestRounding, NoRounding>,
+}
+
+impl Rounding {
+    /// The rounding to build, by rule: the exact one when it meets the requirements and keeps the share `keep` of the objective;
+    /// else the nearest one when it meets the requirements; else the exact one when it meets them; else none.
+    #[must_use]
+    pub fn choice(&self, keep: f64) -> Option<&Manipulator> {
+        let exact = self.exact.as_ref().ok().filter(|e| e.judgement.met);
+        let nearest = self.nearest.as_ref().ok().filter(|n| n.judgement.met);
+        let kept = exact.filter(|e| e.judgement.objective >= keep * self.wanted.objective);
+        kept.map(|e| &e.manipulator).or(nearest.map(|n| &n.manipulator)).or(exact.map(|e| &e.manipulator))
+    }
+
+    /// Where the rule chooses none: of the roundings the one that misses the requirements least, the exact one of equals.
+    ///
+    /// What a rounding misses is the greatest share by which a margin is below 0: of what is limited, or of the size of the design.
+    pub(crate) fn least_missed(&self, required: &Requirements, size: f64) -> Option<&Manipulator> {
+        let exact =
+            self.exact.as_ref().ok().map(|e| (&e.manipulator, e.judgement.missed_share(required, size)));
+        let nearest =
+            self.nearest.as_ref().ok().map(|n| (&n.manipulator, n.judgement.missed_share(required, size)));
+        let better = |a: (_, f64), b: (_, f64)| if b.1 < a.1 { b } else { a };
+        exact.into_iter().chain(nearest).reduce(better).map(|(m, _)| m)
+    }
+}
+
+/// Puts the joints of a design with planar bodies on grids, in two ways.
+///
+/// *Exact*: triangles with corners on grid points whose sides carry grid points where joints are wanted; the result is equivalent to the octahedral platform on these
+/// triangles without any error, decided in exact arithmetic. *Nearest*: every joint on one of the four grid points around it, chosen for the least
+/// error of the pose that the formula of the wanted design gives.
+///
+/// With `free` grids their origins and angles are chosen as well (`docs/theory/manufacture.md`): of the grids given and those whose holes come nearest to what is
+/// wanted each way takes the ones that make its own answer best.
+///
+/// # Errors
+/// [`NoRounding::NotPlanar`], [`NoRounding::BadGrid`]; what stands against one of the ways is in its part of the answer.
+pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRounding> {
+    let m = problem.manipulator;
+    let mut bodies = [PlateHoles::AsWanted; 2];
+    for (body, grid) in Body::BOTH.into_iter().zip(&problem.grids) {
+        if grid.is_some_and(|grid| !grid.is_usable()) {
+            return Err(NoRounding::BadGrid(body));
+        }
+        if problem.free && grid.is_some_and(|grid| grid.pattern != HolePattern::Square) {
+            return Err(NoRounding::FreePattern(body));
+        }
+        let points = places(m, body);
+        let laid = PlateHoles::new(&points, grid.as_ref(), m.size()).ok_or(NoRounding::NotPlanar(body))?;
+        if !laid.reaches(&points) {
+            return Err(NoRounding::BadGrid(body));
+        }
+        bodies[body.index()] = laid;
+    }
+    let given = Laying { grids: problem.grids, bodies };
+    let roles = Roles::of(m);
+    let det = roles.as_ref().map(|r| r.determinant(m));
+    let free = |roles| if problem.free { layings(problem, &given, roles) } else { vec![given] };
+    let without_lines = Body::BOTH.into_iter().find(|body| bodies[body.index()].lattice().is_none());
+    Ok(Rounding {
+        wanted: judge(m, problem, det),
+        exact: match (&roles, without_lines) {
+            (Some(_), Some(body)) => Err(NoRounding::NoLines(body)),
+            (Some(roles), None) => exact::round(problem, &free(Some(roles)), roles),
+            (None, _) => Err(NoRounding::NoTriangles),
+        },
+        nearest: nearest::round(problem, &free(None), roles.as_ref()),
+    })
+}
+
+/// Grids of both bodies, laid.
+#[derive(Debug, Clone, Copy)]
+struct Laying {
+    grids: [Option<Grid>; 2],
+    bodies: [PlateHoles; 2],
+}
+
+/// A grid with its holes in the plane of a body.
+type LaidPlate = (Option<Grid>, PlateHoles);
+
+/// The grids as given, and those of the same pitches whose holes come nearest to the joints: to triangles that keep the roles, with the best of each body, or
+/// without roles to the joints as they are, with the best ones of both in every combination.
+fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Roles>) -> Vec<Laying> {
+    let m = problem.manipulator;
+    let found = Body::BOTH.map(|body| {
+        let k = body.index();
+        let Some(grid) = problem.grids[k] else { return vec![(None, PlateHoles::AsWanted)] };
+        let plain = Grid { origin: [0.0; 2], angle_deg: 0.0, ..grid };
+        let points = places(m, body);
+        let lay = |grid: Grid| {
+            let laid =
+                PlateHoles::new(&points, Some(&grid), m.size()).filter(|laid| laid.reaches(&points))?;
+            Some((Some(grid), laid))
+        };
+        let Some((_, PlateHoles::Lattice(plain))) = lay(plain) else { return Vec::new() };
+        let laid = match roles {
+            Some(roles) => {
+                let wanted = exact::wanted(m, roles, &plain, k);
+                let mut best = free::near_triangles(&wanted, exact::limit(&wanted));
+                best.truncate(1);
+                best
+            }
+            None => free::near_holes(&points.iter().map(|p| plain.coordinates(p)).collect::<Vec<_>>()),
+        };
+        laid.iter().filter_map(|l| lay(free::as_grid(l, &plain))).collect()
+    });
+    let [base, platform]: [Vec<LaidPlate>; 2] = found;
+    let pair = |(a, b): (&LaidPlate, &LaidPlate)| Laying { grids: [a.0, b.0], bodies: [a.1, b.1] };
+    let all = base.iter().flat_map(|a| platform.iter().map(move |b| (a, b)));
+    std::iter::once(*given).chain(all.map(pair)).collect()
+}
+
+/// The best of what was found on several grids, the first where several are equally good; the first error where nothing was found.
+fn best_of<T>(
+    all: impl Iterator<Item = Result<T, NoRounding>>,
+    better: impl Fn(&T, &T) -> bool,
+) -> Option<Result<T, NoRounding>> {
+    all.reduce(|old, new| match (&old, &new) {
+        (Ok(a), Ok(b)) if better(b, a) => new,
+        (Err(_), Ok(_)) => new,
+        _ => old,
+    })
+}
+
+/// The joints of a body that legs use.
+fn places(m: &Manipulator, body: Body) -> Vec<Point3<f64>> {
+    joints(m).into_iter().filter(|j| j.body == body).map(|j| place(m, j)).collect()
+}
+
+fn place(m: &Manipulator, joint: Joint) -> Point3<f64> {
+    m.joints(joint.body)[joint.index]
+}
+
+/// The design with its joints (in the order of [`joints`]) on these holes; those that stay are where they were.
+fn on_cells(
+    problem: &RoundingProblem<'_>,
+    plates: &[PlateHoles; 2],
+    cells: &[GridHole],
+) -> Option<Manipulator> {
+    let m = problem.manipulator;
+    let (mut base, mut platform) = (m.base_joints().to_vec(), m.platform_joints().to_vec());
+    for (joint, cell) in joints(m).into_iter().zip(cells).filter(|(joint, _)| !problem.holds(*joint)) {
+        let at = plate_of(plates, joint.body).point(*cell, &place(m, joint));
+        joint.body.of((&mut base, &mut platform))[joint.index] = at;
+    }
+    Manipulator::try_new(base, platform, m.pairs()).ok()
+}
+
+fn plate_of(plates: &[PlateHoles; 2], body: Body) -> &PlateHoles {
+    &plates[body.index()]
+}
+
+/// Sample poses in the workspace, or a quarter of the size and 20 degrees about home where it has no width.
+fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
+    let space = problem.space;
+    let widths = (space.translation, space.rotation_deg);
+    SamplePlan::about(problem.manipulator, space.home, widths, (SAMPLES, problem.seed))
+}
+
+/// The numbers by which roundings are compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// Worst inverse condition number over the poses.
+    pub objective: f64,
+    /// Where.
+    pub worst_pose: Pose,
+    /// Least distance of two joints of the base and of the platform, design units.
+    pub least_distances: [f64; 2],
+    /// `det A` of the leg map from the octahedral platform, where there is one.
+    pub det: Option<f64>,
+    /// Least margin of each kind of requirement at the poses.
+    pub margins: Vec<(TermKind, f64)>,
+    /// No margin is below 0 by more than rounding and `|det A|` is as large as required.
+    pub met: bool,
+    /// No margin is below the reserve on it either.
+    pub reserve_kept: bool,
+}
+
+impl Judgement {
+    /// By how much a requirement is missed at most, as a share of what is limited, or of the size of the design; 0 where none is.
+    fn missed_share(&self, required: &Requirements, size: f64) -> f64 {
+        let share = |(kind, margin): &(TermKind, f64)| {
+            let whole = required.whole(*kind);
+            -margin / if whole > 0.0 { whole } else { size }
+        };
+        self.margins.iter().map(share).fold(0.0, f64::max)
+    }
+}
+
+/// What a rounding keeps of the requirements at the poses looked at, least first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Keeping {
+    Nothing,
+    Limits,
+    Reserve,
+}
+
+impl Keeping {
+    /// From the most to nothing.
+    const ALL: [Self; 3] = [Self::Reserve, Self::Limits, Self::Nothing];
+}
+
+impl Judgement {
+    fn keeping(&self) -> Keeping {
+        match (self.met, self.reserve_kept) {
+            (true, true) => Keeping::Reserve,
+            (true, false) => Keeping::Limits,
+            (false, _) => Keeping::Nothing,
+        }
+    }
+}
+
+/// The worst inverse condition number when it is above `floor`, poses from number `hint` on first; `hint` becomes the number of the worst.
+fn objective_above(
+    m: &Manipulator,
+    problem: &RoundingProblem<'_>,
+    floor: f64,
+    hint: &mut usize,
+) -> Option<f64> {
+    let count = problem.poses.len();
+    let (mut worst, start) = (f64::INFINITY, *hint);
+    for k in (0..count).map(|k| (start + k) % count) {
+        let value = inverse_condition(&jacobian(m, &problem.poses[k], problem.characteristic_length));
+        if value < worst {
+            (worst, *hint) = (value, k);
+        }
+        if !(worst > floor) {
+            return None;
+        }
+    }
+    Some(worst)
+}
+
+/// Least margins at the poses, whether none is violated, and whether none is below its reserve.
+fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f64)>, [bool; 2]) {
+    let terms = Terms::new(m, problem.requirements, &problem.space.home);
+    let mut least: BTreeMap<TermKind, (f64, Option<&Pose>)> = BTreeMap::new();
+    let at = |pose| terms.at(pose).into_iter().map(move |(term, margin)| (term, margin, Some(pose)));
+    let fixed = terms.fixed().into_iter().map(|(term, margin)| (term, margin, None));
+    for (term, margin, pose) in fixed.chain(problem.poses.iter().flat_map(at)) {
+        let entry = least.entry(term.kind).or_insert((margin, pose));
+        if margin < entry.0 {
+            *entry = (margin, pose);
+        }
+    }
+    let all = |reserve: &dyn Fn(TermKind) -> f64| {
+        least
+            .iter()
+            .all(|(kind, (margin, pose))| terms.standing(*kind, margin - reserve(*kind), *pose).is_met())
+    };
+    let met = [all(&|_| 0.0), all(&|kind| problem.requirements.reserve(kind))];
+    (least.into_iter().map(|(kind, (margin, _))| (kind, margin)).collect(), met)
+}
+
+/// Everything about a design.
+fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Judgement {
+    let mut hint = 0;
+    let objective = objective_above(m, problem, -1.0, &mut hint).unwrap_or(0.0);
+    let (margins, [requirements_met, reserve_kept]) = margins(m, problem);
+    let det_met = problem.min_abs_det.is_none_or(|least| det.is_none_or(|det| det.abs() >= least));
+    Judgement {
+        objective,
+        worst_pose: problem.poses[hint],
+        least_distances: Body::BOTH.map(|body| m.nearest_joints(body).map_or(f64::INFINITY, |n| n.0)),
+        det,
+        met: det_met && requirements_met,
+        reserve_kept: det_met && reserve_kept,
+        margins,
+    }
+}

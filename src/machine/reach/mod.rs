@@ -1,0 +1,208 @@
+//! How far the platform may move from a pose before a requirement binds, and the pose nearest to one asked for that meets all of them.
+//!
+//! On a [`StraightWay`] every joint of the platform moves with a speed and an acceleration that are known beforehand. So each margin can fall only so fast, and the
+//! way is walked in steps over which none of them can reach zero ([`Reach::along`]). `docs/theory/reach.md` has the bounds.
+
+mod nearest;
+mod projection;
+mod rays;
+mod step;
+#[cfg(test)]
+mod tests;
+mod way;
+
+use crate::machine::requirements::{Limit, Requirements, Terms};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Leg, Manipulator};
+
+pub use nearest::{NearestPose, NearestPoseOptions};
+pub use rays::{FreeRay, largest_box_within, volume_of_rays};
+pub use way::{PoseAxis, StraightWay};
+
+/// `|det J|` with lengths over the size below which home counts as singular.
+const SINGULAR: f64 = 1e-12;
+/// Steps of a way are no longer than this share of the size, measured at the joint that moves fastest: forces and the sign of `det J` are looked at this often.
+const LONGEST: f64 = 0.02;
+/// Steps are not shorter than this share of the size: where a margin is nearly zero the way is looked at this often, and twice as far at each step that follows.
+const SHORTEST: f64 = 1e-5;
+/// The end of the way is found to this share of the size.
+const RESOLUTION: f64 = 1e-12;
+/// A way of an axis is looked at over this many sizes, and half a turn.
+const FARTHEST: f64 = 10.0;
+
+/// What limits the poses of a manipulator: its requirements, and the sign that `det J` has at home.
+#[derive(Debug)]
+pub struct Reach<'a> {
+    required: &'a Requirements,
+    terms: Terms<'a>,
+    legs: [Leg; 6],
+    home: Pose,
+    size: f64,
+    /// Length that makes turns comparable with shifts.
+    length: f64,
+    /// `det J` at home; `None` where it vanishes.
+    at_home: Option<f64>,
+}
+
+/// How far a way is free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Travel {
+    /// In the unit of the way: at the end every requirement is met, rounding kept in mind.
+    pub amount: f64,
+    /// The pose there.
+    pub pose: Pose,
+    /// What is violated beyond; `None` where the way ends before anything binds.
+    pub binding: Option<Limit>,
+    /// Poses looked at.
+    pub poses: usize,
+}
+
+/// How far one of the six numbers of a pose may move, the others staying as they are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FreeRange {
+    /// Which number.
+    pub axis: PoseAxis,
+    /// Towards smaller values; its amount is positive, design units or radians.
+    pub back: Travel,
+    /// Towards greater ones.
+    pub forth: Travel,
+}
+
+impl<'a> Reach<'a> {
+    /// Makes the requirements ready. `length` makes turns comparable with shifts where poses are compared: a radian counts as this many design units.
+    #[must_use]
+    pub fn new(m: &'a Manipulator, required: &'a Requirements, home: &Pose, length: f64) -> Self {
+        let terms = Terms::new(m, required, home);
+        let at_home = terms.determinant(home).filter(|det| det.abs() > SINGULAR);
+        Self { required, terms, legs: m.legs(), home: *home, size: m.size(), length, at_home }
+    }
+
+    /// The margins of all requirements at a pose, and `det J` over that at home where home is regular.
+    #[must_use]
+    pub fn margins(&self, pose: &Pose) -> Vec<(Limit, f64)> {
+        let terms = self.terms.at(pose).into_iter().map(|(term, margin)| (Limit::Term(term), margin));
+        // where a rod does not close that is what is violated
+        let ratio =
+            self.at_home.and_then(|home| Some((Limit::Singular, self.terms.determinant(pose)? / home)));
+        terms.chain(ratio).collect()
+    }
+
+    /// Whether a margin is met at the pose where it was found; a requirement that rounding does not tell from its limit is.
+    #[must_use]
+    pub fn is_met(&self, limit: Limit, margin: f64, pose: &Pose) -> bool {
+        match limit {
+            _ if margin > 0.0 => true,
+            Limit::Term(term) => self.terms.standing(term.kind, margin, Some(pose)).is_met(),
+            Limit::Singular => false,
+        }
+    }
+
+    /// What is violated at a pose, the worst first; nothing where the pose is allowed.
+    #[must_use]
+    pub fn violated(&self, pose: &Pose) -> Vec<(Limit, f64)> {
+        self.violated_of(self.margins(pose), pose)
+    }
+
+    fn violated_of(&self, mut margins: Vec<(Limit, f64)>, pose: &Pose) -> Vec<(Limit, f64)> {
+        margins.retain(|(limit, margin)| !self.is_met(*limit, *margin, pose));
+        margins.sort_by(|a, b| self.share(a).total_cmp(&self.share(b)));
+        margins
+    }
+
+    /// Whether every requirement is met at a pose and `det J` has the sign that it has at home. (The same sign does not say that a way without singular poses leads there.)
+    #[must_use]
+    pub fn allows(&self, pose: &Pose) -> bool {
+        self.margins(pose).iter().all(|(limit, margin)| self.is_met(*limit, *margin, pose))
+    }
+
+    /// A margin as a share: over the size (lengths), 90 degrees, the limit (forces, speeds, stiffness, frequency), `det J` at home.
+    fn share(&self, (limit, margin): &(Limit, f64)) -> f64 {
+        margin / self.scale(*limit)
+    }
+
+    fn scale(&self, limit: Limit) -> f64 {
+        match limit {
+            Limit::Singular => 1.0,
+            Limit::Term(term) => self.required.scale_of(term.kind, self.size),
+        }
+    }
+
+    /// How far the way is free from its start, up to `most`; 0 where the start is not allowed.
+    ///
+    /// Lengths, swing, clearances, keep-outs, leg speeds and the envelope of the machine cannot be violated between two steps, since their rates are bounded, but for steps of a
+    /// hundred-thousandth of the size where one of them is nearly zero (twice as far at each step that follows while it stays there); so are the reach of rods and the transmission, the angle and the lean of cranks. Forces, torques and speeds of cranks, stiffness, natural frequency and the sign of `det J` are looked at at every step, which are at most
+    /// a fiftieth of the size.
+    #[must_use]
+    pub fn along(&self, way: &StraightWay, most: f64) -> Travel {
+        let fastest = step::fastest(way, &self.legs).max(f64::MIN_POSITIVE);
+        let [longest, shortest, resolution] =
+            [LONGEST, SHORTEST, RESOLUTION].map(|x| x * self.size / fastest);
+        let (mut t, mut pose) = (0.0, way.start);
+        let mut margins = self.margins(&pose);
+        let mut poses = 1;
+        if let Some((limit, _)) = self.violated_of(margins.clone(), &pose).first() {
+            return Travel { amount: 0.0, pose, binding: Some(*limit), poses };
+        }
+        let mut least = shortest;
+        while t < most {
+            let safe = self.safe_step(way, &pose, &margins);
+            let step = safe.clamp(least, longest.max(least)).min(most - t);
+            least = if safe < least { (2.0 * least).min(longest) } else { shortest };
+            let next = if step < most - t { t + step } else { most };
+            let there = way.at(next);
+            margins = self.margins(&there);
+            poses += 1;
+            if margins.iter().any(|(limit, margin)| !self.is_met(*limit, *margin, &there)) {
+                return self.between(way, t, next, resolution, poses);
+            }
+            (t, pose) = (next, there);
+        }
+        Travel { amount: t, pose, binding: None, poses }
+    }
+
+    /// The end of the way between an allowed place and one that is not.
+    fn between(
+        &self,
+        way: &StraightWay,
+        mut met: f64,
+        mut violated: f64,
+        resolution: f64,
+        mut poses: usize,
+    ) -> Travel {
+        while violated - met > resolution {
+            let middle = 0.5 * (met + violated);
+            if middle <= met || middle >= violated {
+                break;
+            }
+            if self.allows(&way.at(middle)) {
+                met = middle;
+            } else {
+                violated = middle;
+            }
+            poses += 1;
+        }
+        let binding = self.violated(&way.at(violated)).first().map(|(limit, _)| *limit);
+        Travel { amount: met, pose: way.at(met), binding, poses }
+    }
+
+    /// How far each of the six numbers of a pose may move before a requirement binds, the others staying as they are; `None` where the pose itself is not allowed.
+    ///
+    /// Positions are looked at over ten sizes, angles over half a turn.
+    #[must_use]
+    pub fn free_ranges(&self, pose: &Pose) -> Option<[FreeRange; 6]> {
+        self.allows(pose).then(|| {
+            PoseAxis::ALL.map(|axis| {
+                let way = StraightWay::axis(pose, axis);
+                let most = if axis.is_turn() { std::f64::consts::PI } else { FARTHEST * self.size };
+                FreeRange { axis, back: self.along(&way.reversed(), most), forth: self.along(&way, most) }
+            })
+        })
+    }
+
+    /// Distance of two poses: `sqrt(|p - p'|^2 + (L angle)^2)` with the length `L` of [`Reach::new`].
+    #[must_use]
+    pub fn distance(&self, from: &Pose, to: &Pose) -> f64 {
+        let way = StraightWay::between(from, to);
+        way.velocity.norm().hypot(self.length * way.turn.norm())
+    }
+}

@@ -1,0 +1,136 @@
+//! Ways of the platform: constant velocity of its origin, constant angular velocity.
+
+use nalgebra::{Rotation3, Vector3};
+
+use crate::platform::geom::{Pose, turn_between};
+
+/// The six numbers of a pose that a machine is moved by: position, and `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum PoseAxis {
+    /// Position along x of the base frame.
+    X,
+    /// Position along y.
+    Y,
+    /// Position along z.
+    Z,
+    /// Turn about the x axis of the platform.
+    Roll,
+    /// Turn about the y axis of the base, turned by the yaw.
+    Pitch,
+    /// Turn about the z axis of the base.
+    Yaw,
+}
+
+impl PoseAxis {
+    /// All six, in the order in which a pose is written.
+    pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Z, Self::Roll, Self::Pitch, Self::Yaw];
+
+    /// Whether it is an angle.
+    #[must_use]
+    pub fn is_turn(self) -> bool {
+        matches!(self, Self::Roll | Self::Pitch | Self::Yaw)
+    }
+
+    /// Its name, as in [`PoseAxis::ALL`].
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
+            Self::Roll => "roll",
+            Self::Pitch => "pitch",
+            Self::Yaw => "yaw",
+        }
+    }
+}
+
+/// A way from a pose: `p(t) = p + t v` and `R(t) = exp(t [w]) R`, with the velocity `v` of the platform origin and the angular velocity `w`, base frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StraightWay {
+    /// Where it begins, at `t = 0`.
+    pub start: Pose,
+    /// Velocity of the platform origin, design units.
+    pub velocity: Vector3<f64>,
+    /// Angular velocity, radians.
+    pub turn: Vector3<f64>,
+}
+
+impl StraightWay {
+    /// The way on which one of the six numbers of a pose grows by `t` (design units, radians) and the others stay: with one angle moved a rotation turns about a fixed axis,
+    /// `R e_x` for roll, `Rz(yaw) e_y` for pitch and `e_z` for yaw.
+    #[must_use]
+    pub fn axis(start: &Pose, axis: PoseAxis) -> Self {
+        let still = Vector3::zeros();
+        let turn = match axis {
+            PoseAxis::X | PoseAxis::Y | PoseAxis::Z => still,
+            PoseAxis::Roll => start.rotation * Vector3::x(),
+            PoseAxis::Pitch => {
+                let yaw = start.angles().radians()[2];
+                Vector3::new(-yaw.sin(), yaw.cos(), 0.0)
+            }
+            PoseAxis::Yaw => Vector3::z(),
+        };
+        let velocity = match axis {
+            PoseAxis::X => Vector3::x(),
+            PoseAxis::Y => Vector3::y(),
+            PoseAxis::Z => Vector3::z(),
+            _ => still,
+        };
+        Self { start: *start, velocity, turn }
+    }
+
+    /// The straight way between two poses, which ends at `t = 1`: the origin moves on a line, the platform turns about one axis by at most half a turn.
+    #[must_use]
+    pub fn between(from: &Pose, to: &Pose) -> Self {
+        let turn = turn_between(&from.rotation, &to.rotation);
+        Self { start: *from, velocity: to.position - from.position, turn }
+    }
+
+    /// The same way backwards from its start.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self { velocity: -self.velocity, turn: -self.turn, ..*self }
+    }
+
+    /// Where the platform is at `t`.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Pose {
+        Pose {
+            rotation: Rotation3::new(self.turn * t) * self.start.rotation,
+            position: self.start.position + self.velocity * t,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+    use crate::platform::geom::random_rotation;
+
+    #[test]
+    fn a_way_ends_at_its_last_pose_after_half_a_turn_and_after_no_turn_but_rounding() {
+        let rng = &mut Rng::new(5);
+        for k in 0..60 {
+            let from = Pose { rotation: random_rotation(rng), position: Vector3::zeros() };
+            let turn = match k % 3 {
+                0 => Vector3::z() * std::f64::consts::PI,
+                1 => Vector3::x() * 1e-16,
+                _ => Vector3::new(0.3, -0.2, 1.0),
+            };
+            let to = Pose {
+                rotation: Rotation3::new(turn) * from.rotation,
+                position: Vector3::new(1.0, 2.0, 3.0),
+            };
+            let end = StraightWay::between(&from, &to).at(1.0);
+            assert!((end.rotation.matrix() - to.rotation.matrix()).amax() < 1e-14, "{k}");
+            assert!((end.position - to.position).amax() < 1e-15);
+        }
+    }
+}

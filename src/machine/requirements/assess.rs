@@ -1,0 +1,279 @@
+//! Margins over all poses, with the poses where they are least.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+
+use nalgebra::Vector6;
+
+use super::standing::Standing;
+use super::term::{Term, TermKind, Terms};
+use super::{PoseSpace, Requirements};
+use crate::num::{Purpose, Rng};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Manipulator;
+
+/// How densely the poses are looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct AssessOptions {
+    /// Points of a Halton sequence, and as many random ones, in the region of poses.
+    pub points: usize,
+    /// Steps between two poses of a trajectory.
+    pub steps: usize,
+    /// Local searches for the worst pose of each kind of requirement, from the worst points.
+    pub searches: usize,
+    /// Seed of the random points and of the searches.
+    pub seed: u64,
+    /// Whether proved margins come close to the least ones found; without it a proof ends where it decides that a margin is met or violated.
+    pub close: bool,
+    /// Cells for the proof of a kind of requirement that the usual number leaves undecided, where more than that and where no requirement is violated; 0: it stays undecided.
+    pub patient_cells: usize,
+    /// Threads for the proofs; `None`: as many as the process may run at the same time. No answer depends on it.
+    pub threads: Option<NonZeroUsize>,
+}
+
+impl Default for AssessOptions {
+    fn default() -> Self {
+        Self { points: 5000, steps: 10, searches: 3, seed: 0, close: true, patient_cells: 0, threads: None }
+    }
+}
+
+impl AssessOptions {
+    /// The defaults: 5000 points, 10 steps, 3 searches.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Points of a Halton sequence, and as many random ones.
+    #[must_use]
+    pub fn points(mut self, points: usize) -> Self {
+        self.points = points;
+        self
+    }
+
+    /// Steps between two poses of a trajectory.
+    #[must_use]
+    pub fn steps(mut self, steps: usize) -> Self {
+        self.steps = steps;
+        self
+    }
+
+    /// Local searches for the worst pose of each kind of requirement.
+    #[must_use]
+    pub fn searches(mut self, searches: usize) -> Self {
+        self.searches = searches;
+        self
+    }
+
+    /// Threads for the proofs, on which no answer depends.
+    #[must_use]
+    pub fn threads(mut self, threads: NonZeroUsize) -> Self {
+        self.threads = Some(threads);
+        self
+    }
+
+    /// Whether proved margins come close to the least ones found, which takes longer than to decide on them.
+    #[must_use]
+    pub fn close(mut self, close: bool) -> Self {
+        self.close = close;
+        self
+    }
+
+    /// Cells for the proof of a kind of requirement that the usual number leaves undecided; 0, the default: it stays undecided.
+    #[must_use]
+    pub fn patient_cells(mut self, cells: usize) -> Self {
+        self.patient_cells = cells;
+        self
+    }
+
+    /// Seed of the random points and of the searches.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+}
+
+/// The least margin found of one kind of requirement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Margin {
+    /// The requirement that is met least (or violated most).
+    pub term: Term,
+    /// Its margin: positive when it is met, in the unit of [`TermKind::quantity`].
+    pub value: f64,
+    /// The pose, `None` for requirements on which the pose has no influence.
+    pub pose: Option<Pose>,
+    /// What the margin says, rounding kept in mind.
+    pub standing: Standing,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assessment {
+    /// The least margin of each kind of requirement the design has.
+    pub margins: Vec<Margin>,
+    /// Poses looked at, those of the searches included.
+    pub poses: usize,
+}
+
+impl Assessment {
+    /// `true` when nothing is violated; a margin that rounding does not tell from zero is none ([`Standing::AtLimit`]).
+    ///
+    /// A violation found is one. That none was found at these poses is no proof that there is none between them.
+    #[must_use]
+    pub fn all_met(&self) -> bool {
+        self.margins.iter().all(|m| m.standing.is_met())
+    }
+}
+
+/// The least margin of a kind so far and where.
+type Least = (Term, f64, Option<Pose>);
+
+/// A point of the region with what is known about it.
+type RegionPoint = (f64, Vector6<f64>);
+
+/// The least margin of a kind at a pose.
+fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
+    terms.of_kind(pose, kind).map(|(_, x)| x).fold(f64::INFINITY, f64::min)
+}
+
+/// Evaluates every requirement at home, densely over the region, at the listed poses and along the trajectory, then
+/// searches for worse poses near the worst ones found.
+///
+/// The search moves one to all coordinates of the cube by random steps that shrink from a tenth to a millionth of its width; it
+/// needs no derivatives, for margins have kinks. Deterministic for a seed.
+#[must_use]
+pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions) -> Assessment {
+    let terms = Terms::new(m, required, &space.home);
+    let mut rng = Purpose::ASSESSED_POSES.rng(o.seed);
+    let mut found: BTreeMap<TermKind, Least> = BTreeMap::new();
+    let mut keep = |list: Vec<(Term, f64)>, pose: Option<Pose>| {
+        for (term, value) in list {
+            let entry = found.entry(term.kind).or_insert((term, value, pose));
+            if value < entry.1 || value.is_nan() {
+                *entry = (term, value, pose);
+            }
+        }
+    };
+    keep(terms.fixed(), None);
+    let mut poses = 0;
+    for pose in space.listed(o.steps) {
+        keep(terms.at(&pose), Some(pose));
+        poses += 1;
+    }
+    let mut worst: BTreeMap<TermKind, Vec<RegionPoint>> = BTreeMap::new();
+    for x in space.cube_points(o.points, &mut rng) {
+        let pose = space.pose(&x);
+        let list = terms.at(&pose);
+        let mut here: BTreeMap<TermKind, f64> = BTreeMap::new();
+        for (term, value) in &list {
+            let least = here.entry(term.kind).or_insert(*value);
+            *least = least.min(*value);
+        }
+        for (kind, value) in here {
+            let list = worst.entry(kind).or_default();
+            list.push((value, x));
+            list.sort_by(|a, b| a.0.total_cmp(&b.0));
+            list.truncate(o.searches);
+        }
+        keep(list, Some(pose));
+        poses += 1;
+    }
+    let axes = space.axes();
+    if !axes.is_empty() {
+        for (kind, starts) in worst {
+            for start in starts {
+                let (x, tried) = descend(&terms, kind, space, &axes, start, &mut rng);
+                let pose = space.pose(&x);
+                keep(terms.at(&pose), Some(pose));
+                poses += tried;
+            }
+        }
+    }
+    let margin = |(term, value, pose): Least| {
+        let standing = terms.standing(term.kind, value, pose.as_ref());
+        Margin { term, value, pose, standing }
+    };
+    Assessment { margins: found.into_values().map(margin).collect(), poses }
+}
+
+/// A worse pose near a bad one, and the number of poses tried.
+fn descend(
+    terms: &Terms<'_>,
+    kind: TermKind,
+    space: &PoseSpace,
+    axes: &[usize],
+    (mut value, mut x): RegionPoint,
+    rng: &mut Rng,
+) -> (Vector6<f64>, usize) {
+    let (mut step, mut tried) = (0.2, 0);
+    while step > 2e-6 {
+        let mut better = false;
+        for trial in 0..2 * axes.len() {
+            let mut y = x;
+            for (j, k) in axes.iter().enumerate() {
+                // every second trial moves one coordinate only
+                if trial % 2 == 0 || j == trial / 2 {
+                    y[*k] = (y[*k] + step * rng.uniform(-1.0, 1.0)).clamp(-1.0, 1.0);
+                }
+            }
+            tried += 1;
+            let there = least(terms, kind, &space.pose(&y));
+            if there < value {
+                (value, x, better) = (there, y, true);
+            }
+        }
+        if !better {
+            step /= 2.0;
+        }
+    }
+    (x, tried)
+}
+
+/// Looks for a requirement that a platform violates, for many platforms with the same workspace one after the other: at the poses that [`assess()`] looks at
+/// before it searches for worse ones, and only until one is found.
+#[derive(Debug, Clone)]
+pub(crate) struct ViolationSearch {
+    home: Pose,
+    poses: Vec<Pose>,
+}
+
+impl ViolationSearch {
+    /// Makes the poses of a space ready.
+    pub(crate) fn new(space: &PoseSpace, o: &AssessOptions) -> Self {
+        let mut rng = Purpose::ASSESSED_POSES.rng(o.seed);
+        let mut poses = space.listed(o.steps);
+        poses.extend(space.cube_points(o.points, &mut rng).iter().map(|x| space.pose(x)));
+        Self { home: space.home, poses }
+    }
+
+    /// The home of the space.
+    pub(crate) fn home(&self) -> &Pose {
+        &self.home
+    }
+
+    /// How many poses are looked at, at most.
+    pub(crate) fn poses(&self) -> usize {
+        self.poses.len()
+    }
+
+    /// A requirement that is violated, those that do not depend on the pose first; `None` when none is at these poses, which is no proof that none is between them.
+    ///
+    /// The pose that shows a violation is the first to be looked at next time: platforms that are much alike are violated at the same poses.
+    pub(crate) fn violated(&mut self, m: &Manipulator, required: &Requirements) -> Option<TermKind> {
+        let terms = Terms::new(m, required, &self.home);
+        let bad = |list: Vec<(Term, f64)>, pose: Option<&Pose>| {
+            let violated = |(term, value): &(Term, f64)| !terms.standing(term.kind, *value, pose).is_met();
+            list.iter().find(|t| violated(t)).map(|(term, _)| term.kind)
+        };
+        if let Some(kind) = bad(terms.fixed(), None) {
+            return Some(kind);
+        }
+        let found = self.poses.iter().enumerate().find_map(|(k, p)| Some((k, bad(terms.at(p), Some(p))?)));
+        found.map(|(k, kind)| {
+            self.poses[..=k].rotate_right(1);
+            kind
+        })
+    }
+}

@@ -1,0 +1,156 @@
+//! Points that move with the platform, as jets over a cell of poses.
+
+use nalgebra::Point3;
+
+use super::joint_offsets::JointOffsets;
+use crate::num::interval::Interval;
+use crate::num::jet::{Jet, JetVector, cross, dot, norm_squared};
+use crate::platform::geom::enclosed::{IntervalVector, apply};
+use crate::platform::geom::{Chart, ChartCell, TurnCoefficients, combination};
+use crate::platform::manipulator::Manipulator;
+
+/// The poses of a cell: translation `d` and the parts of `exp([w]x) = I + C_1 [w]x + C_2 (w w^T - (w.w) I)`.
+pub(super) struct CellFrame<'a> {
+    chart: &'a Chart,
+    variables: usize,
+    second: bool,
+    shift: JetVector,
+    w: JetVector,
+    square: Jet,
+    first: Jet,
+    twice: Jet,
+    joints: Option<&'a JointOffsets>,
+}
+
+impl<'a> CellFrame<'a> {
+    /// The frame over a cell, with second derivatives where they are needed.
+    pub(super) fn over(chart: &'a Chart, cell: &ChartCell, second: bool) -> Self {
+        let variables = chart.len();
+        let values = combination(&chart.columns, cell);
+        let coordinate = |k: usize| {
+            let mut slope = [Interval::ZERO; 6];
+            for (s, column) in slope.iter_mut().zip(&chart.columns) {
+                *s = column[k];
+            }
+            Jet::linear(values[k], slope, variables, second)
+        };
+        let shift = std::array::from_fn(coordinate);
+        let w = std::array::from_fn(|k| coordinate(k + 3));
+        let square = norm_squared(&w);
+        let c = TurnCoefficients::over(square.value);
+        Self {
+            chart,
+            variables,
+            second,
+            shift,
+            w,
+            square,
+            first: square.composed(c.first),
+            twice: square.composed(c.second),
+            joints: None,
+        }
+    }
+
+    /// The same poses for legs whose joints may not be ideal.
+    pub(super) fn with_joints(mut self, joints: Option<&'a JointOffsets>) -> Self {
+        self.joints = joints;
+        self
+    }
+
+    /// The joints, where they are not ideal.
+    pub(super) fn joints(&self) -> Option<&'a JointOffsets> {
+        self.joints
+    }
+
+    pub(super) fn constant(&self, x: Interval) -> Jet {
+        Jet::constant(x, self.variables, self.second)
+    }
+
+    /// A fixed vector.
+    pub(super) fn fixed(&self, v: &IntervalVector) -> JetVector {
+        v.map(|x| self.constant(x))
+    }
+
+    /// A vector of the platform frame in the base frame: `exp([w]x) R_0 v`.
+    pub(super) fn turned(&self, v: &IntervalVector) -> JetVector {
+        let y = apply(&self.chart.rotation, v);
+        let fixed = self.fixed(&y);
+        let once = [
+            self.w[1].times(y[2]) - self.w[2].times(y[1]),
+            self.w[2].times(y[0]) - self.w[0].times(y[2]),
+            self.w[0].times(y[1]) - self.w[1].times(y[0]),
+        ];
+        let along = self.w[0].times(y[0]) + self.w[1].times(y[1]) + self.w[2].times(y[2]);
+        std::array::from_fn(|k| {
+            let twice = self.w[k] * along - self.square.times(y[k]);
+            fixed[k] + self.first * once[k] + self.twice * twice
+        })
+    }
+
+    /// `p_0 + d`.
+    pub(super) fn origin(&self) -> JetVector {
+        std::array::from_fn(|k| self.shift[k] + self.constant(self.chart.position[k]))
+    }
+
+    /// A point of the platform frame in the base frame.
+    pub(super) fn moved(&self, point: &Point3<f64>) -> JetVector {
+        let (arm, origin) = (self.turned(&enclosed(point)), self.origin());
+        std::array::from_fn(|k| arm[k] + origin[k])
+    }
+
+    /// A leg of a manipulator: from joint to joint, or from second axis to second axis where these do not meet the first ones. Nothing is known of it where those may not be determined.
+    pub(super) fn leg(&self, m: &Manipulator, i: usize) -> LegOverCell {
+        let Some(joints) = self.joints else { return self.bare_leg(m, i) };
+        joints.leg(self, m, i).unwrap_or_else(|| {
+            let unknown = self.square.unknown();
+            let all = [unknown; 3];
+            LegOverCell { base: all, arm: all, line: all, square: unknown }
+        })
+    }
+
+    /// A leg from joint to joint.
+    pub(super) fn bare_leg(&self, m: &Manipulator, i: usize) -> LegOverCell {
+        let [base, platform] = m.enclosed_ends(i);
+        let arm = self.turned(&platform);
+        let origin = self.origin();
+        let base = self.fixed(&base);
+        let line: JetVector = std::array::from_fn(|k| arm[k] + (origin[k] - base[k]));
+        LegOverCell { base, arm, line, square: norm_squared(&line) }
+    }
+}
+
+/// The coordinates of a point.
+pub(super) fn enclosed(point: &Point3<f64>) -> IntervalVector {
+    std::array::from_fn(|k| Interval::from(point[k]))
+}
+
+/// A leg over the poses of a frame.
+pub(super) struct LegOverCell {
+    /// Base joint.
+    pub(super) base: JetVector,
+    /// `R b`.
+    pub(super) arm: JetVector,
+    /// `n = R b + p - a`.
+    pub(super) line: JetVector,
+    /// `n . n`.
+    pub(super) square: Jet,
+}
+
+impl LegOverCell {
+    /// `cos` of the angle between the leg and a vector whose length is known; `None` where the leg may have no length.
+    pub(super) fn cosine(&self, axis: &JetVector, length: Interval) -> Option<Jet> {
+        let over = Interval::from(1.0).checked_div(length)?;
+        Some((dot(&self.line, axis) * self.square.inverse_root()?).times(over))
+    }
+
+    /// `R b x n`.
+    pub(super) fn moment(&self) -> JetVector {
+        cross(&self.arm, &self.line)
+    }
+
+    /// `|R b x n|^2 / |n|^2`; `None` where the leg may have no length.
+    pub(super) fn lever_squared(&self) -> Option<Jet> {
+        let inverse = self.square.inverse_root()?;
+        Some(norm_squared(&self.moment()) * inverse.square())
+    }
+}

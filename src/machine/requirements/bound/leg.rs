@@ -1,0 +1,182 @@
+//! Functions of one leg, or of a joint at its end, and the margins that they give: lengths, swing, angles of universal joints, speed, room in the envelope.
+
+use super::CellJudge;
+use super::cone::{Sector, SwingCone};
+use super::frame::CellFrame;
+use super::function::{Function, Side};
+use super::hinge::{HingeFrame, HingeLimit};
+use super::joint_offsets::JointOffsets;
+use crate::machine::requirements::envelope::{self, Envelope};
+use crate::machine::requirements::{LengthLimits, Swing, TermKind};
+use crate::num::interval::Interval;
+use crate::num::jet::{Jet, norm_squared};
+use crate::platform::geom::enclosed::IntervalVector;
+use crate::platform::geom::{Chart, arc_cosine, degrees, radians};
+use crate::platform::manipulator::Body;
+
+impl CellJudge<'_> {
+    /// The angle of a universal joint, for the kinds that are one.
+    pub(super) fn hinge(&self, kind: TermKind, leg: usize) -> Option<HingeLimit<'_>> {
+        let (body, angle) = kind.hinge()?;
+        let limit_deg = self.required.hardware.angle_limit_deg(kind, leg)?;
+        let first = self.required.hardware.universal(body)?.first_axes[leg]?;
+        let (axis, _) = &self.axes[body.index()][leg];
+        let first: IntervalVector = std::array::from_fn(|k| Interval::from(first[k]));
+        let frame = HingeFrame::new(&first, axis)?;
+        Some(HingeLimit { m: self.m, leg, platform: body == Body::Platform, frame, angle, limit_deg })
+    }
+
+    /// What a function is bounded over one by one: the directions in which a leg leans, the sides of an angle.
+    pub(super) fn sectors(&self, function: Function, chart: &Chart) -> Vec<Sector> {
+        if let Function::Leg(kind, leg) = function
+            && self.hinge(kind, leg).is_some_and(|h| chart.len() > 1 && h.has_sides())
+        {
+            return Sector::sides();
+        }
+        Sector::all(self.cone(function, chart).is_some())
+    }
+
+    /// The cone in which a leg may lean, for limits below 90 degrees and regions; on single poses and steps the cosine is as good.
+    pub(super) fn cone(&self, function: Function, chart: &Chart) -> Option<SwingCone<'_>> {
+        let Function::Leg(kind, leg) = function else { return None };
+        if chart.len() < 2 {
+            return None;
+        }
+        let (body, swing) = match kind {
+            TermKind::BaseSwing => (0, self.required.hardware.base_swing?),
+            TermKind::PlatformSwing => (1, self.required.hardware.platform_swing?),
+            _ => return None,
+        };
+        let (axis, length) = &self.axes[body][leg];
+        SwingCone::new(self.m, leg, body == 1, axis, *length, swing.limits_deg[leg])
+    }
+
+    /// A function of a joint that grows with the room left to a side of the envelope: the negative square of the distance from the axis of a cylinder, the distance from a side
+    /// of a box.
+    pub(super) fn joint_value(
+        &self,
+        leg: usize,
+        end: usize,
+        side: Side,
+        frame: &CellFrame<'_>,
+    ) -> Option<Jet> {
+        let leg = frame.bare_leg(self.m, leg);
+        let at = |k: usize| if end == 0 { leg.base[k] } else { leg.line[k] + leg.base[k] };
+        let constant = |x: f64| frame.constant(Interval::from(x));
+        Some(match (self.required.envelopes.machine?, side) {
+            (Envelope::Cylinder { center, .. }, Side::Round) => {
+                let (x, y) = (at(0) - constant(center[0]), at(1) - constant(center[1]));
+                -(x * x + y * y)
+            }
+            (Envelope::Box { min, .. }, Side::Least(k)) => at(k) - constant(min[k]),
+            (Envelope::Box { max, .. }, Side::Greatest(k)) => constant(max[k]) - at(k),
+            _ => return None,
+        })
+    }
+
+    /// The margin for a value of the function of a joint, which it increases with.
+    pub(super) fn room_left(&self, leg: usize, end: usize, side: Side, value: Interval) -> Interval {
+        let housing = self.required.hardware.housing(Body::BOTH[end], leg);
+        // the same double as in the evaluation of a pose; its rounding is part of what the housing is
+        let ball = Interval::from(envelope::ball(housing));
+        match (self.required.envelopes.machine, side) {
+            (Some(Envelope::Cylinder { radius, .. }), Side::Round) => {
+                let square = -value;
+                let positive =
+                    Interval::new(square.lo().max(0.0), square.hi().max(0.0)).unwrap_or(Interval::WHOLE);
+                Interval::from(radius) - ball - positive.sqrt().unwrap_or(Interval::WHOLE)
+            }
+            _ => value - ball,
+        }
+    }
+
+    /// The function of a leg whose least value gives the least margin ([`CellJudge::margin`]).
+    pub(super) fn leg_value(&self, kind: TermKind, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
+        if self.required.cranks.is_some() {
+            let speed = self.required.platform_speed.unwrap_or_default();
+            return self.cranks?.value((kind, i), self.m, speed, &self.axes[1][i], frame);
+        }
+        if let Some(joints) = self.joints.filter(|joints| joints.have_lead()) {
+            match kind {
+                TermKind::LegTooShort => return joints.drive(frame, self.m, i),
+                TermKind::LegTooLong => return Some(-joints.drive(frame, self.m, i)?),
+                TermKind::LegSpeed => return self.screw_speed(joints, i, frame),
+                _ => {}
+            }
+        }
+        let leg = frame.leg(self.m, i);
+        Some(match kind {
+            TermKind::LegTooShort => leg.square,
+            TermKind::LegTooLong => -leg.square,
+            TermKind::BaseSwing => {
+                let (axis, length) = &self.axes[0][i];
+                leg.cosine(&frame.fixed(axis), *length)?
+            }
+            TermKind::PlatformSwing => {
+                let (axis, length) = &self.axes[1][i];
+                leg.cosine(&frame.turned(axis), *length)?
+            }
+            TermKind::LegSpeed => -leg.lever_squared()?,
+            kind => return self.hinge(kind, i)?.plain(frame),
+        })
+    }
+
+    /// Minus the greatest speed of a drive whose screw is turned by its leg: over all velocities and angular velocities up to the greatest.
+    fn screw_speed(&self, joints: &JointOffsets, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
+        let speed = self.required.platform_speed.unwrap_or_default();
+        let [x, y, z, a, b, c] = joints.rates(frame, self.m, i)?;
+        let mut fastest = frame.constant(Interval::ZERO);
+        for (row, greatest) in
+            [([x, y, z], Interval::from(speed.linear)), ([a, b, c], radians(speed.angular_deg))]
+        {
+            if greatest != Interval::ZERO {
+                fastest = fastest + norm_squared(&row).root()?.times(greatest);
+            }
+        }
+        Some(-fastest)
+    }
+
+    /// The margin for a value of the function of a leg, which it increases with.
+    pub(super) fn margin(&self, (kind, leg): (TermKind, usize), value: Interval) -> Interval {
+        let hardware = &self.required.hardware;
+        if let Some(cranks) = self.cranks {
+            return cranks.margin((kind, leg), value);
+        }
+        if let Some(hinge) = self.hinge(kind, leg) {
+            return hinge.margin(value);
+        }
+        let root = |x: Interval| {
+            let positive = Interval::new(x.lo().max(0.0), x.hi().max(0.0)).unwrap_or(Interval::WHOLE);
+            positive.sqrt().unwrap_or(Interval::WHOLE)
+        };
+        let limits = hardware.leg_length.map_or((Interval::WHOLE, Interval::WHOLE), |l| match l {
+            LengthLimits::Range(a, b) => (Interval::from(a), Interval::from(b)),
+            LengthLimits::Stroke { dead, stroke } => {
+                let once = Interval::from(dead) + Interval::from(stroke);
+                (once, once + Interval::from(stroke))
+            }
+        });
+        let swing = |s: Option<Swing>| Interval::from(s.map_or(f64::INFINITY, |s| s.limits_deg[leg]));
+        if self.joints.is_some_and(JointOffsets::have_lead) {
+            let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));
+            match kind {
+                TermKind::LegTooShort => return value - limits.0,
+                TermKind::LegTooLong => return limits.1 + value,
+                TermKind::LegSpeed => return greatest + value,
+                _ => {}
+            }
+        }
+        match kind {
+            TermKind::LegTooShort => root(value) - limits.0,
+            TermKind::LegTooLong => limits.1 - root(-value),
+            TermKind::BaseSwing => swing(hardware.base_swing) - degrees(arc_cosine(value)),
+            TermKind::PlatformSwing => swing(hardware.platform_swing) - degrees(arc_cosine(value)),
+            TermKind::LegSpeed => {
+                let speed = self.required.platform_speed.unwrap_or_default();
+                let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));
+                greatest - Interval::from(speed.linear) - root(-value) * radians(speed.angular_deg)
+            }
+            _ => Interval::WHOLE,
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! Proved bounds of the least margins over all poses of a workspace.
+//!
+//! Each requirement of each leg, pair, keep-out and load is a function of the pose. Its margin is bounded from below over cells of the workspace ([`local`], [`gap`], [`force`], [`stiffness`]) and from above
+//! at points of them; the cell with the least bound is halved next, until the bound decides or a number of cells is used up ([`branch`]). Cells in which the margin has a slope of
+//! one sign across a side of a box hold no least margin but at that side. Where points of cells come out worse than those found before, a local search goes on from them.
+//!
+//! `docs/theory/requirements.md` has the functions and the bounds.
+
+mod branch;
+mod cell;
+mod clearance;
+mod cone;
+mod crank;
+mod fixed;
+mod force;
+#[cfg(test)]
+mod force_tests;
+mod frame;
+mod function;
+mod gap;
+mod hinge;
+mod joint_offsets;
+mod leg;
+mod local;
+#[cfg(test)]
+mod offset_tests;
+mod stiffness;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+use std::num::NonZeroUsize;
+
+use self::crank::CrankFrames;
+use self::frame::CellFrame;
+use self::joint_offsets::JointOffsets;
+use self::verdict::ReserveBound;
+use super::Requirements;
+use super::assess::{AssessOptions, Assessment, Margin, assess};
+use super::term::{TermKind, Terms};
+use crate::num::interval::Interval;
+use crate::platform::geom::enclosed::{IntervalVector, dot};
+use crate::platform::geom::{Chart, PoseSpace};
+use crate::platform::manipulator::{Body, Manipulator};
+
+pub use crank::{RodRegularity, regular_rods};
+pub use verdict::{MarginBound, MarginProof, MarginVerdict};
+
+/// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind, and by [`AssessOptions::patient_cells`] more where these leave it undecided and nothing is violated.
+///
+/// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, and the straight motions between those of its trajectory, whatever the number of steps.
+#[must_use]
+pub fn prove(
+    m: &Manipulator,
+    required: &Requirements,
+    space: &PoseSpace,
+    o: &AssessOptions,
+    cells: usize,
+) -> MarginProof {
+    prove_telling(m, required, space, (o, cells), &mut |_| {})
+}
+
+/// The next stage of a judgement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AssessStage {
+    /// Looks for the worst pose of each requirement.
+    Searches,
+    /// Bounds the margins of a requirement over the whole workspace.
+    Bounds {
+        /// The requirement.
+        kind: TermKind,
+        /// Its number, from 1.
+        number: usize,
+        /// How many there are.
+        of: usize,
+    },
+    /// Bounds `det J`, or what rods have in its place.
+    SingularPoses,
+    /// Looks for the worst conditioning.
+    Conditioning,
+}
+
+impl std::fmt::Display for AssessStage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Searches => f.write_str("looking for the worst poses"),
+            Self::Bounds { kind, number, of } => {
+                write!(f, "bounding {} over the workspace, requirement {number} of {of}", kind.code())
+            }
+            Self::SingularPoses => f.write_str("looking for singular poses in the workspace"),
+            Self::Conditioning => f.write_str("looking for the worst conditioning"),
+        }
+    }
+}
+
+/// As [`prove`], with `(options, cells)`, and says what it is about to do.
+pub(crate) fn prove_telling(
+    m: &Manipulator,
+    required: &Requirements,
+    space: &PoseSpace,
+    (o, cells): (&AssessOptions, usize),
+    tell: &mut dyn FnMut(AssessStage),
+) -> MarginProof {
+    tell(AssessStage::Searches);
+    let Assessment { margins, poses } = assess(m, required, space, o);
+    let terms = Terms::new(m, required, &space.home);
+    let charts = Chart::all(space);
+    let home = Chart::of_pose(&space.home);
+    let cranks = CrankFrames::new(required);
+    let cranks = cranks.as_ref();
+    let joints = JointOffsets::new(m, required, &home);
+    let joints = joints.as_ref();
+    let axes = axes(m, required, cranks, joints, &home);
+    let threads =
+        o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    // more cells are for what is undecided, and need not come close
+    let patient = CellJudge {
+        m,
+        required,
+        terms: &terms,
+        cranks,
+        joints,
+        axes,
+        charts: charts.clone(),
+        threads,
+        close: false,
+    };
+    let judge = CellJudge { charts, close: o.close, ..patient };
+    let of = margins.len();
+    let mut bounds: Vec<MarginBound> = Vec::with_capacity(of);
+    for (number, margin) in (1..).zip(&margins) {
+        tell(AssessStage::Bounds { kind: margin.term.kind, number, of });
+        bounds.push(judge.proved(*margin, cells, o.seed));
+    }
+    // of a design that misses something no more has to be known
+    let missed = |b: &MarginBound| b.verdict == MarginVerdict::Violated || b.keeps_reserve() == Some(false);
+    if o.patient_cells > cells && !bounds.iter().any(missed) {
+        for (number, bound) in (1..).zip(&mut bounds) {
+            let kind = bound.found.term.kind;
+            if bound.is_decided() || kind.is_fixed() {
+                continue;
+            }
+            tell(AssessStage::Bounds { kind, number, of });
+            let more = patient.proved(bound.found, o.patient_cells, o.seed);
+            *bound =
+                MarginBound { below: more.below.max(bound.below), cells: bound.cells + more.cells, ..more };
+        }
+    }
+    MarginProof { bounds, poses }
+}
+
+/// Axes from which swing is measured, at the base in the base frame and at the platform in the platform frame, and their lengths.
+type Axes = [[(IntervalVector, Interval); 6]; 2];
+
+fn axes(
+    m: &Manipulator,
+    required: &Requirements,
+    cranks: Option<&CrankFrames<'_>>,
+    joints: Option<&JointOffsets>,
+    home: &Chart,
+) -> Axes {
+    use super::hardware::JointAxes;
+    let frame = CellFrame::over(home, &home.root, false).with_joints(joints);
+    std::array::from_fn(|body| {
+        let chosen = required.hardware.axes(Body::BOTH[body]);
+        std::array::from_fn(|i| {
+            let axis: IntervalVector = if let Some(JointAxes::Given(axes)) = chosen {
+                std::array::from_fn(|k| Interval::from(axes[i][k]))
+            } else {
+                let line = match &required.cranks {
+                    None => Some(frame.leg(m, i).line),
+                    Some(_) => cranks.and_then(|cranks| cranks.rod_line(m, i, &frame)),
+                };
+                let along = line.map_or([Interval::WHOLE; 3], |line| line.map(|x| x.value));
+                if body == 0 {
+                    along
+                } else {
+                    // R_0^T n
+                    std::array::from_fn(|k| dot(&std::array::from_fn(|r| home.rotation[r][k]), &along))
+                }
+            };
+            let length = dot_square(&axis).sqrt().unwrap_or(Interval::WHOLE);
+            (axis, length)
+        })
+    })
+}
+
+fn dot_square(v: &IntervalVector) -> Interval {
+    v[0].square() + v[1].square() + v[2].square()
+}
+
+struct CellJudge<'a> {
+    m: &'a Manipulator,
+    required: &'a Requirements,
+    terms: &'a Terms<'a>,
+    /// Cranks, where they could be enclosed.
+    cranks: Option<&'a CrankFrames<'a>>,
+    /// Joints that are not ideal, where they could be enclosed.
+    joints: Option<&'a JointOffsets>,
+    axes: Axes,
+    charts: Vec<Chart>,
+    /// Threads among which the cells of a batch are shared; no answer depends on it.
+    threads: usize,
+    /// Whether bounds go on when they have decided.
+    close: bool,
+}
+
+impl CellJudge<'_> {
+    /// A margin and its reserve by at most so many cells for each.
+    fn proved(&self, found: Margin, cells: usize, seed: u64) -> MarginBound {
+        let reserve = self.required.reserve(found.term.kind);
+        // what no pose changes is decided by its enclosure alone
+        if found.term.kind.is_fixed() {
+            return self.with_reserve(self.fixed(found), reserve);
+        }
+        // where bounds need not be close, a reserve that is kept decides both at once
+        let may_be_kept = found.value >= reserve - self.rounding(&found);
+        if self.close || reserve == 0.0 || !may_be_kept {
+            let bound = self.bound(found, cells, seed, 0.0);
+            let bound = self.with_reserve(bound, reserve);
+            if bound.keeps_reserve().is_some() {
+                return bound;
+            }
+            let more = self.bound(bound.found, cells, seed, reserve);
+            let kept = (more.below >= -self.rounding(&more.found)).then_some(true);
+            return MarginBound { reserve: Some(ReserveBound { reserve, kept }), ..bound };
+        }
+        let more = self.bound(found, cells, seed, reserve);
+        let rounding = self.rounding(&more.found);
+        if more.below >= -rounding {
+            let below = (more.below + reserve).next_down();
+            let kept = Some(ReserveBound { reserve, kept: Some(true) });
+            return MarginBound {
+                below,
+                verdict: verdict::verdict(below, f64::INFINITY, rounding),
+                reserve: kept,
+                ..more
+            };
+        }
+        let bound = self.bound(more.found, cells, seed, 0.0);
+        let cells = bound.cells + more.cells;
+        self.with_reserve(MarginBound { cells, ..bound }, reserve)
+    }
+
+    fn rounding(&self, found: &Margin) -> f64 {
+        self.terms.rounding(found.term.kind, found.pose.as_ref())
+    }
+
+    /// The same with what its own bounds say of a reserve.
+    fn with_reserve(&self, bound: MarginBound, reserve: f64) -> MarginBound {
+        if reserve == 0.0 {
+            return bound;
+        }
+        let rounding = self.rounding(&bound.found);
+        let kept = if bound.found.value < reserve - rounding {
+            Some(false)
+        } else {
+            (bound.below >= reserve - rounding).then_some(true)
+        };
+        MarginBound { reserve: Some(ReserveBound { reserve, kept }), ..bound }
+    }
+}

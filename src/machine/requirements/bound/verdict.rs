@@ -1,0 +1,130 @@
+//! What is proved of margins.
+
+use crate::machine::requirements::assess::Margin;
+
+/// What is known of the least margin of a kind of requirement over all poses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum MarginVerdict {
+    /// Proved: no margin is negative.
+    Met,
+    /// Proved: no margin is negative by more than the rounding of its evaluation ([`Terms::rounding`](crate::machine::requirements::Terms::rounding)).
+    AtLimit,
+    /// Proved: the margin is negative at the pose given, by more than that.
+    Violated,
+    /// Not proved: no violation was found.
+    Searched,
+}
+
+impl MarginVerdict {
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Met => "met",
+            Self::AtLimit => "at_limit",
+            Self::Violated => "violated",
+            Self::Searched => "searched",
+        }
+    }
+
+    /// `Some` where it is proved.
+    #[must_use]
+    pub fn is_met(self) -> Option<bool> {
+        match self {
+            Self::Met | Self::AtLimit => Some(true),
+            Self::Violated => Some(false),
+            Self::Searched => None,
+        }
+    }
+}
+
+impl std::fmt::Display for MarginVerdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The least margin of a kind with what is proved of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarginBound {
+    /// The least margin found.
+    pub found: Margin,
+    /// Proved: no pose of the workspace has a smaller margin; minus infinity when nothing is proved.
+    pub below: f64,
+    /// What follows.
+    pub verdict: MarginVerdict,
+    /// Cells bounded.
+    pub cells: usize,
+    /// The reserve on this limit and what is known of it; `None` where none is asked for.
+    pub reserve: Option<ReserveBound>,
+}
+
+/// A reserve, and whether the margin keeps it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReserveBound {
+    /// What has to remain, in the unit of the margin.
+    pub reserve: f64,
+    /// Proved either way, or `None`.
+    pub kept: Option<bool>,
+}
+
+impl MarginBound {
+    /// Whether nothing is left to prove of the margin and of its reserve.
+    pub(super) fn is_decided(&self) -> bool {
+        self.verdict.is_met().is_some() && self.keeps_reserve().is_some()
+    }
+
+    /// Whether the reserve is kept; `Some(true)` where there is none.
+    #[must_use]
+    pub fn keeps_reserve(&self) -> Option<bool> {
+        self.reserve.map_or(Some(true), |r| r.kept)
+    }
+}
+
+/// The least margins of all kinds with what is proved of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarginProof {
+    /// By kind.
+    pub bounds: Vec<MarginBound>,
+    /// Poses looked at by sampling and searches.
+    pub poses: usize,
+}
+
+impl MarginProof {
+    /// `Some(false)` when a requirement is violated, `Some(true)` when all are proved to be met.
+    #[must_use]
+    pub fn all_met(&self) -> Option<bool> {
+        let each = || self.bounds.iter().map(|b| b.verdict.is_met());
+        if each().any(|x| x == Some(false)) {
+            return Some(false);
+        }
+        each().all(|x| x == Some(true)).then_some(true)
+    }
+
+    /// The same of the reserves.
+    #[must_use]
+    pub fn all_reserved(&self) -> Option<bool> {
+        let each = || self.bounds.iter().map(MarginBound::keeps_reserve);
+        if each().any(|x| x == Some(false)) {
+            return Some(false);
+        }
+        each().all(|x| x == Some(true)).then_some(true)
+    }
+}
+
+pub(super) fn verdict(below: f64, upper: f64, rounding: f64) -> MarginVerdict {
+    if upper < -rounding {
+        MarginVerdict::Violated
+    } else if below >= 0.0 {
+        MarginVerdict::Met
+    } else if below >= -rounding {
+        MarginVerdict::AtLimit
+    } else {
+        MarginVerdict::Searched
+    }
+}

@@ -1,0 +1,40 @@
+//! The least conditioning over a workspace.
+
+use super::{AssessOptions, PoseSpace};
+use crate::num::Purpose;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Manipulator, inverse_condition, jacobian};
+
+/// Where the Jacobian is conditioned worst among the poses looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeastConditioning {
+    /// `sigma_min / sigma_max` of the Jacobian with unit lines, moments divided by the characteristic length: 1 at best, 0 at a singular pose.
+    pub value: f64,
+    /// The pose.
+    pub pose: Pose,
+}
+
+/// The least inverse condition number over the poses that [`assess`](super::assess()) looks at first: home, those listed, and points of the region. It is a number found, not
+/// a bound of those between them.
+#[must_use]
+pub fn least_conditioning(
+    m: &Manipulator,
+    space: &PoseSpace,
+    o: &AssessOptions,
+    characteristic_length: f64,
+) -> LeastConditioning {
+    least_over(space, o, |pose| inverse_condition(&jacobian(m, pose, characteristic_length)))
+}
+
+/// The least of a number over these poses.
+pub(super) fn least_over(
+    space: &PoseSpace,
+    o: &AssessOptions,
+    number: impl Fn(&Pose) -> f64,
+) -> LeastConditioning {
+    let mut rng = Purpose::ASSESSED_POSES.rng(o.seed);
+    let at = |pose: Pose| LeastConditioning { value: number(&pose), pose };
+    let points = space.cube_points(o.points, &mut rng).into_iter().map(|x| space.pose(&x));
+    let all = space.listed(o.steps).into_iter().chain(points).map(at);
+    all.fold(at(space.home), |least, next| if next.value < least.value { next } else { least })
+}

@@ -1,0 +1,380 @@
+//! Sizes and limits of joints, legs and drives.
+
+use super::envelope::room;
+use super::term::TermKind;
+use super::universal::{HingeAngle, UniversalJoint};
+use crate::platform::manipulator::Body;
+use nalgebra::{Unit, Vector3};
+
+/// The room a joint takes up, centred at the joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Housing {
+    /// A sphere of this diameter, design units.
+    Sphere(f64),
+    /// A box with these edge lengths along the axes of the body frame, design units.
+    Box(Vector3<f64>),
+}
+
+impl Housing {
+    /// Its diameter, or its shortest edge.
+    #[must_use]
+    pub fn least_width(&self) -> f64 {
+        match self {
+            Self::Sphere(diameter) => *diameter,
+            Self::Box(edges) => edges.min(),
+        }
+    }
+
+    /// Gap between two housings whose centres differ by `d` (body frame), design units; negative when they overlap.
+    ///
+    /// With half edges `h` (0 for a sphere) and radii `r` (0 for a box) of both, and `g_k = |d_k| - h_k - h'_k`: the norm of the positive `g_k` when there are any (the distance of
+    /// the boxes), else the greatest `g_k` (minus the shortest way out), less `r + r'`. Spheres have `|d| - r - r'`.
+    #[must_use]
+    pub fn gap(&self, other: &Self, d: &Vector3<f64>) -> f64 {
+        let ((half, ball), (other_half, other_ball)) = (room(Some(*self)), room(Some(*other)));
+        let g = d.abs() - (half + other_half);
+        let apart = if g.max() > 0.0 { g.map(|x| x.max(0.0)).norm() } else { g.max() };
+        apart - (ball + other_ball)
+    }
+
+    /// Two housings where at least one joint has one: a joint without a housing is a point.
+    pub(crate) fn pair(a: Option<Self>, b: Option<Self>) -> Option<[Self; 2]> {
+        let point = Self::Sphere(0.0);
+        (a.is_some() || b.is_some()).then(|| [a.unwrap_or(point), b.unwrap_or(point)])
+    }
+
+    /// Its diameter, or its longest edge.
+    #[must_use]
+    pub fn greatest_width(&self) -> f64 {
+        match self {
+            Self::Sphere(diameter) => *diameter,
+            Self::Box(edges) => edges.max(),
+        }
+    }
+}
+
+/// The room a leg takes up around the line from its base joint to its platform joint.
+///
+/// A cylinder of `diameter` starts at the base joint; after `cylinder_length` a rod of `rod_diameter` goes on to the
+/// platform joint. Each part is taken with rounded ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LegBody {
+    /// Diameter of the cylinder, of the whole leg when there is no rod, design units.
+    pub diameter: f64,
+    /// Length of the cylinder and diameter of the rod, design units.
+    pub rod: Option<(f64, f64)>,
+}
+
+/// Which lengths a leg can have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LengthLimits {
+    /// From the first to the second length, design units.
+    Range(f64, f64),
+    /// A linear drive: its length is `dead + stroke` when it is in and `dead + 2 stroke` when it is out, because
+    /// the rod has to go into the cylinder.
+    Stroke {
+        /// Length that neither extends nor retracts, design units.
+        dead: f64,
+        /// Travel, design units.
+        stroke: f64,
+    },
+}
+
+impl LengthLimits {
+    /// Least and greatest length.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        match *self {
+            Self::Range(least, greatest) => (least, greatest),
+            Self::Stroke { dead, stroke } => (dead + stroke, dead + 2.0 * stroke),
+        }
+    }
+}
+
+/// Where the axis of each joint of a body points: the direction from which its swing is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum JointAxes {
+    /// Along the leg at the home pose.
+    #[default]
+    Home,
+    /// To be found by the optimiser; evaluated like [`JointAxes::Home`] until then.
+    Optimize,
+    /// Given, one for each leg in leg order, in the frame of the body, from base to platform.
+    Given([Unit<Vector3<f64>>; 6]),
+}
+
+/// How far the legs may lean from the axes of the joints of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// Greatest angle between each leg and its axis, in leg order, degrees, above 0 and at most 180, which limits nothing.
+    pub limits_deg: [f64; 6],
+    /// The axes.
+    pub axes: JointAxes,
+}
+
+impl Swing {
+    /// The same limit for all legs, degrees, from axes.
+    #[must_use]
+    pub fn of_all(limit_deg: f64, axes: JointAxes) -> Self {
+        Self { limits_deg: [limit_deg; 6], axes }
+    }
+
+    /// The least of the limits, degrees.
+    #[must_use]
+    pub fn least_deg(&self) -> f64 {
+        self.limits_deg.iter().copied().fold(180.0, f64::min)
+    }
+
+    /// The limit of all legs, degrees; `None` where they differ.
+    #[must_use]
+    pub fn common_deg(&self) -> Option<f64> {
+        let first = self.limits_deg[0];
+        self.limits_deg.iter().all(|x| x.to_bits() == first.to_bits()).then_some(first)
+    }
+}
+
+/// A part of a leg as a body: thin, so that it has no inertia about the line of the leg.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LegPart {
+    /// Mass, mass units.
+    pub mass: f64,
+    /// Distance of the centre of mass from its joint along the leg, design units.
+    pub center: f64,
+    /// Moment of inertia about an axis across the leg through the centre of mass, mass units times design units squared.
+    pub inertia: f64,
+}
+
+impl LegPart {
+    /// Moment of inertia of a thin rod of constant cross-section that begins at the joint and has its middle at the centre of mass: `m (2 c)^2 / 12`.
+    #[must_use]
+    pub fn uniform_inertia(mass: f64, center: f64) -> f64 {
+        mass * center * center / 3.0
+    }
+}
+
+/// Masses of a leg.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LegMasses {
+    /// What turns about the base joint and does not become longer; its centre is measured from the base joint.
+    pub cylinder: LegPart,
+    /// What moves along the leg; its centre is measured from the platform joint.
+    pub rod: LegPart,
+    /// Mass that moves along the leg in place of what turns in the drive: moments of inertia of motor and spindle over the square of the lead per radian, mass units.
+    pub reflected: f64,
+}
+
+impl LegMasses {
+    /// With masses and inertias multiplied: those of another unit of mass.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let part =
+            |p: &LegPart| LegPart { mass: p.mass * factor, center: p.center, inertia: p.inertia * factor };
+        Self { cylinder: part(&self.cylinder), rod: part(&self.rod), reflected: self.reflected * factor }
+    }
+
+    /// Mass that moves along the leg with its platform joint.
+    pub(crate) fn lengthwise(&self) -> f64 {
+        self.rod.mass + self.reflected
+    }
+
+    /// Moment of inertia of a leg of this length about an axis across it through its base joint.
+    pub(crate) fn turning(&self, length: f64) -> f64 {
+        let (cylinder, rod) = (&self.cylinder, &self.rod);
+        cylinder.inertia
+            + cylinder.mass * cylinder.center.powi(2)
+            + rod.inertia
+            + rod.mass * (length - rod.center).powi(2)
+    }
+}
+
+/// What a joint is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointType {
+    /// It turns freely about all axes, within its swing.
+    Ball,
+    /// Two hinges in a row.
+    Universal,
+    /// It bends against a stiffness.
+    Flexure,
+}
+
+impl JointType {
+    /// The word of design files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ball => "ball",
+            Self::Universal => "universal",
+            Self::Flexure => "flexure",
+        }
+    }
+}
+
+/// Sizes and limits of joints, legs and drives. What is absent limits nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Hardware {
+    /// Housing of each base joint that has none of its own.
+    pub base_housing: Option<Housing>,
+    /// Housing of each platform joint that has none of its own.
+    pub platform_housing: Option<Housing>,
+    /// Housings of base joints whose model has one, in leg order.
+    pub base_joint_housing: [Option<Housing>; 6],
+    /// Housings of platform joints whose model has one, in leg order.
+    pub platform_joint_housing: [Option<Housing>; 6],
+    /// Diameter of the joints of both bodies that have no housing of their own, design units.
+    pub joint_diameter: Option<f64>,
+    /// Bodies of the legs.
+    pub leg_body: Option<LegBody>,
+    /// Gap that has to remain between legs, and between legs and keep-outs, design units; none means 0.
+    pub leg_clearance: Option<f64>,
+    /// Lengths of the legs.
+    pub leg_length: Option<LengthLimits>,
+    /// Swing of the base joints.
+    pub base_swing: Option<Swing>,
+    /// Swing of the platform joints.
+    pub platform_swing: Option<Swing>,
+    /// Universal joints of the base; none where no joint is one.
+    pub base_universal: Option<UniversalJoint>,
+    /// Universal joints of the platform.
+    pub platform_universal: Option<UniversalJoint>,
+    /// Bending stiffness of the flexures of the base, in leg order, force units times design units per radian; none where a joint turns freely.
+    pub base_bending: [Option<f64>; 6],
+    /// Bending stiffness of the flexures of the platform.
+    pub platform_bending: [Option<f64>; 6],
+    /// What a leg becomes longer by when its platform end makes a turn about it, by the right hand about the direction from base to platform, against the base end, design units.
+    pub screw_lead: Option<f64>,
+    /// Greatest force along a leg, push or pull, force units.
+    pub max_leg_force: Option<f64>,
+    /// Greatest speed of a leg, design units per second.
+    pub max_leg_speed: Option<f64>,
+    /// Stiffness of a leg along its line, force units per design unit.
+    pub leg_stiffness: Option<f64>,
+    /// Masses of a leg; none where the design says none.
+    pub leg_masses: Option<LegMasses>,
+}
+
+impl Hardware {
+    /// Housing of the joint of a leg at a body: that of its model, else that of the body, else [`Hardware::joint_diameter`] as a sphere.
+    #[must_use]
+    pub fn housing(&self, body: Body, leg: usize) -> Option<Housing> {
+        let own = body.of((self.base_joint_housing, self.platform_joint_housing))[leg];
+        let of_body = body.of((self.base_housing, self.platform_housing));
+        own.or(of_body).or(self.joint_diameter.map(Housing::Sphere))
+    }
+
+    /// The housings about the centre of a joint, those of the legs that end there, each once; `ends` are the joints of the body in leg order.
+    pub(crate) fn housings_at(&self, body: Body, ends: &[usize; 6], joint: usize) -> Vec<Option<Housing>> {
+        let mut out = Vec::new();
+        for leg in (0..6).filter(|&leg| ends[leg] == joint) {
+            let housing = self.housing(body, leg);
+            if !out.contains(&housing) {
+                out.push(housing);
+            }
+        }
+        out
+    }
+
+    /// The least and the greatest of the widths of the housings of a body ([`Housing::least_width`]); `None` where a joint has no housing.
+    #[must_use]
+    pub fn joint_widths(&self, body: Body) -> Option<[f64; 2]> {
+        let widths: Option<Vec<f64>> =
+            (0..6).map(|leg| self.housing(body, leg).map(|h| h.least_width())).collect();
+        let widths = widths?;
+        let (least, greatest) =
+            (widths.iter().copied().reduce(f64::min), widths.iter().copied().reduce(f64::max));
+        least.zip(greatest).map(<[f64; 2]>::from)
+    }
+
+    /// The model of the joint of a leg at a body.
+    #[must_use]
+    pub fn joint_kind(&self, body: Body, leg: usize) -> JointType {
+        if self.universal(body).is_some_and(|joint| joint.first_axes[leg].is_some()) {
+            JointType::Universal
+        } else if body.of((self.base_bending, self.platform_bending))[leg].is_some() {
+            JointType::Flexure
+        } else {
+            JointType::Ball
+        }
+    }
+
+    /// The universal joints of a body, where it has some.
+    #[must_use]
+    pub fn universal(&self, body: Body) -> Option<UniversalJoint> {
+        body.of((self.base_universal, self.platform_universal))
+    }
+
+    /// Where the axes of the joints of a body point, where something is measured from them.
+    #[must_use]
+    pub fn axes(&self, body: Body) -> Option<JointAxes> {
+        let swing = body.of((self.base_swing, self.platform_swing)).map(|s| s.axes);
+        swing.or(self.universal(body).map(|joint| joint.axes))
+    }
+
+    /// The limit of an angle of the universal joint of a leg, degrees; `None` where there is none, and for other kinds.
+    pub(crate) fn angle_limit_deg(&self, kind: TermKind, leg: usize) -> Option<f64> {
+        let (body, angle) = kind.hinge()?;
+        let joints = self.universal(body)?;
+        let limits = joints.limits_deg[leg].filter(|_| joints.first_axes[leg].is_some())?;
+        Some(match angle {
+            HingeAngle::First => limits[0],
+            HingeAngle::Second => limits[1],
+        })
+    }
+
+    /// The least limit of an angle of universal joints over the legs, degrees.
+    pub(crate) fn least_angle_limit_deg(&self, kind: TermKind) -> Option<f64> {
+        (0..6).filter_map(|leg| self.angle_limit_deg(kind, leg)).reduce(f64::min)
+    }
+
+    /// `true` where the length of a drive is not the distance of its joints: universal joints whose axes do not meet, or screws that couple the turn of a leg about itself to its
+    /// length.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        let apart = |joint: Option<UniversalJoint>| joint.is_some_and(|j| j.offset != 0.0);
+        apart(self.base_universal)
+            || apart(self.platform_universal)
+            || self.screw_lead.is_some_and(|lead| lead != 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gaps_of_spheres_and_boxes() {
+        let d = Vector3::new(3.0, 4.0, 0.0);
+        let alike = |h: Housing| h.gap(&h, &d);
+        assert!((alike(Housing::Sphere(2.0)) - 3.0).abs() < 1e-15);
+        let block = |x, y, z| Housing::Box(Vector3::new(x, y, z));
+        assert!((alike(block(2.0, 2.0, 9.0)) - (1.0f64 + 4.0).sqrt()).abs() < 1e-15, "corner to corner");
+        assert!((alike(block(5.0, 2.0, 9.0)) - 2.0).abs() < 1e-15, "face to face");
+        let overlap = alike(block(5.0, 4.5, 9.0));
+        assert!((overlap + 0.5).abs() < 1e-15, "overlap: the shortest way out is along y");
+        // one of each: the box ends at x = 1, y = 2, its corner is (2, 2) from the centre of the ball
+        let (wide, ball) = (block(2.0, 4.0, 9.0), Housing::Sphere(3.0));
+        let mixed = 8f64.sqrt() - 1.5;
+        assert!((wide.gap(&ball, &d) - mixed).abs() < 1e-15 && (ball.gap(&wide, &d) - mixed).abs() < 1e-15);
+        assert!((Housing::Sphere(2.0).gap(&Housing::Sphere(5.0), &d) - 1.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_housing_of_a_joint_is_that_of_its_model_then_that_of_its_body() {
+        let mut h = Hardware { joint_diameter: Some(4.0), ..Hardware::default() };
+        h.base_joint_housing[2] = Some(Housing::Sphere(7.0));
+        h.platform_housing = Some(Housing::Box(Vector3::new(1.0, 2.0, 3.0)));
+        assert_eq!(h.housing(Body::Base, 2), Some(Housing::Sphere(7.0)));
+        assert_eq!(h.housing(Body::Base, 1), Some(Housing::Sphere(4.0)));
+        assert_eq!(h.housing(Body::Platform, 2), h.platform_housing);
+        assert_eq!(h.joint_widths(Body::Base), Some([4.0, 7.0]));
+        // legs 2 and 3 share a joint: two housings about one centre
+        let at = h.housings_at(Body::Base, &[0, 1, 1, 2, 2, 0], 1);
+        assert_eq!(at, [Some(Housing::Sphere(4.0)), Some(Housing::Sphere(7.0))]);
+        assert_eq!(h.housings_at(Body::Base, &[0, 1, 1, 2, 2, 0], 2).len(), 1);
+    }
+
+    #[test]
+    fn a_drive_is_between_one_and_two_strokes_longer_than_its_dead_length() {
+        assert_eq!(LengthLimits::Stroke { dead: 5.0, stroke: 2.0 }.range(), (7.0, 9.0));
+    }
+}

@@ -1,0 +1,99 @@
+//! Loads on the platform and the leg forces that hold them.
+
+use nalgebra::{Matrix6, Point3, Vector3, Vector6};
+
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Body, Manipulator, jacobian};
+
+/// A force and a torque that act on the platform.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Load {
+    /// What it is called in reports.
+    pub name: String,
+    /// Force, force units.
+    pub force: Vector3<f64>,
+    /// Torque besides that of the force, force units times design units.
+    pub torque: Vector3<f64>,
+    /// Where the force acts, platform frame.
+    pub at: Point3<f64>,
+    /// The frame in which force and torque keep their direction: weight is fixed to the base, a cutting force to the
+    /// platform.
+    pub fixed_to: Body,
+}
+
+impl Load {
+    /// Force and torque about the platform origin, both in the base frame.
+    #[must_use]
+    pub fn wrench(&self, pose: &Pose) -> Vector6<f64> {
+        let turn = |v: &Vector3<f64>| match self.fixed_to {
+            Body::Base => *v,
+            Body::Platform => pose.rotation * v,
+        };
+        let force = turn(&self.force);
+        let torque = turn(&self.torque) + (pose.rotation * self.at.coords).cross(&force);
+        Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+    }
+}
+
+/// Forces in the legs that hold a wrench `(f, t)` (about the platform origin, base frame): `sum F_i (u_i, R b_i x u_i) = -(f, t)`.
+///
+/// Positive forces push the platform (compression). `scale` is a length that makes moments comparable with
+/// forces in the solution of the linear system, the size of the design for instance; the answer does not depend on it.
+/// `None` at a singular pose, where no forces or many hold the load.
+#[must_use]
+pub fn leg_forces(m: &Manipulator, pose: &Pose, wrench: &Vector6<f64>, scale: f64) -> Option<Vector6<f64>> {
+    forces_along(&jacobian(m, pose, scale), wrench, scale)
+}
+
+/// As [`leg_forces`], for lines given by rows with their moments over `scale`.
+pub(super) fn forces_along(rows: &Matrix6<f64>, wrench: &Vector6<f64>, scale: f64) -> Option<Vector6<f64>> {
+    let mut right = -wrench;
+    right.fixed_rows_mut::<3>(3).scale_mut(1.0 / scale);
+    let forces = rows.transpose().lu().solve(&right)?;
+    forces.iter().all(|x| x.is_finite()).then_some(forces)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::platform::manipulator::Leg;
+    use nalgebra::Rotation3;
+
+    #[test]
+    fn forces_balance_the_load_about_every_point() {
+        let m = Manipulator::from_legs(std::array::from_fn(|i| {
+            let t = i as f64;
+            Leg {
+                base: Point3::new(20.0 * (1.1 * t).cos(), 20.0 * (1.1 * t).sin(), 0.3 * t),
+                platform: Point3::new(9.0 * (1.0 + t).cos(), 9.0 * (1.0 + t).sin(), 0.2),
+            }
+        }))
+        .unwrap();
+        let pose = Pose {
+            rotation: Rotation3::from_euler_angles(0.1, -0.2, 0.3),
+            position: Vector3::new(1.0, 2.0, 25.0),
+        };
+        let load = Load {
+            name: "cut".into(),
+            force: Vector3::new(3.0, -1.0, -40.0),
+            torque: Vector3::new(0.5, 7.0, -2.0),
+            at: Point3::new(1.0, 2.0, 6.0),
+            fixed_to: Body::Platform,
+        };
+        let forces = leg_forces(&m, &pose, &load.wrench(&pose), 20.0).unwrap();
+        // balance about the base origin, from the definitions
+        let (mut f, mut t) = (pose.rotation * load.force, pose.rotation * load.torque);
+        t += pose.transform(&load.at).coords.cross(&f);
+        for (leg, x) in m.legs().iter().zip(forces.iter()) {
+            let end = pose.transform(&leg.platform);
+            let push = (end - leg.base).normalize() * *x;
+            f += push;
+            t += end.coords.cross(&push);
+        }
+        assert!(f.norm() < 1e-12 * 40.0 && t.norm() < 1e-11 * 400.0, "{f} {t}");
+        assert_eq!(
+            leg_forces(&m, &pose, &load.wrench(&pose), 0.5).map(|g| (g - forces).norm() < 1e-9),
+            Some(true)
+        );
+    }
+}

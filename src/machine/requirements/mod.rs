@@ -1,0 +1,181 @@
+//! Says what a platform has to satisfy besides being regular, and by how much it does: room, lengths, swing, loads and speed over a set of poses.
+//!
+//! The types say what a design file asks for. [`assess()`] evaluates them directly, pose by pose, from the definitions; an
+//! optimiser has formulas of its own, so that its answers can be checked here. `docs/theory/requirements.md` has the
+//! definition and the unit of every term.
+
+mod assess;
+mod bodies;
+mod bound;
+mod conditioning;
+pub(crate) mod coupled;
+mod cranks;
+mod envelope;
+mod flexure;
+mod goal;
+mod hardware;
+mod holes;
+mod joint_angles;
+mod keep_out;
+mod limit;
+mod load;
+mod payload;
+mod plate;
+mod reserve;
+mod standing;
+mod term;
+#[cfg(test)]
+mod tests;
+mod universal;
+mod vibration;
+
+pub use crate::platform::geom::{ListedFrom, PoseSpace, Region};
+#[cfg(feature = "page")]
+pub(crate) use assess::ViolationSearch;
+pub use assess::{AssessOptions, Assessment, Margin, assess};
+pub use bodies::MovingBodies;
+pub(crate) use bound::prove_telling;
+pub use bound::{AssessStage, MarginBound, MarginProof, MarginVerdict, RodRegularity, prove, regular_rods};
+pub use conditioning::{LeastConditioning, least_conditioning};
+pub(crate) use cranks::CrankRoom;
+pub use cranks::{CrankedLeg, Cranks, least_rod_conditioning};
+pub use envelope::{Envelope, Envelopes};
+pub(crate) use envelope::{ball, room};
+pub use flexure::Wrench;
+pub use goal::{KeptSymmetry, Objective, StartSymmetry, VariableKind};
+pub use hardware::{
+    Hardware, Housing, JointAxes, JointType, LegBody, LegMasses, LegPart, LengthLimits, Swing,
+};
+pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
+pub use joint_angles::JointAngles;
+pub use keep_out::{KeepOut, KeepOutShape};
+pub use limit::{Limit, Limits, PoseLimit};
+pub use load::{Load, leg_forces};
+pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload, PlateMass};
+pub use plate::{
+    BoltPattern, BoltsFrom, MATERIALS, Outline, OutlinePart, PlateDesign, PlateSeat, PlateSolid, Plates,
+    seat_height,
+};
+#[cfg(feature = "files")]
+pub(crate) use plate::{PlateBody, on_circle};
+#[cfg(any(feature = "files", feature = "optimize"))]
+pub(crate) use plate::{frame_of, plate_normal};
+pub use reserve::{Reserve, Reserves};
+pub use standing::Standing;
+pub use term::{Quantity, Term, TermKind, Terms};
+pub(crate) use universal::HingeAngle;
+pub use universal::UniversalJoint;
+pub use vibration::{
+    LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, least_stiffness_at,
+    lowest_frequency, mass_matrix, stiffness_matrix, vibration,
+};
+pub(crate) use vibration::{mass_of, scaled_mass};
+
+/// Greatest speed of the platform: every direction of motion up to these rates, together.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PlatformSpeed {
+    /// Speed of the platform origin, design units per second.
+    pub linear: f64,
+    /// Angular speed, degrees per second.
+    pub angular_deg: f64,
+}
+
+/// Everything a design has to satisfy. What is absent limits nothing.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Requirements {
+    /// Sizes and limits of joints, legs and drives.
+    pub hardware: Hardware,
+    /// Bodies that the legs must not touch.
+    pub keep_outs: Vec<KeepOut>,
+    /// Loads that the legs have to hold, one at a time.
+    pub loads: Vec<Load>,
+    /// How fast the platform has to move.
+    pub platform_speed: Option<PlatformSpeed>,
+    /// How stiff the platform has to be; [`Hardware::leg_stiffness`] says how stiff a leg is.
+    pub platform_stiffness: Option<PlatformStiffness>,
+    /// What vibrates, where masses and units are known.
+    pub vibrating: Option<VibratingMasses>,
+    /// Least distance of two joint centres of a body, design units.
+    pub min_joint_distance: Option<f64>,
+    /// Room that plates and machine may take up.
+    pub envelopes: Envelopes,
+    /// The plates that carry the joints.
+    pub plates: Plates,
+    /// The room that the payload takes up, platform frame.
+    pub payload_shape: Option<KeepOutShape>,
+    /// What has to remain of each limit.
+    pub reserves: Reserves,
+    /// Cranks with rods of constant length in place of legs that change their lengths; what is said of such legs then limits nothing.
+    pub cranks: Option<Box<Cranks>>,
+}
+
+impl Requirements {
+    /// What is asked of the drives (lengths, forces, speeds, stiffness), and all the rest: each kind of requirement belongs to one of both.
+    #[must_use]
+    pub fn of_drives_and_rest(&self) -> [Self; 2] {
+        let h = &self.hardware;
+        let drives = Self {
+            hardware: Hardware {
+                leg_length: h.leg_length,
+                max_leg_force: h.max_leg_force,
+                max_leg_speed: h.max_leg_speed,
+                leg_stiffness: h.leg_stiffness,
+                leg_masses: h.leg_masses,
+                ..Hardware::default()
+            },
+            loads: self.loads.clone(),
+            platform_speed: self.platform_speed,
+            platform_stiffness: self.platform_stiffness,
+            vibrating: self.vibrating,
+            reserves: self.reserves.clone(),
+            cranks: self.cranks.clone(),
+            ..Self::default()
+        };
+        let hardware = Hardware {
+            leg_length: None,
+            max_leg_force: None,
+            max_leg_speed: None,
+            leg_stiffness: None,
+            ..*h
+        };
+        let rest = Self {
+            hardware,
+            keep_outs: self.keep_outs.clone(),
+            min_joint_distance: self.min_joint_distance,
+            envelopes: self.envelopes,
+            plates: self.plates.clone(),
+            payload_shape: self.payload_shape,
+            reserves: self.reserves.clone(),
+            ..Self::default()
+        };
+        [drives, rest]
+    }
+
+    /// `true` where a natural frequency is asked for whose legs have masses and joints that are not ideal: how such legs move is not known, and the frequency is not judged.
+    #[must_use]
+    pub(crate) fn leaves_out_moving_legs(&self) -> bool {
+        let wanted = self.platform_stiffness.is_some_and(|s| s.natural_frequency.is_some());
+        let moving = self.vibrating.as_ref().is_some_and(|v| v.bodies.leg != LegMasses::default());
+        wanted && moving && self.hardware.is_coupled()
+    }
+
+    /// The least stiffness or natural frequency asked for, in the unit of its margin; `None` where none is, and for other kinds.
+    #[must_use]
+    pub fn least_stiffness_of(&self, kind: TermKind) -> Option<f64> {
+        self.platform_stiffness.and_then(|wanted| wanted.least(kind))
+    }
+
+    /// What a margin of a kind is a share of where margins of several kinds are compared: the size of the design (lengths), 90 degrees, or the limit itself.
+    pub(crate) fn scale_of(&self, kind: TermKind, size: f64) -> f64 {
+        match kind.quantity() {
+            Quantity::Length => size,
+            Quantity::Angle => 90.0,
+            Quantity::Force => self.hardware.max_leg_force.unwrap_or(1.0),
+            Quantity::Speed => self.hardware.max_leg_speed.unwrap_or(1.0),
+            Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
+                self.least_stiffness_of(kind).unwrap_or(1.0)
+            }
+            Quantity::Torque | Quantity::AngularSpeed => self.whole(kind),
+        }
+    }
+}

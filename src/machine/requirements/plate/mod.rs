@@ -1,0 +1,163 @@
+//! Plates: what a design says of the two plates that carry the joints, the bodies they are, and how their holes lie.
+
+mod moments;
+mod outline;
+mod solid;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::Point2;
+
+use super::hardware::Hardware;
+use crate::platform::manipulator::Body;
+
+pub(crate) use moments::PlateBody;
+pub(crate) use outline::on_circle;
+pub use outline::{Outline, OutlinePart};
+pub use solid::{PlateSeat, PlateSolid};
+#[cfg(any(feature = "files", feature = "optimize"))]
+pub(crate) use solid::{frame_of, plate_normal};
+
+/// Materials that are known by name, with their densities in kg/m^3: rounded values of tables of engineering materials at room temperature.
+pub const MATERIALS: [(&str, f64); 8] = [
+    ("aluminium", 2700.0),
+    ("steel", 7850.0),
+    ("stainless_steel", 7900.0),
+    ("cast_iron", 7200.0),
+    ("titanium", 4500.0),
+    ("brass", 8500.0),
+    ("pom", 1410.0),
+    ("plywood", 680.0),
+];
+
+/// From where the angle of the first bolt of a joint counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BoltsFrom {
+    /// From the first axis of the plate: all joints have the same pattern.
+    #[default]
+    Axis,
+    /// From the direction that leads from the origin of the plate to the joint: turns about the origin that take joints to joints take patterns to patterns.
+    Centre,
+}
+
+impl BoltsFrom {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Axis, Self::Centre];
+
+    /// Its name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Axis => "axis",
+            Self::Centre => "centre",
+        }
+    }
+}
+
+/// The holes by which a joint is bolted to its plate: equally spaced on a circle about its centre.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BoltPattern {
+    /// Number of bolts of a joint, at least one.
+    pub count: u32,
+    /// Diameter of the circle, design units.
+    pub circle: f64,
+    /// Diameter of the holes, design units.
+    pub hole: f64,
+    /// Angle of the first hole, degrees, counter-clockwise seen against the normal of the plate.
+    pub first_deg: f64,
+    /// From where this angle counts.
+    pub from: BoltsFrom,
+}
+
+impl BoltPattern {
+    /// Centres of the bolt holes of a joint whose foot is at `at`, plate coordinates.
+    #[must_use]
+    pub fn places(&self, at: &Point2<f64>) -> Vec<Point2<f64>> {
+        let start = match self.from {
+            BoltsFrom::Axis => 0.0,
+            BoltsFrom::Centre => at.y.atan2(at.x),
+        };
+        let angle = |k: u32| {
+            start + (self.first_deg + 360.0 * f64::from(k) / f64::from(self.count.max(1))).to_radians()
+        };
+        (0..self.count).map(|k| on_circle(at, 0.5 * self.circle, angle(k))).collect()
+    }
+}
+
+/// What a design says of the plate of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlateDesign {
+    /// Thickness, design units.
+    pub thickness: f64,
+    /// Distance of the outline from the convex hull of the joints, design units.
+    pub margin: f64,
+    /// Diameter of the hole under each joint, design units.
+    pub hole: f64,
+    /// Height of the lowest joint centre above the face that the joints stand on, design units; `None`: that of a ball on the edge of the hole ([`seat_height`]).
+    pub height: Option<f64>,
+    /// What it is made of.
+    pub material: Option<String>,
+    /// Density, kg/m^3, where it is not that of a [known material](MATERIALS).
+    pub density: Option<f64>,
+    /// Least distance of the edge of a hole from the outline, design units.
+    pub edge_distance: f64,
+    /// Least distance of the edges of two holes, design units.
+    pub hole_distance: f64,
+    /// Diameter of the round foot by which a joint stands on the plate, design units.
+    pub foot: Option<f64>,
+    /// The bolts of each joint.
+    pub bolts: Option<BoltPattern>,
+}
+
+/// Height of the centre of a ball above a plate on whose hole it sits: `sqrt(ball^2 - hole^2) / 2`.
+#[must_use]
+pub fn seat_height(ball: f64, hole: f64) -> f64 {
+    0.5 * (ball.powi(2) - hole.powi(2)).max(0.0).sqrt()
+}
+
+impl PlateDesign {
+    /// Density in kg/m^3; `None` where neither a density nor a known material is named.
+    #[must_use]
+    pub fn kilograms_per_cubic_metre(&self) -> Option<f64> {
+        let known = |name: &String| MATERIALS.iter().find(|(known, _)| known == name).map(|(_, d)| *d);
+        self.density.or_else(|| self.material.as_ref().and_then(known))
+    }
+
+    /// Height of the lowest joint centre above the face, for the joints of this body: where none is given that of the widest one on its hole, since all centres are as high.
+    #[must_use]
+    pub fn joint_height(&self, hardware: &Hardware, body: Body) -> f64 {
+        let widest = || hardware.joint_widths(body).map_or(0.0, |[_, greatest]| greatest);
+        self.height.unwrap_or_else(|| seat_height(widest(), self.hole))
+    }
+
+    /// Diameter of the greatest hole.
+    pub(crate) fn greatest_hole(&self) -> f64 {
+        self.hole.max(self.bolts.map_or(0.0, |b| b.hole))
+    }
+}
+
+/// The plates of a design. What is absent requires nothing.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Plates {
+    /// Under the base joints.
+    pub base: Option<PlateDesign>,
+    /// Under the platform joints.
+    pub platform: Option<PlateDesign>,
+}
+
+impl Plates {
+    /// That of a body.
+    #[must_use]
+    pub fn of(&self, body: Body) -> Option<&PlateDesign> {
+        body.of((self.base.as_ref(), self.platform.as_ref()))
+    }
+}
+
+impl Hardware {
+    /// Distance from the centre of the joint of a leg at this body at which the leg begins to be a body that can meet a plate: half the least width of the housing, 0 without one, less the offset of the second axis of a universal joint, where its leg begins.
+    #[must_use]
+    pub fn joint_reach(&self, body: Body, leg: usize) -> f64 {
+        let offset = self.universal(body).map_or(0.0, |joint| joint.offset);
+        (self.housing(body, leg).map_or(0.0, |h| 0.5 * h.least_width()) - offset).max(0.0)
+    }
+}

@@ -1,0 +1,167 @@
+//! The outline of a plate: all points of a plane within a margin of the convex hull of the joints.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Point2, Vector2};
+
+use crate::platform::geom::convex_hull;
+
+/// A piece of an outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OutlinePart {
+    /// A straight edge.
+    Line {
+        /// Where it begins.
+        from: Point2<f64>,
+        /// Where it ends.
+        to: Point2<f64>,
+    },
+    /// An arc, counter-clockwise.
+    Arc {
+        /// Its centre.
+        centre: Point2<f64>,
+        /// Its radius.
+        radius: f64,
+        /// Angle of its beginning from the first axis, radians.
+        start: f64,
+        /// What it turns through, radians, positive.
+        turn: f64,
+    },
+}
+
+/// A closed curve, counter-clockwise: straight edges with arcs at the corners of the hull. One point gives a circle (two half circles), points on a line
+/// a slot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outline {
+    /// Corners of the convex hull, counter-clockwise.
+    pub hull: Vec<Point2<f64>>,
+    /// Distance of the outline from the hull.
+    pub margin: f64,
+    /// The pieces in order.
+    pub parts: Vec<OutlinePart>,
+}
+
+impl Outline {
+    /// The outline around `points` at the distance `margin` of their hull; points within `tolerance` of each other are one.
+    #[must_use]
+    pub fn around(points: &[Point2<f64>], margin: f64, tolerance: f64) -> Self {
+        let hull = convex_hull(points, tolerance);
+        let n = hull.len();
+        let mut parts = Vec::new();
+        if let [centre] = hull[..] {
+            let half = |start| OutlinePart::Arc { centre, radius: margin, start, turn: PI };
+            parts.extend([half(0.0), half(PI)]);
+        } else {
+            // to the right of the direction of travel is outside
+            let outward = |i: usize| -> Vector2<f64> {
+                let d = (hull[(i + 1) % n] - hull[i]).normalize();
+                Vector2::new(d.y, -d.x)
+            };
+            for i in 0..n {
+                let (before, after) = (outward((i + n - 1) % n), outward(i));
+                let turn = before.perp(&after).atan2(before.dot(&after));
+                // the two ends of a slot turn by half a circle, whose sign is rounding
+                let turn = if n == 2 { PI } else { turn };
+                parts.push(OutlinePart::Arc {
+                    centre: hull[i],
+                    radius: margin,
+                    start: before.y.atan2(before.x),
+                    turn,
+                });
+                parts.push(OutlinePart::Line {
+                    from: hull[i] + after * margin,
+                    to: hull[(i + 1) % n] + after * margin,
+                });
+            }
+        }
+        Self { hull, margin, parts }
+    }
+
+    /// Enclosed area: that of the hull, a strip along it, and a full circle.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        let n = self.hull.len();
+        let corner = |i: usize| &self.hull[i % n];
+        let twice: f64 = (0..n).map(|i| corner(i).coords.perp(&corner(i + 1).coords)).sum();
+        let around: f64 = (0..n).map(|i| (corner(i + 1) - corner(i)).norm()).sum();
+        0.5 * twice + around * self.margin + PI * self.margin * self.margin
+    }
+
+    /// The point of the hull nearest to `p`, which is `p` itself inside.
+    fn nearest_of_hull(&self, p: &Point2<f64>) -> Point2<f64> {
+        let n = self.hull.len();
+        if n > 2 && self.depth_in_hull(p) >= 0.0 {
+            return *p;
+        }
+        let on_edge = |i: usize| {
+            let (a, d) = (self.hull[i], self.hull[(i + 1) % n] - self.hull[i]);
+            let square = d.norm_squared();
+            let t = if square > 0.0 { ((p - a).dot(&d) / square).clamp(0.0, 1.0) } else { 0.0 };
+            a + d * t
+        };
+        let near = (0..n).map(on_edge).min_by(|x, y| (x - p).norm().total_cmp(&(y - p).norm()));
+        near.unwrap_or(*p)
+    }
+
+    /// Least distance from the lines of the edges, positive on the left of all of them; minus infinity for hulls without an inside.
+    fn depth_in_hull(&self, p: &Point2<f64>) -> f64 {
+        let n = self.hull.len();
+        if n < 3 {
+            return f64::NEG_INFINITY;
+        }
+        let from_line = |i: usize| {
+            let (a, d) = (self.hull[i], self.hull[(i + 1) % n] - self.hull[i]);
+            d.perp(&(p - a)) / d.norm()
+        };
+        (0..n).map(from_line).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How far inside the outline a point is, negative outside: the margin and the depth in the hull, or the margin less the distance from the hull.
+    ///
+    /// A point at depth `d` of a convex region is `d + m` deep in all points within `m` of the region.
+    #[must_use]
+    pub fn depth(&self, p: &Point2<f64>) -> f64 {
+        let inside = self.depth_in_hull(p);
+        if inside >= 0.0 { self.margin + inside } else { self.margin - (p - self.nearest_of_hull(p)).norm() }
+    }
+
+    /// The point within the outline nearest to `p`, which is `p` itself inside.
+    #[must_use]
+    pub fn nearest(&self, p: &Point2<f64>) -> Point2<f64> {
+        let hull = self.nearest_of_hull(p);
+        let away = p - hull;
+        let distance = away.norm();
+        if distance <= self.margin { *p } else { hull + away * (self.margin / distance) }
+    }
+
+    /// Shortest edge of the hull; infinite for a single corner.
+    pub(crate) fn shortest_edge(&self) -> f64 {
+        let n = self.hull.len();
+        let edges = (0..n).filter(|_| n > 1).map(|i| (self.hull[(i + 1) % n] - self.hull[i]).norm());
+        edges.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The corners of a polygon on the outline, counter-clockwise, with `steps` chords in a full circle.
+    #[must_use]
+    pub fn polygon(&self, steps: usize) -> Vec<Point2<f64>> {
+        let mut out = Vec::new();
+        for part in &self.parts {
+            if let OutlinePart::Arc { centre, radius, start, turn } = *part {
+                let needed = |n: &usize| *n as f64 * TAU >= steps as f64 * turn;
+                let chords = (1..steps).find(needed).unwrap_or(steps);
+                // without lines the end of an arc is the beginning of the next
+                let last = if self.hull.len() == 1 { chords - 1 } else { chords };
+                out.extend(
+                    (0..=last).map(|k| on_circle(&centre, radius, start + turn * k as f64 / chords as f64)),
+                );
+            }
+        }
+        out
+    }
+}
+
+/// A point of a circle.
+pub(crate) fn on_circle(centre: &Point2<f64>, radius: f64, angle: f64) -> Point2<f64> {
+    let (s, c) = angle.sin_cos();
+    Point2::new(centre.x + radius * c, centre.y + radius * s)
+}

@@ -1,0 +1,129 @@
+//! What has to remain of each limit, so that later steps (rounding, tolerances, a heavier payload) have room.
+
+use std::collections::BTreeMap;
+
+use super::Requirements;
+use super::envelope::Envelope;
+use super::term::TermKind;
+use crate::platform::manipulator::Body;
+
+/// What has to remain of a limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reserve {
+    /// An amount in the unit of the margin.
+    Amount(f64),
+    /// A part of the limit, percent ([`Requirements::reserve`] says of what).
+    Percent(f64),
+}
+
+/// The reserves on all limits.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Reserves {
+    /// Percent of every limit that has no reserve of its own.
+    pub all: Option<f64>,
+    /// Those of single kinds.
+    pub kinds: BTreeMap<TermKind, Reserve>,
+}
+
+impl Reserves {
+    /// `true` when no limit has a reserve.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.all.is_none() && self.kinds.is_empty()
+    }
+}
+
+impl Requirements {
+    /// The reserve on a kind of requirement, in the unit of its margin: 0 where none is asked for.
+    ///
+    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle (the least of these where legs have different ones), force or speed, of the least stiffness or frequency, of the leg diameter for clearances, of the widest housing (or the
+    /// least distance of centres, whichever is greater) for the room between joints, of the distance asked for or of the diameter of the greatest hole, whichever is greater, for the holes of plates, and of the radius or half the shortest edge for envelopes. For cranks it is one of the shortest rod, of half the narrowest range of angles, of the least transmission angle, and of the greatest swing, torque or speed.
+    #[must_use]
+    pub fn reserve(&self, kind: TermKind) -> f64 {
+        let own = self.reserves.kinds.get(&kind).copied();
+        match own.or(self.reserves.all.map(Reserve::Percent)) {
+            None => 0.0,
+            Some(Reserve::Amount(amount)) => amount,
+            Some(Reserve::Percent(percent)) => percent / 100.0 * self.whole(kind),
+        }
+    }
+
+    /// The plate that a kind is about.
+    fn plate_of(&self, kind: TermKind) -> Option<&super::PlateDesign> {
+        self.plates.of(kind.plate()?)
+    }
+
+    /// What percentages of a kind are parts of; 0 where nothing is limited.
+    pub(crate) fn whole(&self, kind: TermKind) -> f64 {
+        let h = &self.hardware;
+        let spacing = |body: Body| {
+            let widths = (0..6).filter_map(|leg| h.housing(body, leg)).map(|h| h.greatest_width());
+            widths.fold(self.min_joint_distance.unwrap_or(0.0), f64::max)
+        };
+        let envelope = |e: Option<Envelope>| e.map_or(0.0, |e| e.half_width());
+        match kind {
+            TermKind::LegTooShort | TermKind::LegTooLong => h.leg_length.map_or(0.0, |l| {
+                let (least, greatest) = l.range();
+                greatest - least
+            }),
+            TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| s.least_deg()),
+            TermKind::PlatformSwing => {
+                let of_rods = self.cranks.as_ref().and_then(|cranks| cranks.platform_swing_deg);
+                h.platform_swing.map(|s| s.least_deg()).or(of_rods).unwrap_or(0.0)
+            }
+            TermKind::BaseFirstAngle
+            | TermKind::BaseSecondAngle
+            | TermKind::PlatformFirstAngle
+            | TermKind::PlatformSecondAngle => h.least_angle_limit_deg(kind).unwrap_or(0.0),
+            TermKind::LegClearance
+            | TermKind::KeepOut
+            | TermKind::PlateClearance
+            | TermKind::PayloadClearance => h.leg_body.map_or(0.0, |b| b.diameter),
+            TermKind::LegForce => h.max_leg_force.unwrap_or(0.0),
+            TermKind::LegSpeed => h.max_leg_speed.unwrap_or(0.0),
+            TermKind::BaseSpacing => spacing(Body::Base),
+            TermKind::PlatformSpacing => spacing(Body::Platform),
+            TermKind::BaseEnvelope => envelope(self.envelopes.base),
+            TermKind::PlatformEnvelope => envelope(self.envelopes.platform),
+            TermKind::MachineEnvelope => envelope(self.envelopes.machine),
+            TermKind::BaseHoleEdge | TermKind::PlatformHoleEdge => {
+                self.plate_of(kind).map_or(0.0, |p| p.edge_distance.max(p.greatest_hole()))
+            }
+            TermKind::BaseHoleGap | TermKind::PlatformHoleGap => {
+                self.plate_of(kind).map_or(0.0, |p| p.hole_distance.max(p.greatest_hole()))
+            }
+            TermKind::LinearStiffness | TermKind::AngularStiffness | TermKind::NaturalFrequency => {
+                self.least_stiffness_of(kind).unwrap_or(0.0)
+            }
+            _ => self.cranks.as_ref().map_or(0.0, |cranks| cranks.whole(kind)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::requirements::{Hardware, LengthLimits};
+
+    #[test]
+    fn amounts_stand_and_percentages_are_parts_of_the_limit() {
+        let hardware = Hardware {
+            leg_length: Some(LengthLimits::Stroke { dead: 250.0, stroke: 600.0 }),
+            max_leg_force: Some(4000.0),
+            joint_diameter: Some(40.0),
+            ..Hardware::default()
+        };
+        let mut required = Requirements { hardware, ..Requirements::default() };
+        assert!(TermKind::ALL.iter().all(|kind| required.reserve(*kind) == 0.0));
+        required.reserves.all = Some(5.0);
+        let near = |kind, x: f64| (required.reserve(kind) - x).abs() < 1e-12;
+        assert!(near(TermKind::LegTooLong, 30.0) && near(TermKind::LegTooShort, 30.0));
+        assert!(near(TermKind::LegForce, 200.0) && near(TermKind::BaseSpacing, 2.0));
+        assert!(
+            near(TermKind::LegSpeed, 0.0) && near(TermKind::MachineEnvelope, 0.0),
+            "no limit, no reserve"
+        );
+        required.reserves.kinds.insert(TermKind::LegForce, Reserve::Amount(350.0));
+        assert_eq!(required.reserve(TermKind::LegForce).to_bits(), 350.0_f64.to_bits());
+    }
+}

@@ -1,0 +1,124 @@
+//! What a margin says when the rounding of its own evaluation is kept in mind.
+
+use super::term::{Quantity, TermKind, Terms};
+use super::universal::HingeAngle;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Body, inverse_condition};
+
+/// Rounding of a length over the sum of the lengths it is computed from: some ten operations on coordinates that are rounded themselves, each
+/// good to half of `eps`, and room to spare.
+const SHARE: f64 = 64.0 * f64::EPSILON;
+
+/// Rounding, as a share, that no margin is excused by: near singular poses and for legs of almost no length the arithmetic says nothing, and a margin below zero
+/// is a violation.
+const MOST: f64 = 1e-9;
+
+/// What a margin says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Standing {
+    /// Below zero by more than rounding: the requirement is violated.
+    Violated,
+    /// Not told from zero by the arithmetic: the design is at its limit, as it is when a distance was chosen equal to the least one. It counts as met.
+    AtLimit,
+    /// Above zero by more than rounding.
+    Met,
+}
+
+impl Standing {
+    /// `true` unless the requirement is violated.
+    #[must_use]
+    pub fn is_met(self) -> bool {
+        self != Self::Violated
+    }
+}
+
+impl Terms<'_> {
+    /// What a margin of this kind says at the pose where it was found (`None` for kinds on which the pose has no influence).
+    #[must_use]
+    pub fn standing(&self, kind: TermKind, margin: f64, pose: Option<&Pose>) -> Standing {
+        if margin.is_finite() && margin.abs() <= self.rounding(kind, pose) {
+            Standing::AtLimit
+        } else if margin > 0.0 {
+            Standing::Met
+        } else {
+            Standing::Violated
+        }
+    }
+
+    /// By how much an error of the direction of a leg is greater in an angle: more than 1 for first angles of universal joints near their first axes.
+    fn amplification(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
+        let (Some((body, HingeAngle::First)), Some(pose)) = (kind.hinge(), pose) else { return 1.0 };
+        let end = body.index();
+        let legs = self.manipulator.legs();
+        let of = |i: usize| {
+            let line = pose.transform(&legs[i].platform) - legs[i].base;
+            let line = if end == 0 { line } else { pose.rotation.inverse() * line };
+            self.hinge(end, i).map_or(1.0, |hinge| hinge.amplification(&line, &self.axes()[end][i]))
+        };
+        (0..6).map(of).fold(1.0, f64::max)
+    }
+
+    /// The sum of lengths that a length is computed from: that of a plate is greater by what it is long and wide, and by as much again as its size is greater than the shortest edge of
+    /// its hull, whose direction is known that much worse.
+    fn plate_reach(&self, kind: TermKind, reach: f64) -> f64 {
+        let of = |body: Body| {
+            self.plate(body).map_or(0.0, |solid| {
+                let extent = solid.extent();
+                extent * (1.0 + extent / solid.outline.shortest_edge())
+            })
+        };
+        reach
+            + match kind.plate() {
+                Some(body) => of(body),
+                None if kind == TermKind::PlateClearance => of(Body::Base) + of(Body::Platform),
+                None => 0.0,
+            }
+    }
+
+    /// Bound of the rounding of a margin, in its unit.
+    ///
+    /// For holes and plates `r` has the extent `e` of the plate besides, and `e` times `e` over the shortest edge of its hull. Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of its body and of the distance of the
+    /// platform from the base origin. Angles: the same over the shortest leg, and for first angles of universal joints times `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis. Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
+    /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian. Cranks: angles over the shorter of crank and rod and over the sine of the transmission angle, speeds and torques accordingly. Stiffness and frequency: that of angles and of forces together, times twice the least one asked for. Never more than `1e-9` radians, or `1e-9` of the greatest speed
+    /// or force, or of twice the least stiffness or frequency.
+    #[must_use]
+    pub fn rounding(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
+        let m = self.manipulator;
+        let farthest =
+            |joints: &[nalgebra::Point3<f64>]| joints.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+        let away = pose.map_or(0.0, |p| p.position.norm());
+        let aside = Body::BOTH.map(|body| self.required.hardware.universal(body).map_or(0.0, |j| j.offset));
+        let reach = farthest(m.base_joints()) + farthest(m.platform_joints()) + away + aside[0] + aside[1];
+        let turn = || {
+            if let (Some(cranks), Some(pose)) = (&self.required.cranks, pose) {
+                return self.crank_rounding(cranks, pose, SHARE * reach).min(MOST);
+            }
+            let lengths = pose.map(|p| m.legs().map(|l| (p.transform(&l.platform) - l.base).norm()));
+            (SHARE * reach / lengths.into_iter().flatten().fold(f64::INFINITY, f64::min)).min(MOST)
+        };
+        let conditioning = || {
+            let Some(pose) = pose else { return 1.0 };
+            let length = m.platform_rms_radius();
+            match &self.required.cranks {
+                Some(cranks) => self.rod_conditioning(cranks, pose, length),
+                None => self.drive_rows(pose, length).map_or(0.0, |rows| inverse_condition(&rows)),
+            }
+        };
+        let most = |of: fn(&super::Cranks) -> Option<f64>| {
+            self.required.cranks.as_ref().and_then(|cranks| of(cranks)).unwrap_or(0.0)
+        };
+        let hardware = &self.required.hardware;
+        match kind.quantity() {
+            Quantity::Length => SHARE * self.plate_reach(kind, reach),
+            Quantity::Angle => (turn() * self.amplification(kind, pose)).min(MOST).to_degrees(),
+            Quantity::Speed => turn() * hardware.max_leg_speed.unwrap_or(0.0),
+            Quantity::Force => (SHARE / conditioning()).min(MOST) * hardware.max_leg_force.unwrap_or(0.0),
+            Quantity::Torque => ((SHARE + turn()) / conditioning()).min(MOST) * most(|c| c.max_torque),
+            Quantity::AngularSpeed => turn() * most(|c| c.max_speed_deg),
+            Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
+                let least = self.required.least_stiffness_of(kind).unwrap_or(0.0);
+                ((SHARE + turn()) / conditioning()).min(MOST) * 2.0 * least
+            }
+        }
+    }
+}

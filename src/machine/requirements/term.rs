@@ -1,0 +1,727 @@
+//! The terms: what is required of a manipulator at a pose, and by how much it is met.
+
+use nalgebra::{Matrix6, Point3, Unit, Vector3};
+
+use super::Requirements;
+use super::coupled::{CoupledLegs, DriveState, NoDriveLength};
+use super::envelope::{ball, room};
+use super::hardware::{Housing, JointAxes, LegBody};
+use super::keep_out::KeepOut;
+use super::load::forces_along;
+use super::plate::PlateSolid;
+use super::universal::{Hinge, HingeAngle};
+use super::vibration::{lowest_of, mass_matrix, softest_of};
+use crate::platform::geom::{Pose, segment_distance};
+use crate::platform::manipulator::{Body, Manipulator, jacobian};
+
+/// The kinds of requirements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum TermKind {
+    /// Leg length minus the least one.
+    LegTooShort,
+    /// The greatest leg length minus the length.
+    LegTooLong,
+    /// Swing limit minus the angle between leg and axis at the base.
+    BaseSwing,
+    /// Swing limit minus the angle between leg and axis at the platform.
+    PlatformSwing,
+    /// Limit minus the angle about the first axis of a universal joint at the base.
+    BaseFirstAngle,
+    /// Limit minus the angle about its second axis.
+    BaseSecondAngle,
+    /// Limit minus the angle about the first axis of a universal joint at the platform.
+    PlatformFirstAngle,
+    /// Limit minus the angle about its second axis.
+    PlatformSecondAngle,
+    /// Gap between two legs minus the clearance required.
+    LegClearance,
+    /// Gap between a leg and a keep-out minus the clearance required.
+    KeepOut,
+    /// Greatest leg force minus the force under a load.
+    LegForce,
+    /// Greatest leg speed minus the speed in the worst direction of motion.
+    LegSpeed,
+    /// Gap between two housings of the base, or distance of joint centres minus the least one.
+    BaseSpacing,
+    /// The same on the platform.
+    PlatformSpacing,
+    /// How far a base joint with its housing stays inside the envelope of the base.
+    BaseEnvelope,
+    /// The same on the platform.
+    PlatformEnvelope,
+    /// How far a joint with its housing stays inside the envelope of the whole machine.
+    MachineEnvelope,
+    /// By how much the holes under a base joint are farther from the outline of the plate than they have to be.
+    BaseHoleEdge,
+    /// The same on the platform.
+    PlatformHoleEdge,
+    /// By how much the holes and feet of two base joints, or the holes of one, are farther apart than they have to be.
+    BaseHoleGap,
+    /// The same on the platform.
+    PlatformHoleGap,
+    /// Gap between a leg and a plate minus the clearance required.
+    PlateClearance,
+    /// Gap between a leg and the payload minus the clearance required.
+    PayloadClearance,
+    /// Stiffness of the platform against a force in the softest direction minus the least one.
+    LinearStiffness,
+    /// Stiffness of the platform against a torque about the softest axis minus the least one.
+    AngularStiffness,
+    /// Lowest natural frequency minus the least one.
+    NaturalFrequency,
+    /// Rod length minus the distance of the platform joint from the nearest point of the circle of its crank.
+    RodTooShort,
+    /// Distance of the platform joint from the farthest point of that circle minus the rod length.
+    RodTooLong,
+    /// Transmission angle of a crank minus the least one: the angle whose sine is that part of a push along the rod which turns the crank. At 0 degrees crank and rod are in a plane with the axis.
+    CrankTransmission,
+    /// What remains of the limits of the angle of a crank.
+    CrankAngle,
+    /// Swing limit minus the angle between a rod and the plane in which its crank turns.
+    TipSwing,
+    /// Greatest torque of a crank minus the torque under a load.
+    CrankTorque,
+    /// Greatest speed of a crank minus the speed in the worst direction of motion.
+    CrankSpeed,
+}
+
+/// What a margin is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Design units.
+    Length,
+    /// Degrees.
+    Angle,
+    /// Force units.
+    Force,
+    /// Design units per second.
+    Speed,
+    /// Force units per design unit.
+    LinearStiffness,
+    /// Force units times design units per radian.
+    AngularStiffness,
+    /// Hertz.
+    Frequency,
+    /// Force units times design units.
+    Torque,
+    /// Degrees per second.
+    AngularSpeed,
+}
+
+impl TermKind {
+    /// Every kind.
+    pub const ALL: [Self; 33] = [
+        Self::LegTooShort,
+        Self::LegTooLong,
+        Self::BaseSwing,
+        Self::PlatformSwing,
+        Self::BaseFirstAngle,
+        Self::BaseSecondAngle,
+        Self::PlatformFirstAngle,
+        Self::PlatformSecondAngle,
+        Self::LegClearance,
+        Self::KeepOut,
+        Self::LegForce,
+        Self::LegSpeed,
+        Self::BaseSpacing,
+        Self::PlatformSpacing,
+        Self::BaseEnvelope,
+        Self::PlatformEnvelope,
+        Self::MachineEnvelope,
+        Self::BaseHoleEdge,
+        Self::PlatformHoleEdge,
+        Self::BaseHoleGap,
+        Self::PlatformHoleGap,
+        Self::PlateClearance,
+        Self::PayloadClearance,
+        Self::LinearStiffness,
+        Self::AngularStiffness,
+        Self::NaturalFrequency,
+        Self::RodTooShort,
+        Self::RodTooLong,
+        Self::CrankTransmission,
+        Self::CrankAngle,
+        Self::TipSwing,
+        Self::CrankTorque,
+        Self::CrankSpeed,
+    ];
+
+    /// A short stable code.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::LegTooShort => "leg_too_short",
+            Self::LegTooLong => "leg_too_long",
+            Self::BaseSwing => "base_swing",
+            Self::PlatformSwing => "platform_swing",
+            Self::BaseFirstAngle => "base_first_angle",
+            Self::BaseSecondAngle => "base_second_angle",
+            Self::PlatformFirstAngle => "platform_first_angle",
+            Self::PlatformSecondAngle => "platform_second_angle",
+            Self::LegClearance => "leg_clearance",
+            Self::KeepOut => "keep_out",
+            Self::LegForce => "leg_force",
+            Self::LegSpeed => "leg_speed",
+            Self::BaseSpacing => "base_spacing",
+            Self::PlatformSpacing => "platform_spacing",
+            Self::BaseEnvelope => "base_envelope",
+            Self::PlatformEnvelope => "platform_envelope",
+            Self::MachineEnvelope => "machine_envelope",
+            Self::BaseHoleEdge => "base_hole_edge",
+            Self::PlatformHoleEdge => "platform_hole_edge",
+            Self::BaseHoleGap => "base_hole_gap",
+            Self::PlatformHoleGap => "platform_hole_gap",
+            Self::PlateClearance => "plate_clearance",
+            Self::PayloadClearance => "payload_clearance",
+            Self::LinearStiffness => "linear_stiffness",
+            Self::AngularStiffness => "angular_stiffness",
+            Self::NaturalFrequency => "natural_frequency",
+            Self::RodTooShort => "rod_too_short",
+            Self::RodTooLong => "rod_too_long",
+            Self::CrankTransmission => "crank_transmission",
+            Self::CrankAngle => "crank_angle",
+            Self::TipSwing => "tip_swing",
+            Self::CrankTorque => "crank_torque",
+            Self::CrankSpeed => "crank_speed",
+        }
+    }
+
+    /// What its margin is measured in.
+    #[must_use]
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Self::BaseSwing
+            | Self::PlatformSwing
+            | Self::CrankTransmission
+            | Self::CrankAngle
+            | Self::TipSwing => Quantity::Angle,
+            Self::CrankTorque => Quantity::Torque,
+            Self::CrankSpeed => Quantity::AngularSpeed,
+            kind if kind.hinge().is_some() => Quantity::Angle,
+            Self::LegForce => Quantity::Force,
+            Self::LegSpeed => Quantity::Speed,
+            Self::LinearStiffness => Quantity::LinearStiffness,
+            Self::AngularStiffness => Quantity::AngularStiffness,
+            Self::NaturalFrequency => Quantity::Frequency,
+            _ => Quantity::Length,
+        }
+    }
+
+    /// `true` for what the platform as a whole has, and no leg or joint of its own.
+    #[must_use]
+    pub fn is_of_platform(self) -> bool {
+        Self::OF_PLATFORM.contains(&self)
+    }
+
+    /// For the angles of universal joints: of which body, and about which axis.
+    pub(crate) fn hinge(self) -> Option<(Body, HingeAngle)> {
+        Some(match self {
+            Self::BaseFirstAngle => (Body::Base, HingeAngle::First),
+            Self::BaseSecondAngle => (Body::Base, HingeAngle::Second),
+            Self::PlatformFirstAngle => (Body::Platform, HingeAngle::First),
+            Self::PlatformSecondAngle => (Body::Platform, HingeAngle::Second),
+            _ => return None,
+        })
+    }
+
+    /// The kinds of the angles of universal joints.
+    pub(crate) const HINGES: [Self; 4] =
+        [Self::BaseFirstAngle, Self::BaseSecondAngle, Self::PlatformFirstAngle, Self::PlatformSecondAngle];
+
+    /// The kinds that the lines of single legs decide, besides [`HINGES`](Self::HINGES).
+    const OF_LEG_LINES: [Self; 4] =
+        [Self::LegTooShort, Self::LegTooLong, Self::BaseSwing, Self::PlatformSwing];
+
+    /// The kinds of gaps between legs and other bodies.
+    const CLEARANCES: [Self; 4] =
+        [Self::LegClearance, Self::KeepOut, Self::PlateClearance, Self::PayloadClearance];
+
+    /// The kinds of stiffness and frequency.
+    const OF_PLATFORM: [Self; 3] = [Self::LinearStiffness, Self::AngularStiffness, Self::NaturalFrequency];
+
+    /// `true` when the pose does not matter.
+    #[must_use]
+    pub fn is_fixed(self) -> bool {
+        matches!(
+            self,
+            Self::BaseSpacing | Self::PlatformSpacing | Self::BaseEnvelope | Self::PlatformEnvelope
+        ) || self.plate().is_some()
+    }
+
+    /// For the margins of holes: of the plate of which body.
+    pub(crate) fn plate(self) -> Option<Body> {
+        Some(match self {
+            Self::BaseHoleEdge | Self::BaseHoleGap => Body::Base,
+            Self::PlatformHoleEdge | Self::PlatformHoleGap => Body::Platform,
+            _ => return None,
+        })
+    }
+}
+
+/// One requirement: a kind and what it is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Term {
+    /// The kind.
+    pub kind: TermKind,
+    /// The leg, or the joint of the body, counted from 0.
+    pub first: usize,
+    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other. Both are 0 for what the platform as a whole has. For the envelope of the machine 0 for the base joint of the leg, 1 for its platform joint; for plates 0 for that of the base, 1 for that of the platform.
+    pub second: usize,
+}
+
+/// The requirements made ready for one manipulator.
+#[derive(Debug)]
+pub struct Terms<'a> {
+    pub(super) manipulator: &'a Manipulator,
+    pub(super) required: &'a Requirements,
+    /// Axes at the base, base frame, and at the platform, platform frame, in leg order.
+    axes: [[Vector3<f64>; 6]; 2],
+    /// Universal joints at the base and at the platform, in leg order.
+    hinges: [[Option<Hinge>; 6]; 2],
+    /// The plates of the base and of the platform.
+    plates: [Option<PlateSolid>; 2],
+    /// Legs whose joints are not ideal, or why they are none.
+    coupled: Option<Result<CoupledLegs, NoDriveLength>>,
+}
+
+/// The legs at a pose.
+struct LegsAt {
+    /// Where the bodies of the legs begin and end: at the joints, or at their second axes where these do not meet the first ones.
+    ends: [(Point3<f64>, Point3<f64>); 6],
+    /// Lengths of the drives; minus infinity plays no part in what is longer and in what is shorter.
+    lengths: [f64; 6],
+    /// Legs that are not determined: everything about them is violated.
+    missing: [bool; 6],
+    /// Rates of the drives, where the joints are not ideal and all legs are determined.
+    states: Option<[DriveState; 6]>,
+}
+
+/// A part of a leg: a segment and its radius.
+type Part = (Point3<f64>, Point3<f64>, f64);
+
+/// Cylinder and rod of a leg from `a` to `b`.
+fn parts(body: &LegBody, a: Point3<f64>, b: Point3<f64>) -> Vec<Part> {
+    let line = b - a;
+    let length = line.norm();
+    match body.rod {
+        Some((cylinder, _)) if length <= cylinder => vec![(a, b, body.diameter / 2.0)],
+        Some((cylinder, rod)) => {
+            let end = a + line * (cylinder / length);
+            vec![(a, end, body.diameter / 2.0), (end, b, rod / 2.0)]
+        }
+        None => vec![(a, b, body.diameter / 2.0)],
+    }
+}
+
+/// What of the parts of a leg is farther than `cut` from its base joint, or from its platform joint; one point where nothing is.
+fn without_end(parts: Vec<Part>, end: Body, cut: f64) -> Vec<Part> {
+    let flip = |(p, q, radius): Part| if end == Body::Base { (p, q, radius) } else { (q, p, radius) };
+    let mut rest: Vec<Part> = parts.into_iter().map(flip).collect();
+    if end == Body::Platform {
+        rest.reverse();
+    }
+    let (mut out, mut cut) = (Vec::new(), cut);
+    let last = rest.last().copied();
+    for (p, q, radius) in rest {
+        let length = (q - p).norm();
+        if cut < length {
+            out.push((p + (q - p) * (cut / length), q, radius));
+            cut = 0.0;
+        } else {
+            cut -= length;
+        }
+    }
+    if out.is_empty() {
+        out.extend(last.map(|(_, q, radius)| (q, q, radius)));
+    }
+    out
+}
+
+/// Angle between two vectors, degrees, accurate for small angles too.
+pub(super) fn angle_deg(u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
+    u.cross(v).norm().atan2(u.dot(v)).to_degrees()
+}
+
+impl<'a> Terms<'a> {
+    /// Makes the requirements ready: axes that follow the legs at home are found here.
+    #[must_use]
+    pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
+        let legs = required.pushing_legs(&manipulator.legs(), home);
+        let mut at_home = legs.map(|l| (home.transform(&l.platform) - l.base).normalize());
+        let coupled =
+            required.hardware.is_coupled().then(|| CoupledLegs::new(manipulator, &required.hardware, home));
+        if let Some(Ok(coupled)) = &coupled {
+            for (i, u) in at_home.iter_mut().enumerate() {
+                // an axis of no direction violates its limits
+                let line = coupled.state_of(i, home).map(|state| state.line);
+                *u = line.map_or(Vector3::repeat(f64::NAN), |line| line.normalize());
+            }
+        }
+        let axes =
+            |body: Body, turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| match required.hardware.axes(body) {
+                Some(JointAxes::Given(axes)) => axes.map(Unit::into_inner),
+                _ => std::array::from_fn(|i| turn(&at_home[i])),
+            };
+        let base = axes(Body::Base, &|u| *u);
+        let platform = axes(Body::Platform, &|u| home.rotation.inverse() * u);
+        let hinges = |body: Body, axes: &[Vector3<f64>; 6]| {
+            let firsts = required.hardware.universal(body).map_or([None; 6], |joint| joint.first_axes);
+            std::array::from_fn(|i| firsts[i].map(|first| Hinge::new(first.into_inner(), &axes[i])))
+        };
+        let hinges = [hinges(Body::Base, &base), hinges(Body::Platform, &platform)];
+        let plates = Body::BOTH.map(|body| {
+            let hardware = &required.hardware;
+            required.plates.of(body).map(|plate| PlateSolid::of(plate, manipulator, body, hardware, home))
+        });
+        Self { manipulator, required, axes: [base, platform], hinges, plates, coupled }
+    }
+
+    /// The universal joint at an end (0 base, 1 platform) of a leg.
+    pub(crate) fn hinge(&self, end: usize, leg: usize) -> Option<&Hinge> {
+        self.hinges[end][leg].as_ref()
+    }
+
+    /// The plate of a body, where the design says something of it.
+    #[must_use]
+    pub fn plate(&self, body: Body) -> Option<&PlateSolid> {
+        self.plates[body.index()].as_ref()
+    }
+
+    /// The axes from which swing is measured, unit vectors in leg order that point from base to platform: at the base in the base frame, at the platform in the platform frame.
+    #[must_use]
+    pub fn axes(&self) -> &[[Vector3<f64>; 6]; 2] {
+        &self.axes
+    }
+
+    /// The least gap at the pose of two legs that share no joint, which is the margin of their clearance and the clearance itself; `None` where the legs have
+    /// no diameter or every two share a joint.
+    #[must_use]
+    pub fn least_leg_gap(&self, pose: &Pose) -> Option<f64> {
+        let clearance = self.required.hardware.leg_clearance.unwrap_or(0.0);
+        let gaps = self.of_kind(pose, TermKind::LegClearance);
+        gaps.map(|(_, margin)| margin + clearance).reduce(f64::min)
+    }
+
+    /// Margins of the requirements that do not depend on the pose: positive where they are met.
+    #[must_use]
+    pub fn fixed(&self) -> Vec<(Term, f64)> {
+        let m = self.manipulator;
+        let bodies = [
+            (TermKind::BaseSpacing, Body::Base, m.base_joints(), m.pairs().map(|p| p.0)),
+            (TermKind::PlatformSpacing, Body::Platform, m.platform_joints(), m.pairs().map(|p| p.1)),
+        ];
+        let mut out = self.joints_in_envelopes();
+        self.holes(&mut out);
+        for (kind, body, joints, used) in bodies {
+            let is_used = |i: &usize| used.contains(i);
+            let housings: Vec<Vec<Option<Housing>>> =
+                (0..joints.len()).map(|k| self.required.hardware.housings_at(body, &used, k)).collect();
+            for i in (0..joints.len()).filter(is_used) {
+                for j in (i + 1..joints.len()).filter(is_used) {
+                    let d = joints[j] - joints[i];
+                    let pairs = housings[i]
+                        .iter()
+                        .flat_map(|a| housings[j].iter().filter_map(|b| Housing::pair(*a, *b)));
+                    let gaps = pairs.map(|[a, b]| a.gap(&b, &d));
+                    let centres = self.required.min_joint_distance.map(|least| d.norm() - least);
+                    if let Some(margin) = gaps.chain(centres).reduce(f64::min) {
+                        out.push((Term { kind, first: i, second: j }, margin));
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    /// How far the joints of a body stay inside its envelope.
+    fn joints_in_envelopes(&self) -> Vec<(Term, f64)> {
+        let envelopes = &self.required.envelopes;
+        let bodies = [
+            (TermKind::BaseEnvelope, Body::Base, envelopes.base),
+            (TermKind::PlatformEnvelope, Body::Platform, envelopes.platform),
+        ];
+        let mut out = Vec::new();
+        for (kind, body, envelope) in bodies {
+            let Some(envelope) = envelope else { continue };
+            let used = self.manipulator.pairs().map(|p| body.of(p));
+            for (i, joint) in
+                self.manipulator.joints(body).iter().enumerate().filter(|(i, _)| used.contains(i))
+            {
+                let housings = self.required.hardware.housings_at(body, &used, i);
+                let inside = housings.into_iter().map(|housing| {
+                    let (half, radius) = room(housing);
+                    envelope.margin(joint, &half, radius)
+                });
+                let margin = inside.fold(f64::INFINITY, f64::min);
+                out.push((Term { kind, first: i, second: i }, margin));
+            }
+        }
+        out
+    }
+
+    /// How far the holes of the plates are from outlines and from each other.
+    fn holes(&self, out: &mut Vec<(Term, f64)>) {
+        for body in Body::BOTH {
+            let (Some(plate), Some(solid)) = (self.required.plates.of(body), self.plate(body)) else {
+                continue;
+            };
+            let edge = body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
+            let gap = body.of((TermKind::BaseHoleGap, TermKind::PlatformHoleGap));
+            for (kind, margins) in [(edge, solid.edge_margins(plate)), (gap, solid.gap_margins(plate))] {
+                out.extend(margins.iter().map(|([first, second], margin)| {
+                    (Term { kind, first: *first, second: *second }, *margin)
+                }));
+            }
+        }
+    }
+
+    /// How far the joints of both ends of each leg stay inside the envelope of the machine.
+    fn machine(&self, ends: &[(Point3<f64>, Point3<f64>); 6], out: &mut Vec<(Term, f64)>) {
+        let Some(envelope) = self.required.envelopes.machine else { return };
+        for (i, (a, b)) in ends.iter().enumerate() {
+            for (second, (body, at)) in [(Body::Base, a), (Body::Platform, b)].into_iter().enumerate() {
+                let ball = ball(self.required.hardware.housing(body, i));
+                let margin = envelope.margin(at, &Vector3::zeros(), ball);
+                out.push((Term { kind: TermKind::MachineEnvelope, first: i, second }, margin));
+            }
+        }
+    }
+
+    /// Margins of all requirements at a pose: positive where they are met. Forces at a singular pose have the margin minus infinity, and the platform has no stiffness there.
+    #[must_use]
+    pub fn at(&self, pose: &Pose) -> Vec<(Term, f64)> {
+        self.some_at(pose, |_| true)
+    }
+
+    /// The margins of one kind at a pose, as [`at`](Self::at) gives them.
+    pub(super) fn of_kind(&self, pose: &Pose, kind: TermKind) -> impl Iterator<Item = (Term, f64)> + use<> {
+        self.some_at(pose, |kinds| kinds.contains(&kind)).into_iter().filter(move |(t, _)| t.kind == kind)
+    }
+
+    /// The margins at a pose of what is computed together, where `wanted` says of its kinds that it is.
+    fn some_at(&self, pose: &Pose, wanted: impl Fn(&[TermKind]) -> bool) -> Vec<(Term, f64)> {
+        let mut out = Vec::new();
+        if let Some(cranks) = &self.required.cranks {
+            self.cranks(cranks, pose, &mut out);
+            return out;
+        }
+        let joints: [(Point3<f64>, Point3<f64>); 6] =
+            self.manipulator.legs().map(|l| (l.base, pose.transform(&l.platform)));
+        let legs = self.legs_at(&joints, pose);
+        if wanted(&TermKind::OF_LEG_LINES) || wanted(&TermKind::HINGES) {
+            self.lengths_and_swing(&legs, pose, &mut out);
+        }
+        if wanted(&TermKind::CLEARANCES) {
+            self.clearances(&legs.ends, pose, &mut out);
+        }
+        for (term, margin) in &mut out {
+            let two = term.kind == TermKind::LegClearance && legs.missing[term.second];
+            if legs.missing[term.first] || two {
+                *margin = f64::NEG_INFINITY;
+            }
+        }
+        if wanted(&[TermKind::LegForce, TermKind::LegSpeed]) {
+            self.drives(&legs, pose, &mut out);
+        }
+        if wanted(&[TermKind::MachineEnvelope]) {
+            self.machine(&joints, &mut out);
+        }
+        if wanted(&TermKind::OF_PLATFORM) {
+            self.stiffness(pose, &mut out);
+        }
+        out
+    }
+
+    /// The legs at a pose, whatever their joints are.
+    fn legs_at(&self, joints: &[(Point3<f64>, Point3<f64>); 6], pose: &Pose) -> LegsAt {
+        let mut out = LegsAt {
+            ends: *joints,
+            lengths: joints.map(|(a, b)| (b - a).norm()),
+            missing: [false; 6],
+            states: None,
+        };
+        let Some(coupled) = &self.coupled else { return out };
+        let found: [Option<DriveState>; 6] =
+            std::array::from_fn(|i| coupled.as_ref().ok().and_then(|legs| legs.state_of(i, pose).ok()));
+        for (i, state) in found.iter().enumerate() {
+            let Some(state) = state else {
+                out.missing[i] = true;
+                continue;
+            };
+            let start = joints[i].0 + state.start;
+            out.ends[i] = (start, start + state.line);
+            out.lengths[i] += state.correction;
+        }
+        let all: Option<Vec<DriveState>> = found.into_iter().collect();
+        out.states = all.and_then(|all| all.try_into().ok());
+        out
+    }
+
+    /// Rates of the drives by rows, moments over a length; `None` where the joints are not ideal and a leg is not determined.
+    pub(super) fn drive_rows(&self, pose: &Pose, length: f64) -> Option<Matrix6<f64>> {
+        match &self.coupled {
+            None => Some(jacobian(self.manipulator, pose, length)),
+            Some(Ok(coupled)) => Some(CoupledLegs::jacobian(&coupled.states(pose).ok()?, length)),
+            Some(Err(_)) => None,
+        }
+    }
+
+    /// `true` where the joints are not ideal.
+    pub(super) fn are_coupled(&self) -> bool {
+        self.coupled.is_some()
+    }
+
+    /// How stiff the platform is on its legs, and how slowly it vibrates.
+    fn stiffness(&self, pose: &Pose, out: &mut Vec<(Term, f64)>) {
+        let Some(wanted) = self.required.platform_stiffness else { return };
+        let rows = self.drive_rows(pose, self.manipulator.size());
+        let mut keep = |kind, value: f64, least: f64| {
+            out.push((Term { kind, first: 0, second: 0 }, value - least));
+        };
+        if wanted.linear.is_some() || wanted.angular.is_some() {
+            let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
+            let found = softest_of(rows.as_ref(), self.manipulator.size(), leg);
+            let _ = wanted.linear.map(|least| keep(TermKind::LinearStiffness, found.linear, least));
+            let _ = wanted.angular.map(|least| keep(TermKind::AngularStiffness, found.angular, least));
+        }
+        if let (Some(least), Some(masses), false) =
+            (wanted.natural_frequency, &self.required.vibrating, self.required.leaves_out_moving_legs())
+        {
+            let mass = mass_matrix(self.manipulator, &masses.bodies, pose);
+            let lowest = lowest_of(rows.as_ref(), self.manipulator.size(), &mass, masses.leg);
+            keep(TermKind::NaturalFrequency, lowest, least);
+        }
+    }
+
+    fn lengths_and_swing(&self, legs: &LegsAt, pose: &Pose, out: &mut Vec<(Term, f64)>) {
+        let hardware = &self.required.hardware;
+        let back = pose.rotation.inverse();
+        for (i, (a, b)) in legs.ends.iter().enumerate() {
+            let line = b - a;
+            let own = |kind| Term { kind, first: i, second: i };
+            if let Some(limits) = hardware.leg_length {
+                let (least, greatest) = limits.range();
+                out.push((own(TermKind::LegTooShort), legs.lengths[i] - least));
+                out.push((own(TermKind::LegTooLong), greatest - legs.lengths[i]));
+            }
+            if let Some(swing) = hardware.base_swing {
+                out.push((
+                    own(TermKind::BaseSwing),
+                    swing.limits_deg[i] - angle_deg(&line, &self.axes[0][i]),
+                ));
+            }
+            if let Some(swing) = hardware.platform_swing {
+                let angle = angle_deg(&(back * line), &self.axes[1][i]);
+                out.push((own(TermKind::PlatformSwing), swing.limits_deg[i] - angle));
+            }
+            for kind in TermKind::HINGES {
+                let Some((body, angle)) = kind.hinge() else { continue };
+                let Some(limit) = hardware.angle_limit_deg(kind, i) else { continue };
+                let end = body.index();
+                let line = if body == Body::Base { line } else { back * line };
+                if let Some(hinge) = self.hinge(end, i) {
+                    out.push((own(kind), hinge.margin_deg(&line, angle, limit)));
+                }
+            }
+        }
+    }
+
+    fn clearances(&self, ends: &[(Point3<f64>, Point3<f64>); 6], pose: &Pose, out: &mut Vec<(Term, f64)>) {
+        let hardware = &self.required.hardware;
+        let Some(body) = hardware.leg_body else { return };
+        let clearance = hardware.leg_clearance.unwrap_or(0.0);
+        let legs = ends.map(|(a, b)| parts(&body, a, b));
+        let pairs = self.manipulator.pairs();
+        for i in 0..6 {
+            // legs at a shared joint meet there by design
+            for j in (i + 1..6).filter(|&j| pairs[i].0 != pairs[j].0 && pairs[i].1 != pairs[j].1) {
+                let gap = |(p, q): (&Part, &Part)| segment_distance([p.0, p.1], [q.0, q.1]) - p.2 - q.2;
+                let all = legs[i].iter().flat_map(|p| legs[j].iter().map(move |q| (p, q)));
+                let least = all.map(gap).fold(f64::INFINITY, f64::min);
+                out.push((Term { kind: TermKind::LegClearance, first: i, second: j }, least - clearance));
+            }
+            for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
+                let least =
+                    legs[i].iter().map(|p| keep_out_gap(keep_out, p, pose)).fold(f64::INFINITY, f64::min);
+                out.push((Term { kind: TermKind::KeepOut, first: i, second: k }, least - clearance));
+            }
+            self.plate_clearances((i, &legs[i]), pose, clearance, out);
+        }
+    }
+
+    /// Gaps between a leg and the plates, and the payload.
+    ///
+    /// Each leg stands on both plates: at the plate of an end it counts from the housing of its joint on.
+    fn plate_clearances(
+        &self,
+        (i, leg): (usize, &[Part]),
+        pose: &Pose,
+        clearance: f64,
+        out: &mut Vec<(Term, f64)>,
+    ) {
+        let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
+        for body in Body::BOTH {
+            let Some(plate) = self.plate(body) else { continue };
+            let free = without_end(leg.to_vec(), body, self.required.hardware.joint_reach(body, i));
+            let gap = |(p, q, radius): &Part| match body {
+                Body::Base => plate.distance(p, q) - radius,
+                Body::Platform => plate.distance(&back(p), &back(q)) - radius,
+            };
+            let least = free.iter().map(gap).fold(f64::INFINITY, f64::min);
+            let kind = TermKind::PlateClearance;
+            out.push((Term { kind, first: i, second: body.index() }, least - clearance));
+        }
+        if let Some(shape) = &self.required.payload_shape {
+            let gap = |(p, q, radius): &Part| shape.distance(&back(p), &back(q)) - radius;
+            let least = leg.iter().map(gap).fold(f64::INFINITY, f64::min);
+            let kind = TermKind::PayloadClearance;
+            out.push((Term { kind, first: i, second: i }, least - clearance));
+        }
+    }
+
+    fn drives(&self, legs: &LegsAt, pose: &Pose, out: &mut Vec<(Term, f64)>) {
+        let (hardware, m) = (&self.required.hardware, self.manipulator);
+        if let Some(greatest) = hardware.max_leg_force {
+            let rows = self.drive_rows(pose, m.size());
+            for (k, load) in self.required.loads.iter().enumerate() {
+                let forces = rows.and_then(|rows| forces_along(&rows, &load.wrench(pose), m.size()));
+                for i in 0..6 {
+                    let margin = forces.map_or(f64::NEG_INFINITY, |f| greatest - f[i].abs());
+                    out.push((Term { kind: TermKind::LegForce, first: i, second: k }, margin));
+                }
+            }
+        }
+        if let (Some(greatest), Some(speed)) = (hardware.max_leg_speed, self.required.platform_speed) {
+            // u.v + (R b x u).w over all |v| <= linear, |w| <= angular
+            let rows = if self.are_coupled() { None } else { Some(jacobian(m, pose, 1.0)) };
+            let rows = rows.or_else(|| legs.states.as_ref().map(|states| CoupledLegs::jacobian(states, 1.0)));
+            for i in 0..6 {
+                let fastest = rows.map_or(f64::INFINITY, |rows| {
+                    let moment = rows.fixed_view::<1, 3>(i, 3).norm();
+                    // lines of legs are unit vectors, screws that turn with them are more
+                    let line = if self.are_coupled() { rows.fixed_view::<1, 3>(i, 0).norm() } else { 1.0 };
+                    speed.linear * line + moment * speed.angular_deg.to_radians()
+                });
+                let own = Term { kind: TermKind::LegSpeed, first: i, second: i };
+                out.push((own, greatest - fastest));
+            }
+        }
+    }
+}
+
+fn keep_out_gap(keep_out: &KeepOut, (a, b, radius): &Part, pose: &Pose) -> f64 {
+    let distance = match keep_out.fixed_to {
+        Body::Base => keep_out.shape.distance(a, b),
+        Body::Platform => {
+            let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
+            keep_out.shape.distance(&back(a), &back(b))
+        }
+    };
+    distance - radius
+}

@@ -1,0 +1,404 @@
+//! Platforms whose legs are rods of constant length on cranks: the form that servo motors drive.
+//!
+//! Crank `i` turns about the axis `n` (unit) through its centre `c`; at the angle `q` its tip is
+//!
+//! ```text
+//! a(q) = c + r (e cos q + (n x e) sin q),      e across n, the direction of angle 0,
+//! ```
+//!
+//! and a rod of length `l` joins the tip to the platform joint `b`. For given angles the tips are joints of the base, so that all that is known of six legs with lengths holds for the rods: forward kinematics is that of
+//! the platform on the tips, with the same certificates. Leg maps are affine between *squared lengths* of legs: they say nothing of angles, and a platform with other joints needs other cranks.
+//!
+//! `docs/theory/rotary.md` has the derivations.
+
+mod symmetric;
+#[cfg(test)]
+mod tests;
+mod tracker;
+
+use nalgebra::{Matrix6, Point3, Unit, Vector3, Vector6};
+use thiserror::Error;
+
+use crate::fk::{FkError, FkOptions, FkSolutions, solver};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{InvalidManipulator, Leg, LegLengths, Manipulator, jacobian_of_legs};
+
+pub use tracker::RotaryTracker;
+
+/// Which of the two angles a crank takes for a pose: between crank and the plane of axis and platform joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Elbow {
+    /// The greater one, `q_0 + w`.
+    Plus,
+    /// The smaller one, `q_0 - w`.
+    Minus,
+}
+
+impl Elbow {
+    /// Both sides.
+    pub const BOTH: [Self; 2] = [Self::Plus, Self::Minus];
+
+    /// The name: `"plus"` or `"minus"`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plus => "plus",
+            Self::Minus => "minus",
+        }
+    }
+
+    /// The other side.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Plus => Self::Minus,
+            Self::Minus => Self::Plus,
+        }
+    }
+}
+
+/// A crank, in the base frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crank {
+    /// A point of its axis, in the plane in which the tip moves.
+    pub centre: Point3<f64>,
+    /// Its axis; angles count by the right hand.
+    pub axis: Unit<Vector3<f64>>,
+    /// Where the tip points at the angle zero; what of it is along the axis is left out.
+    pub zero: Vector3<f64>,
+    /// Distance of the tip from the axis, design units.
+    pub length: f64,
+}
+
+/// A leg: a crank, a rod, and the joint of the platform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotaryLeg {
+    /// The crank.
+    pub crank: Crank,
+    /// Length of the rod, design units.
+    pub rod: f64,
+    /// The joint of the platform, platform frame.
+    pub platform: Point3<f64>,
+    /// The side that the crank stays on.
+    pub elbow: Elbow,
+    /// Least and greatest angle, radians; `None`: none.
+    pub limits: Option<(f64, f64)>,
+}
+
+/// Why cranks and rods make no platform.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum InvalidRotary {
+    /// A length that is not positive, or a number that is not finite; the leg from 0.
+    #[error("leg {}: crank and rod have positive finite lengths, and joints finite coordinates", .0 + 1)]
+    BadNumber(usize),
+    /// The direction of the angle zero is along the axis; the leg from 0.
+    #[error("leg {}: the direction of the angle zero is along the axis of the crank", .0 + 1)]
+    ZeroAlongAxis(usize),
+    /// Tips and joints that make no platform, at the angles zero.
+    #[error(transparent)]
+    Manipulator(#[from] InvalidManipulator),
+}
+
+/// The angle of a crank and its derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrankMotion {
+    /// Radians.
+    pub angle: f64,
+    /// Radians per second.
+    pub speed: f64,
+    /// Radians per second squared.
+    pub acceleration: f64,
+}
+
+/// Both angles at which a crank can hold a platform joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrankAngles {
+    /// The middle `q_0`: where the tip is nearest to the platform joint, from `-pi` to `pi`.
+    pub middle: f64,
+    /// Half the difference of both angles, from 0 (crank and rod in line, where both are one) to `pi`.
+    pub half: f64,
+}
+
+impl CrankAngles {
+    /// The angle of a side, from `-pi` to `pi`.
+    #[must_use]
+    pub fn of(&self, elbow: Elbow) -> f64 {
+        let angle = match elbow {
+            Elbow::Plus => self.middle + self.half,
+            Elbow::Minus => self.middle - self.half,
+        };
+        wrapped(angle)
+    }
+}
+
+/// The same angle from `-pi` to `pi`.
+fn wrapped(angle: f64) -> f64 {
+    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
+}
+
+/// A pose that cranks and rods cannot hold.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("leg {}: the rod does not reach from the circle of the crank to the platform joint; it is {by} too short, or too long where this is negative", .leg + 1)]
+pub struct OutOfReach {
+    /// The leg, from 0.
+    pub leg: usize,
+    /// By how much the rod is too short, design units; negative where it is too long.
+    pub by: f64,
+}
+
+/// Six legs with cranks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RotaryPlatform {
+    legs: [RotaryLeg; 6],
+    /// The lengths of the rods.
+    rods: LegLengths,
+    /// Directions of angle 0 and of a quarter turn.
+    directions: [[Vector3<f64>; 2]; 6],
+}
+
+impl RotaryPlatform {
+    /// Checks cranks and rods.
+    ///
+    /// # Errors
+    /// [`InvalidRotary`].
+    pub fn try_new(legs: [RotaryLeg; 6]) -> Result<Self, InvalidRotary> {
+        let mut directions = [[Vector3::zeros(); 2]; 6];
+        for (i, leg) in legs.iter().enumerate() {
+            let crank = &leg.crank;
+            let finite = |v: &Vector3<f64>| v.iter().all(|x| x.is_finite());
+            let lengths = [crank.length, leg.rod].iter().all(|x| *x > 0.0 && x.is_finite());
+            if !lengths
+                || ![&crank.centre.coords, &leg.platform.coords, &crank.zero, &crank.axis.into_inner()]
+                    .into_iter()
+                    .all(finite)
+            {
+                return Err(InvalidRotary::BadNumber(i));
+            }
+            let n = crank.axis.into_inner();
+            let across = crank.zero - n * n.dot(&crank.zero);
+            let e = across.try_normalize(1e-9 * crank.zero.norm()).ok_or(InvalidRotary::ZeroAlongAxis(i))?;
+            directions[i] = [e, n.cross(&e)];
+        }
+        let rods = LegLengths::try_new(legs.map(|leg| leg.rod)).map_err(|_| InvalidRotary::BadNumber(0))?;
+        let made = Self { legs, rods, directions };
+        made.at(&[0.0; 6])?;
+        Ok(made)
+    }
+
+    /// The legs.
+    #[must_use]
+    pub fn legs(&self) -> &[RotaryLeg; 6] {
+        &self.legs
+    }
+
+    /// Unit vectors along each crank at the angle 0 and at a quarter turn, base frame.
+    #[must_use]
+    pub fn directions(&self) -> &[[Vector3<f64>; 2]; 6] {
+        &self.directions
+    }
+
+    /// Where the tip of a crank is at an angle, base frame.
+    #[must_use]
+    pub fn tip(&self, leg: usize, angle: f64) -> Point3<f64> {
+        let [e, f] = self.directions[leg];
+        let (sin, cos) = angle.sin_cos();
+        self.legs[leg].crank.centre + (e * cos + f * sin) * self.legs[leg].crank.length
+    }
+
+    /// The tips as base joints, and the platform joints.
+    fn ends(&self, angles: &[f64; 6]) -> [Leg; 6] {
+        std::array::from_fn(|i| Leg { base: self.tip(i, angles[i]), platform: self.legs[i].platform })
+    }
+
+    /// The platform on the tips of the cranks at these angles: its legs are the rods, with the lengths [`Self::rods`].
+    ///
+    /// # Errors
+    /// Tips and joints that make no platform.
+    pub fn at(&self, angles: &[f64; 6]) -> Result<Manipulator, InvalidManipulator> {
+        Manipulator::from_legs(self.ends(angles))
+    }
+
+    /// The lengths of the rods.
+    #[must_use]
+    pub fn rods(&self) -> &LegLengths {
+        &self.rods
+    }
+
+    /// Both angles of each crank that hold the platform at a pose, whatever their limits.
+    ///
+    /// With `d = R b + p - c`, `|d - r (e cos q + f sin q)| = l` is `x cos q + y sin q = k` for `x = d.e`, `y = d.f`, `k = (|d|^2 + r^2 - l^2) / (2 r)`: hence
+    /// `q = atan2(y, x) +- acos(k / sqrt(x^2 + y^2))`. A joint on the axis of the crank has no angle of its own.
+    ///
+    /// # Errors
+    /// The first leg whose rod does not reach.
+    pub fn both_angles(&self, pose: &Pose) -> Result<[CrankAngles; 6], OutOfReach> {
+        let mut out = [CrankAngles { middle: 0.0, half: 0.0 }; 6];
+        for (i, leg) in self.legs.iter().enumerate() {
+            let (r, l) = (leg.crank.length, leg.rod);
+            let d = pose.transform(&leg.platform) - leg.crank.centre;
+            let [e, f] = self.directions[i];
+            let (x, y) = (d.dot(&e), d.dot(&f));
+            let across = x.hypot(y);
+            let k = (d.norm_squared() + r * r - l * l) / (2.0 * r);
+            let cosine = k / across;
+            // a few units in the last place are rounding
+            if !(cosine.abs() <= 1.0 + 1e-14) {
+                // distances of the joint from the nearest and the farthest point of the circle
+                let along = d.norm_squared() - across * across;
+                let to = |side: f64| (along.max(0.0) + (across - side * r).powi(2)).sqrt();
+                let by = if k > 0.0 { to(1.0) - l } else { to(-1.0) - l };
+                return Err(OutOfReach { leg: i, by });
+            }
+            out[i] = CrankAngles { middle: y.atan2(x), half: cosine.clamp(-1.0, 1.0).acos() };
+        }
+        Ok(out)
+    }
+
+    /// Inverse kinematics: the angle of each crank on its side, from `-pi` to `pi` where the crank has no limits, else within half a turn of the middle of its limits. Whether it is
+    /// within them is said by [`Self::within_limits`].
+    ///
+    /// # Errors
+    /// The first leg whose rod does not reach.
+    pub fn ik(&self, pose: &Pose) -> Result<[f64; 6], OutOfReach> {
+        let both = self.both_angles(pose)?;
+        Ok(std::array::from_fn(|i| self.counted(i, both[i].of(self.legs[i].elbow))))
+    }
+
+    /// The same angle, counted in the turn in which the limits of the crank are.
+    #[must_use]
+    pub fn counted(&self, leg: usize, angle: f64) -> f64 {
+        let middle = self.legs[leg].limits.map_or(0.0, |(least, most)| 0.5 * (least + most));
+        if middle == 0.0 { wrapped(angle) } else { middle + wrapped(angle - middle) }
+    }
+
+    /// What remains of the limits of each crank, radians: negative beyond them, infinite where there are none.
+    #[must_use]
+    pub fn limit_margins(&self, angles: &[f64; 6]) -> [f64; 6] {
+        std::array::from_fn(|i| {
+            let limits = self.legs[i].limits;
+            limits.map_or(f64::INFINITY, |(least, most)| (angles[i] - least).min(most - angles[i]))
+        })
+    }
+
+    /// Whether all angles are within their limits, the ends included.
+    #[must_use]
+    pub fn within_limits(&self, angles: &[f64; 6]) -> bool {
+        self.beyond_limits(angles).is_empty()
+    }
+
+    /// The legs whose cranks are beyond their limits at these angles, from 1.
+    #[must_use]
+    pub fn beyond_limits(&self, angles: &[f64; 6]) -> Vec<usize> {
+        let margins = self.limit_margins(angles);
+        (1..=6).filter(|leg| !(margins[leg - 1] >= 0.0)).collect()
+    }
+
+    /// All finite poses, real and complex, with the cranks at these angles. Certificates hold for the tips as computed, rounded to doubles.
+    ///
+    /// # Errors
+    /// A computation that broke down; angles that are not finite.
+    pub fn fk(&self, angles: &[f64; 6], options: &FkOptions) -> Result<FkSolutions, RotaryFkError> {
+        Ok(solver(options.method).solve(&self.at(angles)?, &self.rods.squared(), options)?)
+    }
+
+    /// How directly each crank moves its rod: `u . (n x t)` with the unit vectors `u` along the rod and `t` along the crank, from -1 to 1. At 0 crank, rod and axis are in one plane: the crank is singular, both its angles are one
+    /// and it cannot push the platform.
+    #[must_use]
+    pub fn transmissions(&self, pose: &Pose, angles: &[f64; 6]) -> [f64; 6] {
+        let ends = self.ends(angles);
+        std::array::from_fn(|i| {
+            let crank = &self.legs[i].crank;
+            let rod = (pose.transform(&ends[i].platform) - ends[i].base).normalize();
+            let arm = (ends[i].base - crank.centre) / crank.length;
+            rod.dot(&crank.axis.cross(&arm))
+        })
+    }
+
+    /// Rows that map velocity of the platform origin and angular velocity (base frame) to the speeds of the cranks: `q' = (u . v + (R b x u) . w) / (r u.(n x t))`. `None` where a crank is singular.
+    #[must_use]
+    pub fn crank_jacobian(&self, pose: &Pose, angles: &[f64; 6]) -> Option<Matrix6<f64>> {
+        let mut rows = jacobian_of_legs(&self.ends(angles), pose, 1.0);
+        for (i, transmission) in self.transmissions(pose, angles).into_iter().enumerate() {
+            let scaled = rows.row(i) / (self.legs[i].crank.length * transmission);
+            rows.set_row(i, &scaled);
+        }
+        rows.iter().all(|x| x.is_finite()).then_some(rows)
+    }
+
+    /// How the cranks turn when the platform joints, in leg order, have these velocities and accelerations (base frame). Not finite where a crank is singular.
+    ///
+    /// With the line `m` of the rod, `m . (B' - a') = 0` for the tip `a' = r q' (n x t)`, and once more differentiated
+    /// `r q'' m.(n x t) = |B' - a'|^2 + m . B'' + r q'^2 m.t`.
+    #[must_use]
+    pub fn motions(
+        &self,
+        pose: &Pose,
+        angles: &[f64; 6],
+        joints: &[(Vector3<f64>, Vector3<f64>); 6],
+    ) -> [CrankMotion; 6] {
+        let ends = self.ends(angles);
+        std::array::from_fn(|i| {
+            let crank = &self.legs[i].crank;
+            let (velocity, acceleration) = &joints[i];
+            let rod = pose.transform(&ends[i].platform) - ends[i].base;
+            let arm = (ends[i].base - crank.centre) / crank.length;
+            let ahead = crank.axis.cross(&arm);
+            let pushed = crank.length * rod.dot(&ahead);
+            let speed = rod.dot(velocity) / pushed;
+            let apart = velocity - ahead * (crank.length * speed);
+            let turned =
+                apart.norm_squared() + rod.dot(acceleration) + crank.length * speed * speed * rod.dot(&arm);
+            CrankMotion { angle: angles[i], speed, acceleration: turned / pushed }
+        })
+    }
+
+    /// The greatest speed of each crank, radians per second, when the platform origin moves at most so fast in any direction and the platform turns at most so fast (radians per second) about any axis:
+    /// `v |row_v| + w |row_w|` of the [Jacobian](Self::crank_jacobian). `None` where a crank is singular.
+    #[must_use]
+    pub fn greatest_speeds(
+        &self,
+        pose: &Pose,
+        angles: &[f64; 6],
+        linear: f64,
+        angular: f64,
+    ) -> Option<[f64; 6]> {
+        let rows = self.crank_jacobian(pose, angles)?;
+        Some(std::array::from_fn(|i| {
+            linear * rows.fixed_view::<1, 3>(i, 0).norm() + angular * rows.fixed_view::<1, 3>(i, 3).norm()
+        }))
+    }
+
+    /// On which side each crank is at a pose: the sign of its [transmission](Self::transmissions). A crank in line with its rod is on both, and counts as on the side of the machine.
+    #[must_use]
+    pub fn elbows_kept(&self, pose: &Pose, angles: &[f64; 6]) -> [bool; 6] {
+        let transmissions = self.transmissions(pose, angles);
+        std::array::from_fn(|i| match self.legs[i].elbow {
+            Elbow::Plus => transmissions[i] <= 0.0,
+            Elbow::Minus => transmissions[i] >= 0.0,
+        })
+    }
+
+    /// Torques of the cranks about their axes that hold a wrench (force and torque about the platform origin, base frame) at rest: `J_q^T t = -wrench`. `None` at singular poses and where a crank is singular.
+    #[must_use]
+    pub fn torques(&self, pose: &Pose, angles: &[f64; 6], wrench: &Vector6<f64>) -> Option<[f64; 6]> {
+        let rows = jacobian_of_legs(&self.ends(angles), pose, 1.0);
+        let forces = rows.transpose().lu().solve(&-wrench)?;
+        let transmissions = self.transmissions(pose, angles);
+        let torques: [f64; 6] =
+            std::array::from_fn(|i| forces[i] * self.legs[i].crank.length * transmissions[i]);
+        torques.iter().all(|x| x.is_finite()).then_some(torques)
+    }
+}
+
+/// Why poses for given angles were not computed.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RotaryFkError {
+    /// Tips and joints that make no platform.
+    #[error(transparent)]
+    Manipulator(#[from] InvalidManipulator),
+    /// The computation broke down.
+    #[error(transparent)]
+    Fk(#[from] FkError),
+}

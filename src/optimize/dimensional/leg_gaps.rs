@@ -1,0 +1,216 @@
+//! Gaps between the bodies of legs, and between a leg and a keep-out, with gradients.
+
+use nalgebra::Vector3;
+
+use super::leg_lines::LegLines;
+use super::pull::Gradient;
+use crate::machine::requirements;
+use crate::machine::requirements::{KeepOut, LegBody};
+use crate::platform::manipulator::Body;
+
+/// A part of a leg: from one share of its line to another, with a radius.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) radius: f64,
+    /// The share that is at a fixed distance from the base joint, the end of the cylinder.
+    pub(super) joint: Option<f64>,
+}
+
+/// A gap with its gradient; `part` tells apart the gaps of a pair of legs.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Gap<P> {
+    pub(crate) value: f64,
+    pub(crate) pull: P,
+    pub(crate) part: usize,
+}
+
+/// The parts of a leg: cylinder and rod, or one.
+pub(super) fn parts(body: &LegBody, length: f64) -> impl Iterator<Item = Part> + Clone {
+    let radius = body.diameter / 2.0;
+    let (first, second) = match body.rod {
+        Some((cylinder, rod)) if length > cylinder => {
+            let s = cylinder / length;
+            (
+                Part { from: 0.0, to: s, radius, joint: Some(s) },
+                Some(Part { from: s, to: 1.0, radius: rod / 2.0, joint: Some(s) }),
+            )
+        }
+        _ => (Part { from: 0.0, to: 1.0, radius, joint: None }, None),
+    };
+    std::iter::once(first).chain(second)
+}
+
+/// Two lines `p + s e` and `q + t f` by the products of `w = p - q`, `e` and `f`, which all their segments share.
+struct LinePair {
+    w: Vector3<f64>,
+    ee: f64,
+    ff: f64,
+    ef: f64,
+    ew: f64,
+    fw: f64,
+}
+
+impl LinePair {
+    fn new(w: Vector3<f64>, e: &Vector3<f64>, f: &Vector3<f64>) -> Self {
+        Self { w, ee: e.norm_squared(), ff: f.norm_squared(), ef: e.dot(f), ew: e.dot(&w), fw: f.dot(&w) }
+    }
+
+    /// Shares `s` and `t`, each between two, at which the lines are closest.
+    fn closest(&self, first: (f64, f64), second: (f64, f64)) -> (f64, f64) {
+        let Self { ee, ff, ef, ew, fw, .. } = *self;
+        let on_second =
+            |s: f64| if ff > 0.0 { ((fw + s * ef) / ff).clamp(second.0, second.1) } else { second.0 };
+        let on_first = |t: f64| if ee > 0.0 { ((t * ef - ew) / ee).clamp(first.0, first.1) } else { first.0 };
+        let det = ee * ff - ef * ef;
+        let s =
+            if det > 1e-14 * ee * ff { ((ef * fw - ff * ew) / det).clamp(first.0, first.1) } else { first.0 };
+        // alternating projections end after one round on a strictly convex quadratic with box bounds of two variables
+        let t = on_second(s);
+        let s = on_first(t);
+        (s, on_second(s))
+    }
+}
+
+impl LegLines {
+    pub(super) fn at(&self, leg: usize, share: f64) -> Vector3<f64> {
+        self.base[leg] + self.line[leg] * share
+    }
+
+    /// Adds the gradient of `g . (a + s d)`, where `s` is constant, or `s |d|` is.
+    pub(super) fn pull_point<P: Gradient>(
+        &self,
+        pull: &mut P,
+        leg: usize,
+        (share, sliding): (f64, bool),
+        g: &Vector3<f64>,
+    ) {
+        if !P::KEPT {
+            return;
+        }
+        pull.at_base(leg, g);
+        let u = &self.direction[leg];
+        let along = if sliding { g - u * u.dot(g) } else { *g };
+        pull.line(leg, along * share);
+    }
+
+    /// Gaps between the parts of two legs.
+    pub(crate) fn leg_gaps<P: Gradient>(
+        &self,
+        body: &LegBody,
+        i: usize,
+        j: usize,
+        see: &mut impl FnMut(Gap<P>),
+    ) {
+        let second = parts(body, self.length[j]);
+        let (e, f) = (&self.line[i], &self.line[j]);
+        let pair = LinePair::new(self.base[i] - self.base[j], e, f);
+        for (k, p) in parts(body, self.length[i]).enumerate() {
+            for (l, q) in second.clone().enumerate() {
+                let (s, t) = pair.closest((p.from, p.to), (q.from, q.to));
+                let apart = pair.w + e * s - f * t;
+                let distance = apart.norm();
+                // segments that meet are pushed apart along their common normal
+                let n = if distance > 0.0 {
+                    apart / distance
+                } else {
+                    e.cross(f).try_normalize(0.0).unwrap_or_else(Vector3::z)
+                };
+                let mut pull = P::none();
+                let at_joint = |part: &Part, s: f64| part.joint.is_some_and(|j| (s - j).abs() < 1e-12);
+                self.pull_point(&mut pull, i, (s, at_joint(&p, s)), &n);
+                self.pull_point(&mut pull, j, (t, at_joint(&q, t)), &-n);
+                see(Gap { value: distance - p.radius - q.radius, pull, part: 2 * k + l });
+            }
+        }
+    }
+
+    /// Gaps between the parts of a leg and a keep-out; negative inside, also in boxes.
+    pub(super) fn keep_out_gaps<P: Gradient>(
+        &self,
+        body: &LegBody,
+        i: usize,
+        keep_out: &KeepOut,
+        see: &mut impl FnMut(Gap<P>),
+    ) {
+        let moving = keep_out.fixed_to == Body::Platform;
+        let local = |v: Vector3<f64>| if moving { self.rotation.inverse() * (v - self.position) } else { v };
+        for (part, p) in parts(body, self.length[i]).enumerate() {
+            let (a, b) = (local(self.at(i, p.from)), local(self.at(i, p.to)));
+            let (x, value, normal) = nearest(&keep_out.shape, &a, &(b - a));
+            let s = p.from + x * (p.to - p.from);
+            let sliding = p.joint.is_some_and(|j| (s - j).abs() < 1e-12);
+            let mut pull = P::none();
+            let n = if moving { self.rotation * normal } else { normal };
+            self.pull_point(&mut pull, i, (s, sliding), &n);
+            if moving {
+                pull.at_position(&-n);
+            }
+            see(Gap { value: value - p.radius, pull, part });
+        }
+    }
+}
+
+/// Share of the segment `a + x e` closest to a shape, signed distance there, and the direction away from it.
+fn nearest(
+    shape: &requirements::KeepOutShape,
+    a: &Vector3<f64>,
+    e: &Vector3<f64>,
+) -> (f64, f64, Vector3<f64>) {
+    let round = |from: Vector3<f64>, f: Vector3<f64>, radius: f64| {
+        let (x, y) = LinePair::new(a - from, e, &f).closest((0.0, 1.0), (0.0, 1.0));
+        let apart = a + e * x - from - f * y;
+        (x, apart.norm() - radius, apart.try_normalize(0.0).unwrap_or_else(Vector3::z))
+    };
+    match shape {
+        requirements::KeepOutShape::Sphere { center, diameter } => {
+            round(center.coords, Vector3::zeros(), diameter / 2.0)
+        }
+        requirements::KeepOutShape::Capsule { from, to, diameter } => {
+            round(from.coords, to - from, diameter / 2.0)
+        }
+        requirements::KeepOutShape::Box { center, size } => {
+            nearest_box(&(a - center.coords), e, &(size / 2.0))
+        }
+    }
+}
+
+/// As [`nearest`] for a box around the origin: the distance is convex along the segment, and so is the depth inside.
+fn nearest_box(a: &Vector3<f64>, e: &Vector3<f64>, half: &Vector3<f64>) -> (f64, f64, Vector3<f64>) {
+    let outside = |x: f64| {
+        let q = a + e * x;
+        Vector3::from_fn(|k, _| q[k] - q[k].clamp(-half[k], half[k]))
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let x = f64::midpoint(low, high);
+        if outside(x).dot(e) > 0.0 { high = x } else { low = x }
+    }
+    let x = f64::midpoint(low, high);
+    let o = outside(x);
+    if o.norm() > 1e-12 * half.norm() {
+        return (x, o.norm(), o.normalize());
+    }
+    let depth = |x: f64| {
+        let q = a + e * x;
+        let k =
+            (0..3).max_by(|&i, &j| (q[i].abs() - half[i]).total_cmp(&(q[j].abs() - half[j]))).unwrap_or(0);
+        (q[k].abs() - half[k], Vector3::ith(k, q[k].signum()))
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..80 {
+        let (x, y) = (low + (high - low) * 0.4, low + (high - low) * 0.6);
+        if depth(x).0 < depth(y).0 { high = y } else { low = x }
+    }
+    let x = f64::midpoint(low, high);
+    // the least depth is where two faces are as far, one before and one behind: their mean that does not change along the segment
+    let (before, behind) = (depth((x - 1e-7).max(0.0)).1, depth((x + 1e-7).min(1.0)).1);
+    let (falls, rises) = (before.dot(e), behind.dot(e));
+    let normal = if falls < 0.0 && rises > 0.0 {
+        before * (rises / (rises - falls)) - behind * (falls / (rises - falls))
+    } else {
+        depth(x).1
+    };
+    (x, depth(x).0, normal)
+}

@@ -1,0 +1,117 @@
+//! The legs at a pose: lines, lengths, rows of the Jacobian and the forces that hold a load, with gradients.
+
+use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
+
+use super::pull::Gradient;
+use super::shape::JointEnds;
+use crate::machine::requirements::Load;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Body;
+
+/// A pose at which the requirements are held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct HeldPose {
+    /// As given, before home is lifted.
+    pub(crate) pose: Pose,
+    /// Whether it moves with home.
+    pub(crate) follows: bool,
+}
+
+/// The six legs at a pose.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LegLines {
+    pub(crate) rotation: Rotation3<f64>,
+    pub(crate) position: Vector3<f64>,
+    pub(crate) base: [Vector3<f64>; 6],
+    /// `R b`.
+    pub(crate) arm: [Vector3<f64>; 6],
+    /// `R b + p - a`.
+    pub(crate) line: [Vector3<f64>; 6],
+    pub(crate) length: [f64; 6],
+    pub(crate) direction: [Vector3<f64>; 6],
+}
+
+impl LegLines {
+    pub(crate) fn new(ends: &JointEnds, at: &HeldPose) -> Self {
+        let rotation = at.pose.rotation;
+        let position = if at.follows { at.pose.position + ends.lift } else { at.pose.position };
+        let arm = ends.platform.map(|b| rotation * b);
+        let line: [Vector3<f64>; 6] = std::array::from_fn(|i| arm[i] + position - ends.base[i]);
+        let length = line.map(|d| d.norm());
+        let direction = std::array::from_fn(|i| line[i] / length[i]);
+        Self { rotation, position, base: ends.base, arm, line, length, direction }
+    }
+
+    /// A gradient with respect to the unit vector of a leg as one with respect to its line.
+    fn along_line(&self, leg: usize, g: &Vector3<f64>) -> Vector3<f64> {
+        let u = &self.direction[leg];
+        (g - u * u.dot(g)) / self.length[leg]
+    }
+
+    /// Row `[u, (R b x u) / L]` of a leg.
+    pub(crate) fn row(&self, leg: usize, length: f64) -> Vector6<f64> {
+        let (u, m) = (self.direction[leg], self.arm[leg].cross(&self.direction[leg]) / length);
+        Vector6::new(u.x, u.y, u.z, m.x, m.y, m.z)
+    }
+
+    pub(crate) fn jacobian(&self, length: f64) -> Matrix6<f64> {
+        let mut j = Matrix6::zeros();
+        for i in 0..6 {
+            j.set_row(i, &self.row(i, length).transpose());
+        }
+        j
+    }
+
+    /// Adds the gradient of `g . row(leg)`.
+    pub(crate) fn pull_row<P: Gradient>(&self, pull: &mut P, leg: usize, length: f64, g: &Vector6<f64>) {
+        if !P::KEPT {
+            return;
+        }
+        let (force, moment): (Vector3<f64>, Vector3<f64>) =
+            (g.fixed_rows::<3>(0).into(), g.fixed_rows::<3>(3) / length);
+        let (u, arm) = (&self.direction[leg], &self.arm[leg]);
+        // moment . (arm x u): u x moment pulls at the arm, moment x arm at u
+        pull.at_arm(leg, &u.cross(&moment));
+        pull.line(leg, self.along_line(leg, &(force + moment.cross(arm))));
+    }
+}
+
+/// Leg forces that hold a load, and what their derivatives need.
+#[derive(Debug, Clone)]
+pub(crate) struct Forces<'a> {
+    pub(crate) forces: Vector6<f64>,
+    inverse: &'a Matrix6<f64>,
+}
+
+/// Inverse of the matrix with the columns `[u, (R b x u) / L]`, which the forces under all loads share; `None` at a singular pose.
+pub(crate) fn inverse_of_columns(l: &LegLines, length: f64) -> Option<Matrix6<f64>> {
+    l.jacobian(length).transpose().try_inverse()
+}
+
+/// `sum F_i (u_i, R b_i x u_i) = -(f, t)`; `None` at a singular pose.
+pub(crate) fn leg_forces<'a>(
+    l: &LegLines,
+    inverse: Option<&'a Matrix6<f64>>,
+    load: &Load,
+    length: f64,
+) -> Option<Forces<'a>> {
+    let inverse = inverse?;
+    let turn = |v: &Vector3<f64>| if load.fixed_to == Body::Platform { l.rotation * v } else { *v };
+    let force = turn(&load.force);
+    let torque = (turn(&load.torque) + (l.rotation * load.at.coords).cross(&force)) / length;
+    let wrench = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
+    let forces = -(inverse * wrench);
+    forces.iter().all(|x| x.is_finite()).then_some(Forces { forces, inverse })
+}
+
+impl Forces<'_> {
+    /// Force of a leg and its gradient: `dF_i = - sum_j F_j (row i of the inverse) . d(column j)`.
+    pub(crate) fn of<P: Gradient>(&self, l: &LegLines, leg: usize, length: f64) -> (f64, P) {
+        let y: Vector6<f64> = self.inverse.row(leg).transpose();
+        let mut pull = P::none();
+        for j in (0..6).filter(|_| P::KEPT) {
+            l.pull_row(&mut pull, j, length, &(y * -self.forces[j]));
+        }
+        (self.forces[leg], pull)
+    }
+}

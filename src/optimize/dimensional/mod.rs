@@ -1,0 +1,38 @@
+//! Dimensional synthesis: chooses the dimensions of a platform such that it meets all its requirements and is otherwise as good as can be found.
+//!
+//! Variables are offsets, triangles, the height of home and joint axes; requirements are those of [`crate::machine::requirements`], in formulas of
+//! this module with derivatives. Sequential convex programming from many starts, over poses that are added where the requirements
+//! are met least. Definitions, method and limits: `docs/theory/dimensional-synthesis.md`.
+
+mod conflict;
+mod leg_gaps;
+mod leg_lines;
+mod linear;
+mod merit;
+mod model;
+mod outcome;
+mod pareto;
+mod plates;
+mod population;
+mod problem;
+mod pull;
+mod scp;
+mod search;
+mod shape;
+mod skeleton;
+mod stiffness;
+mod terms;
+#[cfg(test)]
+mod tests;
+mod worst_pose;
+
+pub use self::outcome::evaluate;
+pub use outcome::{
+    ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
+    Give,
+};
+pub use pareto::{ParetoPoint, ParetoReport, pareto};
+pub use problem::{DimensionalProblem, InvalidProblem, Mode, Triangles, Variables};
+pub use scp::HistoryStep;
+pub use search::{Progress, ShapeSearchOptions, Stage, optimize};
+pub(crate) use search::{meet, optimize_without_conflict, why_not};

@@ -1,0 +1,164 @@
+//! The problem ready to be searched: values and linear models of everything at a point.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::leg_lines::HeldPose;
+use super::merit::Merit;
+use super::problem::{DimensionalProblem, InvalidProblem, Variables};
+use super::shape::Shape;
+use super::terms::RequirementTerms;
+use crate::machine::requirements::{ListedFrom, Objective, TermKind};
+use crate::num::Rng;
+
+/// Constraints that share one slack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum ConstraintGroup {
+    /// Requirements of one kind.
+    Term(TermKind),
+    /// `|det A|`.
+    Determinant,
+    /// Joints that slide on families stay near the others.
+    Reach,
+    /// An objective that must not fall below a value.
+    Floor(usize),
+}
+
+/// What is wanted in one run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Task {
+    /// Weight of each objective; 0 leaves it out.
+    pub(crate) weights: Vec<f64>,
+    /// Least gain of each objective.
+    pub(crate) floors: Vec<Option<f64>>,
+    /// Constraints that are not held.
+    pub(crate) dropped: Vec<ConstraintGroup>,
+    /// Constraints whose violation costs a hundredth.
+    pub(crate) soft: Option<ConstraintGroup>,
+}
+
+impl Task {
+    /// Relative price of a violation.
+    pub(crate) fn cost(&self, group: ConstraintGroup) -> f64 {
+        if self.soft == Some(group) { 0.01 } else { 1.0 }
+    }
+}
+
+/// The problem with its parametrisation.
+#[derive(Debug)]
+pub(crate) struct Model<'a> {
+    pub(crate) problem: &'a DimensionalProblem,
+    pub(crate) shape: Shape,
+    pub(crate) terms: RequirementTerms<'a>,
+    pub(crate) merit: Merit<'a>,
+    pub(crate) objectives: Vec<Objective>,
+    /// Constraints are held with this to spare, so that what lies between the poses meets them too.
+    pub(crate) backoff: f64,
+    pub(crate) affine: bool,
+    /// Set when the search is to end with what it has.
+    stop: Arc<AtomicBool>,
+}
+
+/// Points of the Halton sequence, and random ones, in the sample of the mean.
+const SAMPLE: usize = 24;
+/// Seed of these poses: they are part of the problem, the same for every seed of the search.
+const AVERAGED: u64 = 1;
+/// Points between, of either kind, that every run starts with.
+const BETWEEN: usize = 12;
+/// Seed of these points, the same for every seed of the search.
+const BETWEEN_CORNERS: u64 = 2;
+/// Spare relative to the size (or the limit) where poses lie between those that are held, and where none do.
+const BACKOFF: (f64, f64) = (1e-6, 2e-8);
+
+impl<'a> Model<'a> {
+    pub(crate) fn new(problem: &'a DimensionalProblem) -> Result<Self, InvalidProblem> {
+        problem.validate()?;
+        Self::with_axes(problem, problem.axes_wanted())
+    }
+
+    /// The same with axes along the legs at home instead of chosen ones, which come last among the variables; `None` without chosen ones, or
+    /// when nothing else is chosen. What meets the requirements here does so with axes to choose.
+    pub(crate) fn without_axes(&self) -> Option<Self> {
+        if self.shape.axes == [None; 2] {
+            return None;
+        }
+        let out = Self::with_axes(self.problem, [false; 2]).ok()?;
+        Some(Self { stop: Arc::clone(&self.stop), ..out })
+    }
+
+    fn with_axes(problem: &'a DimensionalProblem, joint_axes: [bool; 2]) -> Result<Self, InvalidProblem> {
+        let variables = Variables { joint_axes, ..problem.variables };
+        let (m, home) = (&problem.manipulator, problem.space.home);
+        let shape = Shape::new(m, &home, &variables)?;
+        for (name, (low, high)) in shape.names.iter().zip(&shape.bounds) {
+            if !(low <= high && low.is_finite() && high.is_finite()) {
+                return Err(InvalidProblem::Bounds { variable: name.clone(), low: *low, high: *high });
+            }
+        }
+        let mut sample = listed(problem);
+        let points = problem.space.cube_points(SAMPLE, &mut Rng::new(AVERAGED));
+        sample.extend(points.iter().map(|x| HeldPose { pose: problem.space.pose(x), follows: true }));
+        let continuous = !problem.space.axes().is_empty() || problem.space.trajectory.len() > 1;
+        Ok(Self {
+            problem,
+            terms: RequirementTerms::new(&problem.requirements, m.size(), home, &shape),
+            merit: Merit::new(problem, sample),
+            objectives: problem.objectives.iter().map(|o| o.0).collect(),
+            backoff: if continuous { BACKOFF.0 } else { BACKOFF.1 },
+            affine: shape.is_affine(),
+            shape,
+            stop: Arc::default(),
+        })
+    }
+
+    /// Ends the search when it is told to.
+    pub(crate) fn heed(&self, flow: ControlFlow<()>) {
+        if flow.is_break() {
+            self.stop.store(true, Ordering::Relaxed);
+        }
+    }
+
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// The poses that every run starts with: home, corners, the ends of the axes, a few points between, and those that are listed.
+    pub(crate) fn first_poses(&self) -> Vec<HeldPose> {
+        let (mut out, space) = (listed(self.problem), &self.problem.space);
+        let mut points = space.cube_points(BETWEEN, &mut Rng::new(BETWEEN_CORNERS));
+        for (k, sign) in space.axes().into_iter().flat_map(|k| [(k, 1.0), (k, -1.0)]) {
+            let mut x = nalgebra::Vector6::zeros();
+            x[k] = sign;
+            points.push(x);
+        }
+        out.extend(points.iter().map(|x| HeldPose { pose: space.pose(x), follows: true }));
+        out
+    }
+
+    /// Factor from the gain of an objective to its value.
+    pub(crate) fn unit(&self, o: Objective) -> f64 {
+        self.merit.unit(o, self.problem.requirements.hardware.leg_stiffness.unwrap_or(1.0))
+    }
+
+    pub(crate) fn wanted<'b>(&'b self, task: &'b Task) -> impl Iterator<Item = (usize, Objective)> + 'b {
+        let used = |m: &usize| task.weights[*m] > 0.0 || task.floors[*m].is_some();
+        (0..self.objectives.len()).filter(used).map(|m| (m, self.objectives[m]))
+    }
+
+    /// `sign det A` less the least value, and its gradient, where the variables keep the class of the design.
+    pub(crate) fn determinant(&self, x: &[f64], sign: f64) -> Option<(f64, Vec<f64>)> {
+        let (det, gradient) = self.shape.determinant(x)?;
+        Some((sign * det - self.problem.min_abs_det, gradient.into_iter().map(|g| sign * g).collect()))
+    }
+
+    /// Sign of `det A` at a point.
+    pub(crate) fn sign(&self, x: &[f64]) -> f64 {
+        self.shape.determinant(x).map_or(1.0, |(det, _)| if det < 0.0 { -1.0 } else { 1.0 })
+    }
+}
+
+fn listed(problem: &DimensionalProblem) -> Vec<HeldPose> {
+    let follows = problem.space.listed_from == ListedFrom::Home;
+    problem.listed().into_iter().map(|pose| HeldPose { pose, follows }).collect()
+}

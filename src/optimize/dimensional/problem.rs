@@ -1,0 +1,332 @@
+//! The problem of dimensional synthesis: variables, objectives, requirements, poses.
+
+use nalgebra::{Point3, Vector3};
+use thiserror::Error;
+
+use crate::machine::requirements::{
+    JointAxes, KeptSymmetry, Objective, PoseSpace, Requirements, VariableKind,
+};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{Body, Manipulator, NotOctahedral, Octahedral};
+use crate::synthesis::components::ComponentsError;
+
+/// What may change about base and platform: the triangles of an octahedral design, whose centroids and planes stay, or the sizes of any design.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Triangles {
+    /// Nothing.
+    #[default]
+    Fixed,
+    /// One factor for each body, about the mean of its leg ends: for a triangle its centroid.
+    Sizes,
+    /// A symmetric stretch of the plane for each triangle: every shape and size.
+    Shapes,
+}
+
+/// The quantities that the optimiser chooses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(clippy::struct_excessive_bools, reason = "independent choices")]
+pub struct Variables {
+    /// The six offsets of an octahedral design.
+    pub offsets: bool,
+    /// The triangles of an octahedral design, or the sizes of base and platform of any other.
+    pub triangles: Triangles,
+    /// The legs on the rational families of replaceable legs they belong to; not with offsets or triangles.
+    pub components: bool,
+    /// Height of home, and of all poses around it, over the base.
+    pub home_height: bool,
+    /// Axes of the base and of the platform joints, from which the swing is measured.
+    pub joint_axes: [bool; 2],
+    /// One offset for the three edges of the base and one for those of the platform.
+    pub symmetric: bool,
+    /// The symmetry of the whole platform at home that is kept. With [`KeptSymmetry::ThreeFold`] offsets are as with `symmetric`, and triangles change in size alone.
+    pub symmetry: KeptSymmetry,
+    /// Legs whose ends on the base and on the platform stay where they are: a body with such an end keeps its triangle and its size, and such legs slide on no family that moves
+    /// the end. Offsets put further joints beside those of the design, which stay.
+    pub fixed_ends: [[bool; 6]; 2],
+    /// Least and greatest offset of each side, cyclic order.
+    pub offset_bounds: [(f64, f64); 6],
+    /// Least and greatest parameter of a family.
+    pub parameter_bounds: (f64, f64),
+    /// Least and greatest diagonal entry of the stretch less 1; the other entry is at most half of the width.
+    pub stretch_bounds: (f64, f64),
+    /// Least and greatest change of the height, in sizes of the design.
+    pub height_bounds: (f64, f64),
+}
+
+impl Default for Variables {
+    /// Nothing is chosen; bounds -1 to 2 of offsets and parameters, -0.5 to 1 of stretches, -0.5 to 1 of the height.
+    fn default() -> Self {
+        Self {
+            offsets: false,
+            triangles: Triangles::Fixed,
+            components: false,
+            parameter_bounds: (-1.0, 2.0),
+            home_height: false,
+            joint_axes: [false; 2],
+            symmetric: false,
+            symmetry: KeptSymmetry::None,
+            fixed_ends: [[false; 6]; 2],
+            offset_bounds: [(-1.0, 2.0); 6],
+            stretch_bounds: (-0.5, 1.0),
+            height_bounds: (-0.5, 1.0),
+        }
+    }
+}
+
+impl Variables {
+    /// Whether the triangle or the size of a body is kept.
+    #[must_use]
+    pub fn keeps_body(&self, body: Body) -> bool {
+        self.fixed_ends[body.index()].contains(&true)
+    }
+
+    /// These kinds within the default bounds.
+    #[must_use]
+    pub fn of(kinds: &[VariableKind]) -> Self {
+        let has = |kind| kinds.contains(&kind);
+        let triangles = match (has(VariableKind::Triangles), has(VariableKind::TriangleSizes)) {
+            (true, _) => Triangles::Shapes,
+            (false, true) => Triangles::Sizes,
+            (false, false) => Triangles::Fixed,
+        };
+        Self {
+            offsets: has(VariableKind::Offsets) || has(VariableKind::SymmetricOffsets),
+            symmetric: has(VariableKind::SymmetricOffsets),
+            triangles,
+            components: has(VariableKind::Components),
+            home_height: has(VariableKind::HomeHeight),
+            joint_axes: [has(VariableKind::JointAxes); 2],
+            ..Self::default()
+        }
+    }
+}
+
+/// How several objectives are combined.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mode {
+    /// The weighted sum of the values, each over its value at the start of the run.
+    Weighted,
+    /// One after the other; each later level may lose this share of the values before.
+    Lexicographic {
+        /// Share, for instance 0.01.
+        slack: f64,
+    },
+}
+
+/// Which platform meets the requirements and is best?
+#[derive(Debug, Clone, PartialEq)]
+pub struct DimensionalProblem {
+    /// The design that the variables start from.
+    pub manipulator: Manipulator,
+    /// What the platform has to satisfy.
+    pub requirements: Requirements,
+    /// The poses over which it has to.
+    pub space: PoseSpace,
+    /// What may be chosen.
+    pub variables: Variables,
+    /// Objectives with weights, or in the order of their levels.
+    pub objectives: Vec<(Objective, f64)>,
+    /// How they are combined.
+    pub mode: Mode,
+    /// `L`, design units.
+    pub characteristic_length: f64,
+    /// Least `|det A|` of the offsets.
+    pub min_abs_det: f64,
+}
+
+/// A problem that cannot be asked.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum InvalidProblem {
+    /// Nothing may be chosen.
+    #[error("no variable is left to be chosen")]
+    NoVariables,
+    /// No objective.
+    #[error("no objective is given")]
+    NoObjective,
+    /// Offsets or triangles of a design that is not octahedral.
+    #[error("offsets and triangles are variables of octahedral designs: {0}")]
+    NotOctahedral(NotOctahedral),
+    /// The families of replaceable legs could not be computed.
+    #[error("the families of replaceable legs could not be computed: {0}")]
+    Components(#[from] ComponentsError),
+    /// No leg belongs to a rational family.
+    #[error("no leg of the design belongs to a rational family of replaceable legs")]
+    NoFamily,
+    /// The leg vectors are dependent: there is no leg map to hold.
+    #[error("the legs of the design are dependent: it is architecturally singular")]
+    DependentLegs,
+    /// Offsets or triangles together with components.
+    #[error("components cannot be chosen together with offsets or triangles")]
+    ComponentsAndOffsets,
+    /// A front of one objective, or of more than three.
+    #[error("a Pareto front has two or three objectives, not {0}")]
+    FrontOf(usize),
+    /// An objective without the data it needs.
+    #[error("the objective {} needs {needs}", objective.code())]
+    Needs {
+        /// The objective.
+        objective: Objective,
+        /// The key of the design file.
+        needs: &'static str,
+    },
+    /// A weight, length or bound that is not positive and finite.
+    #[error("{quantity} is {value}; it must be positive and finite")]
+    NotPositive {
+        /// Its name.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Bounds that leave nothing.
+    #[error(
+        "the bounds of {variable} are {low} and {high}; both have to be finite, and the first no larger than the second"
+    )]
+    Bounds {
+        /// Name of the variable.
+        variable: String,
+        /// Lower bound.
+        low: f64,
+        /// Upper bound.
+        high: f64,
+    },
+    /// Axes are chosen for swing limits below 90 degrees only.
+    #[error("joint axes can be chosen for swing limits below 90 degrees only, and this limit is {0} degrees")]
+    SwingTooWide(f64),
+    /// Axes of universal joints are not chosen.
+    #[error(
+        "the axes of universal joints are not chosen: joint_axes is for ball joints, and the {0} has universal ones"
+    )]
+    UniversalAxes(Body),
+    /// A design without the symmetry that is to be kept.
+    #[error("symmetry = \"three_fold\" needs a design that has it, and {why}")]
+    NotThreeFold {
+        /// What it lacks.
+        why: &'static str,
+    },
+    /// No platform can have what is asked for.
+    #[error(
+        "a platform on the six edges without shared joints that has a mirror plane is architecturally singular: its offsets are 1/2, or in \
+         pairs t and 1 - t, so that det A = prod (1 - t) - prod t = 0"
+    )]
+    MirrorIsSingular,
+    /// A mirror plane where no offsets are chosen.
+    #[error("a mirror plane is not kept by a search that chooses no offsets")]
+    MirrorWithoutOffsets,
+    /// A symmetry of designs that are not octahedral.
+    #[error("symmetry is kept in searches from octahedral designs only")]
+    SymmetryOfGeneral,
+    /// A leg has no length at home.
+    #[error("a leg has no length at home")]
+    NoLegAtHome,
+}
+
+impl DimensionalProblem {
+    /// Checks that the problem is complete and its numbers are possible.
+    ///
+    /// # Errors
+    /// The first violation.
+    pub fn validate(&self) -> Result<(), InvalidProblem> {
+        if self.objectives.is_empty() {
+            return Err(InvalidProblem::NoObjective);
+        }
+        let hardware = &self.requirements.hardware;
+        for &(objective, weight) in &self.objectives {
+            let needs = match objective {
+                Objective::LegForce if self.requirements.loads.is_empty() => "[[loads]]",
+                Objective::LegClearance if hardware.leg_body.is_none() => "leg_diameter in [hardware]",
+                Objective::Stiffness | Objective::NaturalFrequency if hardware.leg_stiffness.is_none() => {
+                    "leg_stiffness in [hardware]"
+                }
+                Objective::NaturalFrequency if self.requirements.vibrating.is_none() => {
+                    "[payload] and a unit of length that is known"
+                }
+                _ => "",
+            };
+            if !needs.is_empty() {
+                return Err(InvalidProblem::Needs { objective, needs });
+            }
+            positive("a weight", weight)?;
+        }
+        positive("characteristic_length", self.characteristic_length)?;
+        positive("min_abs_det", self.min_abs_det)?;
+        if let Mode::Lexicographic { slack } = self.mode {
+            positive("the slack of the levels", slack)?;
+        }
+        for (swing, wanted) in [hardware.base_swing, hardware.platform_swing].iter().zip(self.axes_wanted()) {
+            if let (Some(swing), true) = (swing, wanted)
+                && swing.least_deg() >= 90.0
+            {
+                return Err(InvalidProblem::SwingTooWide(swing.least_deg()));
+            }
+        }
+        for body in Body::BOTH {
+            if hardware.universal(body).is_some() && self.axes_wanted()[body.index()] {
+                return Err(InvalidProblem::UniversalAxes(body));
+            }
+        }
+        self.validate_symmetry()?;
+        let home = &self.space.home;
+        if self.manipulator.legs().iter().any(|l| !(home.squared_length(l) > 0.0)) {
+            return Err(InvalidProblem::NoLegAtHome);
+        }
+        Ok(())
+    }
+
+    /// Whether the design has the symmetry that is to be kept, to a billionth of its size.
+    fn validate_symmetry(&self) -> Result<(), InvalidProblem> {
+        match self.variables.symmetry {
+            KeptSymmetry::None => return Ok(()),
+            KeptSymmetry::Mirror if self.variables.offsets => return Err(InvalidProblem::MirrorIsSingular),
+            KeptSymmetry::Mirror => return Err(InvalidProblem::MirrorWithoutOffsets),
+            KeptSymmetry::ThreeFold => {}
+        }
+        let octahedral =
+            Octahedral::recognise(&self.manipulator).map_err(|_| InvalidProblem::SymmetryOfGeneral)?;
+        let [base, platform] = [octahedral.base(), octahedral.platform()];
+        let near = SYMMETRIC * self.manipulator.size();
+        let sides = |t: &[Point3<f64>; 3]| [0, 1, 2].map(|k| (t[(k + 1) % 3] - t[k]).norm());
+        let is_equilateral = |t: &[Point3<f64>; 3]| {
+            let s = sides(t);
+            (s[0] - s[1]).abs() <= near && (s[1] - s[2]).abs() <= near
+        };
+        if !is_equilateral(&base) || !is_equilateral(&platform) {
+            return Err(InvalidProblem::NotThreeFold { why: "a triangle is not equilateral" });
+        }
+        let platform = platform.map(|p| self.space.home.transform(&p));
+        let centre = |t: &[Point3<f64>; 3]| t.iter().map(|p| p.coords).sum::<Vector3<f64>>() / 3.0;
+        let normal = |t: &[Point3<f64>; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).normalize();
+        let (axis, between) = (normal(&base), centre(&platform) - centre(&base));
+        let aside = between - axis * axis.dot(&between);
+        let tilt = axis.cross(&normal(&platform)).norm() * self.manipulator.size();
+        if aside.norm() > near || tilt > near {
+            return Err(InvalidProblem::NotThreeFold { why: "at home the triangles have no common axis" });
+        }
+        Ok(())
+    }
+
+    /// Whether the axes of base and platform joints are chosen: asked for, and limited.
+    pub(crate) fn axes_wanted(&self) -> [bool; 2] {
+        let h = &self.requirements.hardware;
+        let wanted = |k: usize, swing: Option<crate::machine::requirements::Swing>| {
+            swing.is_some_and(|s| s.axes == JointAxes::Optimize || self.variables.joint_axes[k])
+        };
+        [wanted(0, h.base_swing), wanted(1, h.platform_swing)]
+    }
+
+    /// The single poses, and those along the trajectory.
+    pub(crate) fn listed(&self) -> Vec<Pose> {
+        self.space.listed(4)
+    }
+}
+
+/// How exactly a design has a symmetry, in sizes of the design.
+const SYMMETRIC: f64 = 1e-9;
+
+fn positive(quantity: &'static str, value: f64) -> Result<(), InvalidProblem> {
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(InvalidProblem::NotPositive { quantity, value })
+    }
+}

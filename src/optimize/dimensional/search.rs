@@ -1,0 +1,756 @@
+//! Populations, climbs from their best members, and the best ends polished while poses are added until none is worse.
+
+use std::ops::ControlFlow;
+
+use super::conflict::{Clash, conflict, demand, elastic, no_objective, unmet};
+use super::leg_lines::HeldPose;
+use super::model::{Model, Task};
+use super::outcome::{
+    ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
+    outcome, solution,
+};
+use super::population::{Judge, Worth, evolve, is_close, offspring};
+use super::problem::{DimensionalProblem, InvalidProblem, Mode};
+use super::scp::{PENALTY, ShapeEffort, ShapeRun, climb};
+use super::worst_pose::worse_poses;
+use crate::num::Purpose;
+use crate::num::parallel::parallel;
+
+/// Options of the search; none of them changes what is feasible.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ShapeSearchOptions {
+    /// Seed of the populations. Same seed, same answer, whatever the number of threads.
+    pub seed: u64,
+    /// Worker threads (0 counts as 1).
+    pub threads: usize,
+    /// Populations that evolve apart from each other.
+    pub populations: usize,
+    /// Generations of each.
+    pub generations: usize,
+    /// Members of each population from which the first pass climbs.
+    pub starts: usize,
+    /// Runs that are polished.
+    pub polished: usize,
+}
+
+impl Default for ShapeSearchOptions {
+    fn default() -> Self {
+        Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 12, polished: 8 }
+    }
+}
+
+/// A stage of the search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Stage {
+    /// Populations that evolve.
+    Populations,
+    /// Climbs of the first pass.
+    Climbs,
+    /// Polished runs, or steps of a front.
+    Polishing,
+    /// Runs that look for what excludes each other where nothing meets the requirements.
+    Conflict,
+}
+
+/// How far the search is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Stage.
+    pub stage: Stage,
+    /// Done in this stage.
+    pub done: usize,
+    /// Of how many.
+    pub total: usize,
+    /// Best value of the first objective so far among runs that meet the requirements, in its unit.
+    pub best: Option<f64>,
+    /// The least violation so far at the poses that were held, in the scale of the constraint that is missed most, and that constraint; `None` before the first run.
+    pub violation: Option<(Demand, f64)>,
+}
+
+/// In words for people.
+impl std::fmt::Display for Progress {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.best, self.violation) {
+            (Some(best), _) => write!(f, "best {best:.6}; ")?,
+            (None, Some((demand, x))) if x > 0.0 => {
+                write!(
+                    f,
+                    "nothing meets the requirements yet, {demand} is missed by {x:.1e} of its scale; "
+                )?;
+            }
+            _ => {}
+        }
+        let stage = match self.stage {
+            Stage::Populations => "population",
+            Stage::Climbs => "climb",
+            Stage::Polishing => "polish",
+            Stage::Conflict => "conflict, run",
+        };
+        write!(f, "{stage} {} of {}", self.done, self.total)
+    }
+}
+
+/// Every so many populations one evolves longer: young populations have many basins, old ones the deep ones.
+const LONG_EVERY: usize = 3;
+/// How many times as many generations such a population has.
+const LONG_FACTOR: usize = 4;
+/// Poses of the first pass.
+const FEW_POSES: usize = 16;
+/// Batches of runs that are polished while others promise more.
+const BATCHES: usize = 6;
+/// Generations of mixtures of the ends.
+const GENERATIONS_OF_ENDS: usize = 2;
+/// How many starts there are for each mixture of a generation.
+const STARTS_PER_MIXTURE: usize = 4;
+/// Rounds of adding poses in the first pass.
+const SHORT_ROUNDS: usize = 3;
+/// Rounds of adding poses.
+const ROUNDS: usize = 12;
+/// Members that differ by more in some variable are starts of their own.
+const DISTINCT_STARTS: f64 = 0.1;
+/// Ends whose values differ by less, relatively, count as one.
+const DISTINCT_GAINS: f64 = 1e-4;
+/// The same for ends of the first pass, which are climbed to roughly.
+const SAME_END: f64 = 1e-3;
+
+/// A polished run with the poses it ended with.
+#[derive(Debug, Clone)]
+pub(crate) struct RefinedRun {
+    pub(crate) run: ShapeRun,
+    pub(crate) poses: Vec<HeldPose>,
+    pub(crate) complete: bool,
+}
+
+/// How long poses are added to a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Adding {
+    /// Until the result is worse at none.
+    UntilNoneIsWorse,
+    /// As long as the run meets the requirements too: more poses only make worse what misses one already.
+    WhileMet,
+}
+
+/// Climbs, adds the poses at which the result is worse, and climbs again.
+pub(crate) fn refine(
+    model: &Model<'_>,
+    task: &Task,
+    start: &[f64],
+    poses: Vec<HeldPose>,
+    seed: u64,
+) -> RefinedRun {
+    refine_adding(Adding::UntilNoneIsWorse, model, task, start, poses, seed)
+}
+
+/// See [`refine`].
+pub(crate) fn refine_adding(
+    adding: Adding,
+    model: &Model<'_>,
+    task: &Task,
+    start: &[f64],
+    mut poses: Vec<HeldPose>,
+    seed: u64,
+) -> RefinedRun {
+    let mut run = climb(model, &poses, task, start, ShapeEffort::POLISH);
+    // a run with an objective is given up if it misses a requirement at the first poses, one without goes on to what can be met
+    let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible(model);
+    let mut complete = false;
+    for round in 0..ROUNDS {
+        let given_up = hopeless || adding == Adding::WhileMet && !run.is_feasible(model);
+        if given_up || model.is_stopped() {
+            break;
+        }
+        let sign = model.sign(&run.x);
+        let worse = worse_poses(model, &run.x, task, &poses, sign, seed.wrapping_add(round as u64));
+        complete = worse.is_empty();
+        if complete {
+            break;
+        }
+        poses.extend(worse);
+        run = climb(model, &poses, task, &run.x, ShapeEffort::POLISH).after(run.history);
+    }
+    RefinedRun { run, poses, complete }
+}
+
+/// A point with the poses that matter most near it.
+pub(crate) struct SearchStart {
+    pub(crate) x: Vec<f64>,
+    few: Vec<HeldPose>,
+}
+
+/// The best distinct members of a population.
+pub(crate) fn population(
+    model: &Model<'_>,
+    task: &Task,
+    given: &[Vec<f64>],
+    k: usize,
+    o: &ShapeSearchOptions,
+) -> Vec<SearchStart> {
+    let mut judge = Judge::new(model, task);
+    let is_long = k % LONG_EVERY == LONG_EVERY - 1;
+    let generations = if is_long { LONG_FACTOR * o.generations } else { o.generations };
+    let members = evolve(&mut judge, given, generations, &mut Purpose::POPULATIONS.item(o.seed, k as u64));
+    let few: Vec<HeldPose> = judge.poses().iter().take(FEW_POSES).copied().collect();
+    let mut out: Vec<SearchStart> = Vec::new();
+    for m in members {
+        if out.len() < o.starts.max(1) && !out.iter().any(|s| are_near(&s.x, &m.x, DISTINCT_STARTS)) {
+            out.push(SearchStart { x: m.x, few: few.clone() });
+        }
+    }
+    out
+}
+
+fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < within)
+}
+
+pub(crate) fn better(model: &Model<'_>, task: &Task, a: &ShapeRun, b: &ShapeRun) -> std::cmp::Ordering {
+    let (fa, fb) = (a.is_feasible(model), b.is_feasible(model));
+    fb.cmp(&fa).then(if fa && fb {
+        b.judged.gain(task).total_cmp(&a.judged.gain(task))
+    } else {
+        a.judged.total_violation(task).total_cmp(&b.judged.total_violation(task))
+    })
+}
+
+/// The tasks of the levels: weights and the share that later levels may take.
+fn first_task(p: &DimensionalProblem) -> Task {
+    let n = p.objectives.len();
+    let weights = match p.mode {
+        Mode::Weighted => p.objectives.iter().map(|o| o.1).collect(),
+        Mode::Lexicographic { .. } => (0..n).map(|m| if m == 0 { 1.0 } else { 0.0 }).collect(),
+    };
+    Task { weights, floors: vec![None; n], dropped: Vec::new(), soft: None }
+}
+
+/// What a search for one task found.
+pub(crate) struct SearchedShape {
+    /// Best first; feasible ones before the others.
+    pub(crate) refined: Vec<RefinedRun>,
+    pub(crate) starts: usize,
+    pub(crate) feasible: usize,
+}
+
+/// A short climb over few poses, and again with those at which its end is worse.
+fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> ShapeRun {
+    let mut few = start.few.clone();
+    let mut run = climb(model, &few, task, &start.x, ShapeEffort::RANK);
+    let judge = Judge::new(model, task);
+    for _ in 0..SHORT_ROUNDS {
+        let mut more = judge.worst(&run.x, FEW_POSES);
+        more.retain(|at| !few.contains(at));
+        if more.is_empty() {
+            break;
+        }
+        few.extend(more);
+        run = climb(model, &few, task, &run.x, ShapeEffort::RANK).after(run.history);
+    }
+    run
+}
+
+/// Tells how far the search is, and heeds the answer.
+pub(crate) struct Watch<'w, 'm, 'a> {
+    model: &'m Model<'a>,
+    best: Option<f64>,
+    violation: Option<(Demand, f64)>,
+    progress: &'w mut dyn FnMut(Progress) -> ControlFlow<()>,
+}
+
+impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
+    pub(crate) fn new(
+        model: &'m Model<'a>,
+        progress: &'w mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Self {
+        Self { model, best: None, violation: None, progress }
+    }
+
+    /// Learns what a run misses.
+    fn see(&mut self, run: &ShapeRun) {
+        let worst = run.judged.violations.iter().max_by(|a, b| a.1.total_cmp(b.1));
+        let missed = worst.map(|(group, x)| (demand(self.model, *group), *x));
+        let is_less = |x: f64| self.violation.is_none_or(|(_, least)| x < least);
+        self.violation = missed.filter(|(_, x)| is_less(*x)).or(self.violation);
+    }
+
+    pub(crate) fn tell(&mut self, stage: Stage, (done, total): (usize, usize), run: Option<&ShapeRun>) {
+        if let Some(run) = run.filter(|r| r.is_feasible(self.model))
+            && let (Some(o), Some(gain)) = (self.model.objectives.first(), run.judged.gains.first())
+        {
+            let (value, unit) = (gain * self.model.unit(*o), self.model.unit(*o));
+            self.best = Some(match self.best {
+                Some(best) if best * unit.signum() >= value * unit.signum() => best,
+                _ => value,
+            });
+        }
+        let Self { best, violation, .. } = *self;
+        self.model.heed((self.progress)(Progress { stage, done, total, best, violation }));
+    }
+}
+
+/// An end of the first pass.
+struct End {
+    /// In all variables.
+    x: Vec<f64>,
+    run: ShapeRun,
+}
+
+impl End {
+    fn new(model: &Model<'_>, without_axes: bool, run: ShapeRun) -> Self {
+        let mut x = run.x.clone();
+        x.resize(model.shape.start.len(), 0.0);
+        if without_axes {
+            model.aim(&mut x);
+        }
+        Self { x, run }
+    }
+}
+
+/// The ends of the first pass, and what refining some of them taught.
+struct FirstPass {
+    points: Vec<End>,
+    tried: Vec<usize>,
+    /// Poses that refine starts with.
+    poses: Vec<HeldPose>,
+}
+
+impl FirstPass {
+    /// The most promising ends with different values that were not tried yet and promise more than `best`, by their worth over the poses known.
+    fn choose(&self, model: &Model<'_>, task: &Task, best: f64, count: usize) -> Vec<usize> {
+        let mut judge = Judge::over(model, task, self.poses.clone());
+        let worths: Vec<Option<Worth>> =
+            self.points.iter().map(|e| judge.worth(&e.run.x, usize::MAX, None)).collect();
+        let tried: Vec<Worth> = self.tried.iter().filter_map(|k| worths[*k]).collect();
+        let mut order: Vec<(usize, Worth)> =
+            worths.into_iter().enumerate().filter_map(|(k, w)| Some((k, w?))).collect();
+        // the merit of the climbs: an end that misses little at poses it did not know is worth more than a poor one that misses nothing
+        order.sort_by(|a, b| b.1.merit(PENALTY).total_cmp(&a.1.merit(PENALTY)).then(a.0.cmp(&b.0)));
+        let mut chosen: Vec<(usize, Worth)> = Vec::new();
+        for (k, worth) in order {
+            // symmetric platforms have the same optimum many times
+            let known = chosen.iter().map(|c| &c.1).chain(&tried);
+            let is_known = known.into_iter().any(|w| w.is_close(&worth, DISTINCT_GAINS));
+            let promises_more = worth.merit(PENALTY) > best;
+            if chosen.len() < count && promises_more && !is_known {
+                chosen.push((k, worth));
+            }
+        }
+        chosen.into_iter().map(|c| c.0).collect()
+    }
+
+    /// Poses that mattered to refined ends matter to the others.
+    fn learn(&mut self, poses: impl Iterator<Item = HeldPose>) {
+        for at in poses {
+            if !self.poses.contains(&at) {
+                self.poses.push(at);
+            }
+        }
+    }
+}
+
+/// Populations, short climbs from their best members and from mixtures of the ends, and the best ends polished.
+pub(crate) fn search_task(
+    model: &Model<'_>,
+    task: &Task,
+    given: &[Vec<f64>],
+    options: &ShapeSearchOptions,
+    watch: &mut Watch<'_, '_, '_>,
+) -> SearchedShape {
+    let without_axes = model.without_axes();
+    let coarse = without_axes.as_ref().unwrap_or(model);
+    let search = Search { model, coarse, task, options };
+    let (runs, unmet) = search.first_pass(&search.given(given), watch);
+    let (climbed, feasible) = (runs.len(), runs.iter().filter(|r| r.is_feasible(coarse)).count());
+    let mut refined = unmet.unwrap_or_else(|| {
+        let points = runs.into_iter().map(|run| End::new(model, without_axes.is_some(), run)).collect();
+        let ends = FirstPass { poses: model.first_poses(), points, tried: Vec::new() };
+        search.polished(ends, watch)
+    });
+    refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
+    SearchedShape { refined, starts: climbed, feasible }
+}
+
+/// Whether `runs` climbs that led to `ends` different ends let expect no other.
+///
+/// The Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)` for `w` ends of `n` climbs, and no other is expected where that is below `w + 1/2` (Boender, Rinnooy Kan 1987).
+/// Its premise, starts drawn independently, holds for populations apart from each other but not within one.
+pub(super) fn expects_no_other(runs: usize, ends: usize) -> bool {
+    let (n, w) = (runs as f64, ends as f64);
+    n > w + 2.0 && w * (n - 1.0) / (n - w - 2.0) < w + 0.5
+}
+
+/// What the steps of a search for one task share.
+#[derive(Clone, Copy)]
+struct Search<'s, 'a> {
+    model: &'s Model<'a>,
+    /// The model of the first pass: joint axes follow from the legs instead of being variables.
+    coarse: &'s Model<'a>,
+    task: &'s Task,
+    options: &'s ShapeSearchOptions,
+}
+
+impl Search<'_, '_> {
+    /// The points that are given, and the design itself unless its offsets are variables, in the variables of the first pass.
+    fn given(&self, given: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let start = &self.model.shape.start;
+        let mut out: Vec<Vec<f64>> = given.iter().filter(|x| x.len() == start.len()).cloned().collect();
+        if self.model.shape.offset_variables().is_none() {
+            out.push(start.clone());
+        }
+        for x in &mut out {
+            x.truncate(self.coarse.shape.start.len());
+        }
+        out
+    }
+
+    /// The best members of some populations, of which the first of all knows what is given, and what is given itself.
+    fn starts(
+        &self,
+        populations: std::ops::Range<usize>,
+        given: &[Vec<f64>],
+        watch: &mut Watch<'_, '_, '_>,
+    ) -> Vec<SearchStart> {
+        let o = self.options;
+        let (first, last) = (populations.start, populations.end);
+        let given = if first == 0 { given } else { &[] };
+        // the long ones, which are the last of their batches, begin first
+        let number = |i: usize| last - 1 - i;
+        let evolved = |i: usize| {
+            let known = if number(i) == 0 { given } else { &[] };
+            population(self.coarse, self.task, known, number(i), o)
+        };
+        let total = o.populations.max(1);
+        let tick = &mut |done: usize, _: &Vec<SearchStart>| {
+            watch.tell(Stage::Populations, (first + done, total), None);
+        };
+        let mut members = parallel(last - first, o.threads, evolved, tick);
+        members.reverse();
+        let few: Vec<HeldPose> =
+            members.first().and_then(|m| m.first()).map_or(Vec::new(), |s| s.few.clone());
+        let given = given.iter().map(|x| SearchStart { x: x.clone(), few: few.clone() });
+        members.into_iter().flatten().chain(given).collect()
+    }
+
+    /// Short climbs from the best members of the populations, batch after batch while other ends are to be expected, then from mixtures of the ends they led to.
+    ///
+    /// With them, where the requirements are not to be met from anywhere ([`unmet`]), runs towards the least violation: no further climbs are made then.
+    fn first_pass(
+        &self,
+        given: &[Vec<f64>],
+        watch: &mut Watch<'_, '_, '_>,
+    ) -> (Vec<ShapeRun>, Option<Vec<RefinedRun>>) {
+        let populations = self.options.populations.max(1);
+        let mut runs: Vec<ShapeRun> = Vec::new();
+        for first in (0..populations).step_by(LONG_EVERY) {
+            let batch = first..populations.min(first + LONG_EVERY);
+            let starts = self.starts(batch, given, watch);
+            runs.extend(self.climbs(&starts, runs.len(), watch));
+            let ended = self.are_all_found(&runs);
+            let least = if ended { None } else { self.unmet(&runs, watch) };
+            if ended || least.is_some() || self.model.is_stopped() {
+                return (runs, least);
+            }
+        }
+        let mixtures = runs.len().div_ceil(STARTS_PER_MIXTURE);
+        let mut rng = Purpose::MIXTURES.rng(self.options.seed);
+        for _ in 0..GENERATIONS_OF_ENDS {
+            let mut judge = Judge::new(self.coarse, self.task);
+            let ends: Vec<&[f64]> = runs.iter().map(|r| r.x.as_slice()).collect();
+            let trials = offspring(&mut judge, &ends, mixtures, &mut rng);
+            let with_poses = |x: Vec<f64>| SearchStart { few: judge.worst(&x, FEW_POSES), x };
+            let mixed: Vec<SearchStart> = trials.into_iter().map(with_poses).collect();
+            runs.extend(self.climbs(&mixed, runs.len(), watch));
+            if self.are_all_found(&runs) || self.model.is_stopped() {
+                break;
+            }
+        }
+        (runs, None)
+    }
+
+    /// See [`unmet`], asked where no climb met the requirements.
+    fn unmet(&self, runs: &[ShapeRun], watch: &mut Watch<'_, '_, '_>) -> Option<Vec<RefinedRun>> {
+        if runs.iter().any(|r| r.is_feasible(self.coarse)) {
+            return None;
+        }
+        let (model, without_axes) = (self.model, !std::ptr::eq(self.model, self.coarse));
+        let ends: Vec<Vec<f64>> =
+            runs.iter().map(|run| End::new(model, without_axes, run.clone()).x).collect();
+        unmet(model, &ends, self.options.threads, watch)
+    }
+
+    /// Whether hardly another end is to be expected from further climbs; ends count as one by their worth over the same poses.
+    fn are_all_found(&self, runs: &[ShapeRun]) -> bool {
+        let mut judge = Judge::new(self.coarse, self.task);
+        let mut ends: Vec<Worth> = Vec::new();
+        for worth in runs.iter().filter_map(|r| judge.worth(&r.x, usize::MAX, None)) {
+            if !ends.iter().any(|known| known.is_close(&worth, SAME_END)) {
+                ends.push(worth);
+            }
+        }
+        expects_no_other(runs.len(), ends.len())
+    }
+
+    /// A short climb from each start; `known` climbs of `total` were done before.
+    fn climbs(&self, starts: &[SearchStart], known: usize, watch: &mut Watch<'_, '_, '_>) -> Vec<ShapeRun> {
+        let total = known + starts.len();
+        let climbed = |k: usize| rank(self.coarse, self.task, &starts[k]);
+        let tick = &mut |done: usize, run: &ShapeRun| {
+            watch.see(run);
+            watch.tell(Stage::Climbs, (known + done, total), None);
+        };
+        parallel(starts.len(), self.options.threads, climbed, tick)
+    }
+
+    /// The most promising ends polished, batch after batch, while others promise more than the best of them.
+    fn polished(&self, mut ends: FirstPass, watch: &mut Watch<'_, '_, '_>) -> Vec<RefinedRun> {
+        let Self { model, coarse, task, options } = *self;
+        let has_objective = task.weights.iter().any(|w| *w > 0.0);
+        let adding = if has_objective { Adding::UntilNoneIsWorse } else { Adding::WhileMet };
+        let mut refined: Vec<RefinedRun> = Vec::new();
+        for _ in 0..BATCHES {
+            let gains = refined.iter().filter(|r| r.run.is_feasible(model)).map(|r| r.run.judged.gain(task));
+            let best = gains.fold(f64::NEG_INFINITY, f64::max);
+            let batch = ends.choose(coarse, task, best, options.polished.max(1));
+            let polish = |i: usize| {
+                let end = &ends.points[batch[i]];
+                let refined = refine_adding(adding, model, task, &end.x, ends.poses.clone(), options.seed);
+                RefinedRun { run: refined.run.after(end.run.history.clone()), ..refined }
+            };
+            let size = batch.len();
+            let tick =
+                &mut |done: usize, r: &RefinedRun| watch.tell(Stage::Polishing, (done, size), Some(&r.run));
+            let found = parallel(size, options.threads, polish, tick);
+            ends.tried.extend(batch);
+            ends.learn(found.iter().flat_map(|r| r.poses.iter().copied()));
+            refined.extend(found);
+            if size == 0 || model.is_stopped() {
+                break;
+            }
+        }
+        refined
+    }
+}
+
+/// Finds the best platform that meets the requirements; `docs/theory/dimensional-synthesis.md` has the method.
+///
+/// `given` are further starts, in the variables of [`super::DimensionalSolution::point`]. The answer is a local optimum, the best of all starts.
+/// Requirements hold at the held poses, to which the worst ones found between them were added until none was worse;
+/// [`crate::machine::requirements::assess`] checks that with formulas of its own.
+///
+/// # Errors
+/// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
+pub fn optimize(
+    problem: &DimensionalProblem,
+    given: &[Vec<f64>],
+    options: &ShapeSearchOptions,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<DimensionalReport, InvalidProblem> {
+    searched(problem, given, options, true, progress)
+}
+
+/// As [`optimize`], for a question that is asked again in another way where nothing is found: where no run meets the requirements no conflict is looked for, and the outcome is
+/// undecided.
+///
+/// # Errors
+/// As [`optimize`].
+pub(crate) fn optimize_without_conflict(
+    problem: &DimensionalProblem,
+    options: &ShapeSearchOptions,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<DimensionalReport, InvalidProblem> {
+    searched(problem, &[], options, false, progress)
+}
+
+/// Why a problem cannot be asked; `None` where it can.
+pub(crate) fn why_not(problem: &DimensionalProblem) -> Option<InvalidProblem> {
+    Model::new(problem).err()
+}
+
+/// See [`optimize`]; `explains`: a conflict is looked for where no run meets the requirements.
+fn searched(
+    problem: &DimensionalProblem,
+    given: &[Vec<f64>],
+    options: &ShapeSearchOptions,
+    explains: bool,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<DimensionalReport, InvalidProblem> {
+    let model = Model::new(problem)?;
+    let task = first_task(problem);
+    let mut watch = Watch::new(&model, progress);
+    let SearchedShape { refined, starts, feasible } = search_task(&model, &task, given, options, &mut watch);
+    let polished =
+        refined.iter().map(|r| r.run.is_feasible(&model).then(|| r.run.judged.gain(&task))).collect();
+    let Conclusion { outcome, nearest, others } =
+        concluded(&model, task, refined, (options, explains), &mut watch);
+    let (seed, interrupted) = (options.seed, model.is_stopped());
+    Ok(DimensionalReport { outcome, starts, feasible, nearest, others, polished, seed, interrupted })
+}
+
+/// A platform that meets the requirements of a problem at the poses that the search holds, a local optimum; `None` where no run meets them.
+///
+/// That they are met is what is looked for, without an objective; the objectives are climbed for from the platform found. `known` are values of variables by their names, from
+/// which the first run starts: those of a problem with fewer variables, for instance.
+///
+/// # Errors
+/// As [`optimize`].
+pub(crate) fn meet(
+    problem: &DimensionalProblem,
+    known: &[ChosenVariable],
+    options: &ShapeSearchOptions,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Option<DimensionalSolution>, InvalidProblem> {
+    let model = Model::new(problem)?;
+    let (task, plain) = (first_task(problem), no_objective(&model, Vec::new()));
+    let mut start = model.shape.start.clone();
+    for (x, name) in start.iter_mut().zip(&model.shape.names) {
+        if let Some(known) = known.iter().find(|v| v.name == *name) {
+            *x = known.value;
+        }
+    }
+    let mut watch = Watch::new(&model, progress);
+    let (poses, seed) = (model.first_poses(), options.seed);
+    let first = refine_adding(Adding::WhileMet, &model, &plain, &start, poses, seed);
+    watch.see(&first.run);
+    let met = if first.run.is_feasible(&model) {
+        Some(first)
+    } else {
+        let found = search_task(&model, &plain, &[start], options, &mut watch);
+        found.refined.into_iter().next().filter(|r| r.run.is_feasible(&model))
+    };
+    let Some(met) = met else { return Ok(None) };
+    let best = refine(&model, &task, &met.run.x, met.poses.clone(), seed);
+    let best = if best.run.is_feasible(&model) { &best } else { &met };
+    Ok(solution(&model, &task, best))
+}
+
+/// What polished runs lead to.
+struct Conclusion {
+    outcome: DimensionalOutcome,
+    /// The platform with the least violation, where none meets the requirements.
+    nearest: Option<Box<DimensionalSolution>>,
+    /// See [`DimensionalReport::others`].
+    others: Vec<DimensionalSolution>,
+}
+
+/// The answer that the polished runs of the first task lead to.
+fn concluded(
+    model: &Model<'_>,
+    task: Task,
+    mut refined: Vec<RefinedRun>,
+    (options, explains): (&ShapeSearchOptions, bool),
+    watch: &mut Watch<'_, '_, '_>,
+) -> Conclusion {
+    let is_met = |refined: &[RefinedRun]| refined.first().is_some_and(|r| r.run.is_feasible(model));
+    let unmet = |outcome, refined: &[RefinedRun]| {
+        let nearest = refined.first().and_then(|r| solution(model, &task, r)).map(Box::new);
+        Conclusion { outcome, nearest, others: Vec::new() }
+    };
+    if refined.is_empty() || !is_met(&refined) && model.is_stopped() {
+        return unmet(DimensionalOutcome::Undecided(None), &refined);
+    }
+    if !is_met(&refined)
+        && let Some(conflict) = met_or_conflict(model, &task, &mut refined, (options, explains), watch)
+    {
+        return unmet(DimensionalOutcome::Infeasible(conflict), &refined);
+    }
+    if !is_met(&refined) {
+        return unmet(DimensionalOutcome::Undecided(refined[0].run.failure), &refined);
+    }
+    let (last_task, refined) = match model.problem.mode {
+        Mode::Lexicographic { slack } => through_levels(model, task, refined, slack, options, watch),
+        Mode::Weighted => (task, refined),
+    };
+    let others = other_optima(model, &last_task, &refined);
+    let others = others.into_iter().filter_map(|r| solution(model, &last_task, r)).collect();
+    Conclusion { outcome: outcome(model, &last_task, &refined[0]), nearest: None, others }
+}
+
+/// Runs that meet the requirements, best first, and end elsewhere than the first and each other.
+fn other_optima<'r>(model: &Model<'_>, task: &Task, refined: &'r [RefinedRun]) -> Vec<&'r RefinedRun> {
+    let others = refined.iter().skip(1).filter(|r| r.run.is_feasible(model));
+    let mut kept = distinct(refined.iter().take(1).chain(others), |r| r.run.judged.gain(task));
+    kept.split_off(kept.len().min(1))
+}
+
+/// Runs whose ends differ, the first of each end kept. Ends with one value count as one, because symmetric platforms have the same end many times, and so do ends with nearly the same variables,
+/// which are one end approached from two sides.
+pub(super) fn distinct<'r>(
+    runs: impl Iterator<Item = &'r RefinedRun>,
+    value: impl Fn(&RefinedRun) -> f64,
+) -> Vec<&'r RefinedRun> {
+    let is_one = |a: &RefinedRun, b: &RefinedRun| {
+        is_close(value(a), value(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT_STARTS)
+    };
+    let mut kept: Vec<&RefinedRun> = Vec::new();
+    for run in runs {
+        if !kept.iter().any(|known| is_one(known, run)) {
+            kept.push(run);
+        }
+    }
+    kept
+}
+
+/// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is returned where one `explains`. Runs that only lessen
+/// the violation take their places among the others.
+fn met_or_conflict(
+    model: &Model<'_>,
+    task: &Task,
+    refined: &mut Vec<RefinedRun>,
+    (options, explains): (&ShapeSearchOptions, bool),
+    watch: &mut Watch<'_, '_, '_>,
+) -> Option<ConstraintConflict> {
+    let settled = elastic(model, task, refined, options.threads, watch);
+    let mut met = settled.iter().find(|r| r.run.is_feasible(model)).cloned();
+    if met.is_none() && !explains {
+        among(model, task, refined, settled);
+        return None;
+    }
+    if met.is_none() {
+        match conflict(model, &settled, options, watch) {
+            Clash::Conflict(conflict) => {
+                among(model, task, refined, settled);
+                return Some(conflict);
+            }
+            Clash::Met(refined) => met = Some(*refined),
+            Clash::Unsettled => among(model, task, refined, settled),
+        }
+    }
+    if let Some(met) = met {
+        refined.insert(0, refine(model, task, &met.run.x, met.poses, options.seed));
+        refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
+    }
+    None
+}
+
+/// Puts runs among others, best first.
+fn among(model: &Model<'_>, task: &Task, refined: &mut Vec<RefinedRun>, more: Vec<RefinedRun>) {
+    refined.extend(more);
+    refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
+}
+
+/// One objective after the other, each run giving up no more than a share `slack` of those before; the last task and its runs.
+fn through_levels(
+    model: &Model<'_>,
+    mut task: Task,
+    mut refined: Vec<RefinedRun>,
+    slack: f64,
+    options: &ShapeSearchOptions,
+    watch: &mut Watch<'_, '_, '_>,
+) -> (Task, Vec<RefinedRun>) {
+    let levels = model.problem.objectives.len();
+    for level in 1..levels {
+        let gain = refined[0].run.judged.gains[level - 1];
+        task.floors[level - 1] = Some(gain - slack * gain.abs());
+        task.weights = (0..levels).map(|m| f64::from(u8::from(m == level))).collect();
+        let again = |k: usize| {
+            let from = &refined[k];
+            refine(model, &task, &from.run.x, from.poses.clone(), options.seed)
+        };
+        let total = refined.len();
+        let tick =
+            &mut |done: usize, r: &RefinedRun| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
+        let next = parallel(total, options.threads, again, tick);
+        refined = next;
+        refined.sort_by(|a, b| better(model, &task, &a.run, &b.run));
+    }
+    (task, refined)
+}

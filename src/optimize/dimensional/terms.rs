@@ -1,0 +1,616 @@
+//! The requirements as functions of the legs, positive where they are met, with gradients.
+//!
+//! Lengths are in sizes of the design, forces and speeds in their limits, swing as `(d . c - cos(limit) |d|) / size`, which is smooth and,
+//! for a given axis and a limit below 90 degrees, concave in `d`. These are not the formulas of `requirements`, which checks the outcome.
+
+use nalgebra::{Vector3, Vector6};
+
+use super::leg_gaps::Gap;
+use super::leg_lines::{LegLines, inverse_of_columns, leg_forces};
+use super::plates::{PlacedPlate, PlateModel};
+use super::pull::Gradient;
+use super::shape::{JointEnds, LegJoints, Shape};
+use super::stiffness::{self, RayleighQuotient};
+use crate::machine::requirements;
+use crate::machine::requirements::{
+    Envelope, HingeAngle, Housing, JointAxes, KeepOut, Requirements, Swing, TermKind,
+};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Body;
+
+/// Which requirement: kind, leg (joint), other leg (joint, keep-out, load), part.
+pub(crate) type TermId = (TermKind, usize, usize, usize);
+
+/// A convex form of `value >= 0`: the head at least the norm of the line of the leg, both divided by the size.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum ConvexForm {
+    /// `greatest >= |d|`.
+    Length { leg: usize, greatest: f64 },
+    /// `d . c / cos(limit) >= |d|` for a given axis (base frame).
+    Swing { leg: usize, axis: Vector3<f64>, cos: f64 },
+}
+
+/// A requirement at a pose.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Item<P> {
+    pub(crate) id: TermId,
+    pub(crate) value: f64,
+    pub(crate) pull: P,
+    pub(crate) exact: Option<ConvexForm>,
+}
+
+/// What the requirements are evaluated with besides the legs.
+#[derive(Debug, Clone)]
+pub(crate) struct RequirementTerms<'a> {
+    pub(crate) required: &'a Requirements,
+    pub(crate) size: f64,
+    pub(crate) home: Pose,
+    /// Base and platform joint of each leg.
+    pub(crate) joints: LegJoints,
+    /// First variables of chosen axes.
+    pub(crate) axes: [Option<usize>; 2],
+    plates: Vec<PlateModel<'a>>,
+}
+
+/// Value with which a singular pose violates the limits of forces, in limits.
+const SINGULAR_FORCE: f64 = -10.0;
+
+impl<'a> RequirementTerms<'a> {
+    pub(crate) fn new(required: &'a Requirements, size: f64, home: Pose, shape: &Shape) -> Self {
+        let plate = |body: Body| {
+            let joints = shape.joints.map(|p| body.of(p));
+            let plate = required.plates.of(body)?;
+            let others = shape.joints_without_legs(body);
+            Some(PlateModel::new(plate, body, &required.hardware, joints, others, size))
+        };
+        let plates = Body::BOTH.into_iter().filter_map(plate).collect();
+        Self { required, size, home, joints: shape.joints, axes: shape.axes, plates }
+    }
+
+    /// The plates under the joints, on the far side of them from the legs at home.
+    fn placed_plates(&self, ends: &JointEnds) -> impl Iterator<Item = PlacedPlate<'_>> {
+        let line =
+            |i: usize| self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
+        let towards: Vector3<f64> = (0..6).map(line).sum();
+        let (ends, home) = (*ends, self.home.rotation);
+        self.plates.iter().map(move |plate| match plate.body {
+            Body::Base => plate.place(&ends, &towards),
+            Body::Platform => plate.place(&ends, &-(home.inverse() * towards)),
+        })
+    }
+
+    /// Every requirement at a pose.
+    pub(crate) fn visit<P: Gradient>(
+        &self,
+        l: &LegLines,
+        ends: &JointEnds,
+        x: &[f64],
+        see: &mut impl FnMut(Item<P>),
+    ) {
+        self.lengths(l, see);
+        self.swing(l, ends, x, see);
+        self.hinges(l, ends, see);
+        self.leg_clearances(l, see);
+        self.keep_outs(l, see);
+        self.payload_clearances(l, see);
+        self.plate_clearances(l, ends, see);
+        self.forces(l, see);
+        self.speeds(l, see);
+        self.machine(l, see);
+        self.stiffness(l, see);
+    }
+
+    /// The requirements at a pose among which are those of a kind, a leg and another leg (keep-out, load), by a small part of the work of [`visit`](Self::visit): what is computed together with
+    /// them is seen too.
+    pub(crate) fn visit_some<P: Gradient>(
+        &self,
+        l: &LegLines,
+        (ends, x): (&JointEnds, &[f64]),
+        (kind, first, second): (TermKind, usize, usize),
+        see: &mut impl FnMut(Item<P>),
+    ) {
+        match kind {
+            TermKind::LegTooShort | TermKind::LegTooLong => self.lengths(l, see),
+            TermKind::BaseSwing | TermKind::PlatformSwing => self.swing(l, ends, x, see),
+            kind if kind.hinge().is_some() => self.hinges(l, ends, see),
+            TermKind::LegClearance => self.leg_clearance(l, (first, second), see),
+            TermKind::LegForce => self.forces(l, see),
+            TermKind::LegSpeed => self.speeds(l, see),
+            TermKind::MachineEnvelope => self.machine(l, see),
+            kind if kind.is_of_platform() => self.stiffness(l, see),
+            _ => self.visit(l, ends, x, see),
+        }
+    }
+
+    /// Stiffness over the least one asked for, and half of the square of the natural frequency over its least one, each less what it has to be.
+    fn stiffness<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        let Some(wanted) = self.required.platform_stiffness else { return };
+        let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
+        let of = |kind, least: f64| 1.0 + self.required.reserve(kind) / least;
+        for (kind, least, about_torques) in [
+            (TermKind::LinearStiffness, wanted.linear, false),
+            (TermKind::AngularStiffness, wanted.angular, true),
+        ] {
+            let Some(least) = least else { continue };
+            let found = stiffness::stiffness(l, self.size, about_torques);
+            quotients(kind, found, leg / least, of(kind, least), see);
+        }
+        if let (Some(least), Some(masses)) = (wanted.natural_frequency, &self.required.vibrating) {
+            let kind = TermKind::NaturalFrequency;
+            let found = stiffness::frequencies(l, self.size, masses);
+            let (omega, kept) = (least * std::f64::consts::TAU, of(kind, least));
+            quotients(kind, found, 0.5 / (omega * omega), 0.5 * kept * kept, see);
+        }
+    }
+
+    fn lengths<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        let Some(limits) = self.required.hardware.leg_length else { return };
+        let (least, greatest) = limits.range();
+        let least = least + self.required.reserve(TermKind::LegTooShort);
+        let greatest = greatest - self.required.reserve(TermKind::LegTooLong);
+        for i in 0..6 {
+            let mut pull = P::none();
+            pull.line(i, l.direction[i] / self.size);
+            let short = (l.length[i] - least) / self.size;
+            see(Item { id: (TermKind::LegTooShort, i, i, 0), value: short, pull, exact: None });
+            let exact = Some(ConvexForm::Length { leg: i, greatest });
+            let long = (greatest - l.length[i]) / self.size;
+            see(Item { id: (TermKind::LegTooLong, i, i, 0), value: long, pull: pull.scaled(-1.0), exact });
+        }
+    }
+
+    fn swing<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, x: &[f64], see: &mut impl FnMut(Item<P>)) {
+        let h = &self.required.hardware;
+        let bodies = [(TermKind::BaseSwing, h.base_swing), (TermKind::PlatformSwing, h.platform_swing)];
+        for (body, (kind, swing)) in bodies.into_iter().enumerate() {
+            let Some(swing) = swing else { continue };
+            for i in 0..6 {
+                see(self.swing_of(l, ends, x, (body, kind, i), &swing));
+            }
+        }
+    }
+
+    fn swing_of<P: Gradient>(
+        &self,
+        l: &LegLines,
+        ends: &JointEnds,
+        x: &[f64],
+        (body, kind, i): (usize, TermKind, usize),
+        swing: &Swing,
+    ) -> Item<P> {
+        let cos = (swing.limits_deg[i] - self.required.reserve(kind)).to_radians().cos();
+        let here = |c: &Vector3<f64>| if body == 0 { *c } else { l.rotation * c };
+        let back = |g: &Vector3<f64>| if body == 0 { *g } else { l.rotation.inverse() * g };
+        let mut pull = P::none();
+        let d = &l.line[i];
+        let (axis, exact) = match (self.axes[body], swing.axes) {
+            (Some(first), _) => {
+                let c = Vector3::from_fn(|k, _| x[first + 3 * i + k]);
+                pull.set_axis(body, i, back(d) / self.size);
+                (here(&c), None)
+            }
+            (None, JointAxes::Given(axes)) => {
+                let c = here(&axes[i]);
+                (c, (cos > 0.0).then_some(ConvexForm::Swing { leg: i, axis: c, cos }))
+            }
+            (None, _) => {
+                // along the leg at home, which moves with the joints
+                let line =
+                    self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
+                let turn =
+                    |v: &Vector3<f64>| here(&if body == 0 { *v } else { self.home.rotation.inverse() * v });
+                let unturn = |g: &Vector3<f64>| {
+                    let g = back(g);
+                    if body == 0 { g } else { self.home.rotation * g }
+                };
+                let u = line.normalize();
+                let g = unturn(d);
+                pull.set_home(i, (g - u * u.dot(&g)) / (line.norm() * self.size));
+                (turn(&u), None)
+            }
+        };
+        pull.line(i, (axis - l.direction[i] * cos) / self.size);
+        Item { id: (kind, i, i, 0), value: (d.dot(&axis) - cos * l.length[i]) / self.size, pull, exact }
+    }
+
+    /// Angles of universal joints: `(d.n - cos(limit) |d'|) / size` for the first, `d'` the part of the line across the first axis, and `(sin(limit) |d| -+ d.a) / size` for both sides of the
+    /// second.
+    fn hinges<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+        let hardware = &self.required.hardware;
+        for kind in TermKind::HINGES {
+            let Some((body, angle)) = kind.hinge() else { continue };
+            let Some(joint) = hardware.universal(body) else { continue };
+            for i in 0..6 {
+                let (Some(limit), Some(first)) = (hardware.angle_limit_deg(kind, i), joint.first_axes[i])
+                else {
+                    continue;
+                };
+                let limit = (limit - self.required.reserve(kind)).to_radians();
+                let first = first.into_inner();
+                match angle {
+                    HingeAngle::First => {
+                        see(self.first_angle_of(l, ends, (body, kind, i), (first, joint.axes), limit));
+                    }
+                    HingeAngle::Second => {
+                        let first = if body == Body::Base { first } else { l.rotation * first };
+                        for (part, side) in [1.0, -1.0].into_iter().enumerate() {
+                            let value = limit.sin() * l.length[i] - side * l.line[i].dot(&first);
+                            let mut pull = P::none();
+                            pull.line(i, (l.direction[i] * limit.sin() - first * side) / self.size);
+                            see(Item { id: (kind, i, i, part), value: value / self.size, pull, exact: None });
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn first_angle_of<P: Gradient>(
+        &self,
+        l: &LegLines,
+        ends: &JointEnds,
+        (body, kind, i): (Body, TermKind, usize),
+        (first, rest_axes): (Vector3<f64>, JointAxes),
+        limit: f64,
+    ) -> Item<P> {
+        let (turn, home) = if body == Body::Base {
+            (nalgebra::Rotation3::identity(), nalgebra::Rotation3::identity())
+        } else {
+            (l.rotation, self.home.rotation)
+        };
+        // everything in the frame of the body
+        let across = |v: &Vector3<f64>| first.cross(&v.cross(&first));
+        let d = turn.inverse() * l.line[i];
+        let aside = across(&d);
+        let at_home = self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
+        let axis = match rest_axes {
+            JointAxes::Given(axes) => axes[i].into_inner(),
+            JointAxes::Home | JointAxes::Optimize => home.inverse() * at_home.normalize(),
+        };
+        let spread = across(&axis);
+        let id = (kind, i, i, 0);
+        let Some(rest) = spread.try_normalize(0.0) else {
+            // no rest direction: as far from it as an angle can be
+            let value = -(1.0 + limit.cos()) * aside.norm() / self.size;
+            return Item { id, value, pull: P::none(), exact: None };
+        };
+        let mut pull = P::none();
+        if !matches!(rest_axes, JointAxes::Given(_)) {
+            let g = home * ((aside - rest * rest.dot(&aside)) / spread.norm());
+            let u = at_home.normalize();
+            pull.set_home(i, (g - u * u.dot(&g)) / (at_home.norm() * self.size));
+        }
+        let away = aside.try_normalize(0.0).unwrap_or_default();
+        pull.line(i, turn * (rest - away * limit.cos()) / self.size);
+        let value = d.dot(&rest) - limit.cos() * aside.norm();
+        Item { id, value: value / self.size, pull, exact: None }
+    }
+
+    /// The length of the part of a leg across the first axis of its universal joint.
+    pub(crate) fn across_first_axis(&self, l: &LegLines, body: Body, leg: usize) -> f64 {
+        let joint = self.required.hardware.universal(body);
+        let Some(first) = joint.and_then(|joint| joint.first_axes[leg]) else { return l.length[leg] };
+        let first = first.into_inner();
+        let first = if body == Body::Base { first } else { l.rotation * first };
+        first.cross(&l.line[leg]).norm()
+    }
+
+    fn leg_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        for (i, j) in self.separate_legs() {
+            self.leg_clearance(l, (i, j), see);
+        }
+    }
+
+    fn leg_clearance<P: Gradient>(
+        &self,
+        l: &LegLines,
+        (i, j): (usize, usize),
+        see: &mut impl FnMut(Item<P>),
+    ) {
+        let h = &self.required.hardware;
+        let Some(body) = h.leg_body else { return };
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(TermKind::LegClearance);
+        l.leg_gaps(&body, i, j, &mut |gap: Gap<P>| {
+            see(Item {
+                id: (TermKind::LegClearance, i, j, gap.part),
+                value: (gap.value - clearance) / self.size,
+                pull: gap.pull.scaled(1.0 / self.size),
+                exact: None,
+            });
+        });
+    }
+
+    fn keep_outs<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
+            for i in 0..6 {
+                self.shape_clearance(l, (TermKind::KeepOut, i, k), keep_out, see);
+            }
+        }
+    }
+
+    fn payload_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        let Some(shape) = self.required.payload_shape else { return };
+        let payload = KeepOut { name: String::new(), fixed_to: Body::Platform, shape };
+        for i in 0..6 {
+            self.shape_clearance(l, (TermKind::PayloadClearance, i, i), &payload, see);
+        }
+    }
+
+    fn shape_clearance<P: Gradient>(
+        &self,
+        l: &LegLines,
+        (kind, i, k): (TermKind, usize, usize),
+        shape: &KeepOut,
+        see: &mut impl FnMut(Item<P>),
+    ) {
+        let h = &self.required.hardware;
+        let Some(body) = h.leg_body else { return };
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
+        l.keep_out_gaps(&body, i, shape, &mut |gap: Gap<P>| {
+            see(Item {
+                id: (kind, i, k, gap.part),
+                value: (gap.value - clearance) / self.size,
+                pull: gap.pull.scaled(1.0 / self.size),
+                exact: None,
+            });
+        });
+    }
+
+    /// Legs clear of both plates: at the plate of an end a leg counts from the housing of its joint on.
+    fn plate_clearances<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+        let h = &self.required.hardware;
+        let Some(leg_body) = h.leg_body else { return };
+        let kind = TermKind::PlateClearance;
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
+        for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
+            for i in 0..6 {
+                let reach = h.joint_reach(model.body, i);
+                plate.clearances(l, (&leg_body, i, reach), &mut |part, gap, pull: P| {
+                    see(Item {
+                        id: (kind, i, model.body.index(), part),
+                        value: (gap - clearance) / self.size,
+                        pull: pull.scaled(1.0 / self.size),
+                        exact: None,
+                    });
+                });
+            }
+        }
+    }
+
+    /// Pairs of legs without a common joint.
+    pub(crate) fn separate_legs(&self) -> impl Iterator<Item = (usize, usize)> {
+        let joints = self.joints;
+        (0..6)
+            .flat_map(|i| (i + 1..6).map(move |j| (i, j)))
+            .filter(move |&(i, j)| joints[i].0 != joints[j].0 && joints[i].1 != joints[j].1)
+    }
+
+    fn forces<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        let Some(greatest) = self.required.hardware.max_leg_force else { return };
+        let kept = 1.0 - self.required.reserve(TermKind::LegForce) / greatest;
+        let inverse = inverse_of_columns(l, self.size);
+        for (k, load) in self.required.loads.iter().enumerate() {
+            let forces = leg_forces(l, inverse.as_ref(), load, self.size);
+            for i in 0..6 {
+                let id = (TermKind::LegForce, i, k, 0);
+                let item = match &forces {
+                    Some(f) => {
+                        let (value, pull): (f64, P) = f.of(l, i, self.size);
+                        let factor = -value.signum() / greatest;
+                        Item {
+                            id,
+                            value: kept - value.abs() / greatest,
+                            pull: pull.scaled(factor),
+                            exact: None,
+                        }
+                    }
+                    None => Item { id, value: SINGULAR_FORCE, pull: P::none(), exact: None },
+                };
+                see(item);
+            }
+        }
+    }
+
+    fn speeds<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        let (Some(greatest), Some(speed)) =
+            (self.required.hardware.max_leg_speed, self.required.platform_speed)
+        else {
+            return;
+        };
+        let rate = speed.angular_deg.to_radians();
+        let kept = 1.0 - self.required.reserve(TermKind::LegSpeed) / greatest;
+        for i in 0..6 {
+            let moment = l.arm[i].cross(&l.direction[i]);
+            let mut pull = P::none();
+            if let Some(n) = moment.try_normalize(0.0) {
+                let g = Vector6::from_fn(|k, _| if k < 3 { 0.0 } else { -rate / greatest * n[k - 3] });
+                l.pull_row(&mut pull, i, 1.0, &g);
+            }
+            let value = kept - (speed.linear + rate * moment.norm()) / greatest;
+            see(Item { id: (TermKind::LegSpeed, i, i, 0), value, pull, exact: None });
+        }
+    }
+
+    /// Requirements without a pose: gaps of housings and distances of joint centres.
+    pub(crate) fn fixed<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+        for (kind, body) in [(TermKind::BaseSpacing, Body::Base), (TermKind::PlatformSpacing, Body::Platform)]
+        {
+            let reserve = self.required.reserve(kind);
+            for (i, j) in self.separate_housings(body) {
+                let at = body.of((&ends.base, &ends.platform));
+                let d = at[j] - at[i];
+                let gaps = [
+                    self.required.min_joint_distance.map(|least| sphere_gap(&d, least)),
+                    self.housings(body, i, j).map(|pair| housing_gap(&pair, &d)),
+                ];
+                for (part, (value, g)) in gaps.into_iter().enumerate().filter_map(|(k, g)| Some((k, g?))) {
+                    let pull = joint_pull(body, i, j, &(g / self.size));
+                    let value = (value - reserve) / self.size;
+                    see(Item { id: (kind, i, j, part), value, pull, exact: None });
+                }
+            }
+        }
+        self.patterns(ends, see);
+        self.plates(ends, see);
+    }
+
+    /// Holes of the plates: far enough from outlines and from each other.
+    fn patterns<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+        for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
+            let edge = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
+            let gap = model.body.of((TermKind::BaseHoleGap, TermKind::PlatformHoleGap));
+            plate.edges(self.required.reserve(edge), see);
+            plate.gaps(self.required.reserve(gap), see);
+        }
+    }
+
+    /// Joints inside the envelope of their body.
+    fn plates<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+        let envelopes = &self.required.envelopes;
+        let bodies = [
+            (TermKind::BaseEnvelope, Body::Base, envelopes.base),
+            (TermKind::PlatformEnvelope, Body::Platform, envelopes.platform),
+        ];
+        for (kind, body, envelope) in bodies {
+            let Some(envelope) = envelope else { continue };
+            let reserve = self.required.reserve(kind);
+            let at = body.of((&ends.base, &ends.platform));
+            for i in self.different_housings(body) {
+                let (half, ball) = requirements::room(self.required.hardware.housing(body, i));
+                room_inside(&envelope, &at[i], &half, &mut |part, value, g| {
+                    let mut pull = P::none();
+                    match body {
+                        Body::Base => pull.at_base(i, &(g / self.size)),
+                        Body::Platform => pull.at_arm(i, &(g / self.size)),
+                    }
+                    let value = (value - ball - reserve) / self.size;
+                    see(Item { id: (kind, i, i, part), value, pull, exact: None });
+                });
+            }
+        }
+    }
+
+    /// Both ends of each leg inside the envelope of the machine.
+    fn machine<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        let Some(envelope) = self.required.envelopes.machine else { return };
+        let kind = TermKind::MachineEnvelope;
+        let reserve = self.required.reserve(kind);
+        for i in 0..6 {
+            for body in Body::BOTH {
+                let ball = requirements::ball(self.required.hardware.housing(body, i));
+                let at = body.of((l.base[i], l.base[i] + l.line[i]));
+                room_inside(&envelope, &at, &Vector3::zeros(), &mut |part, value, g| {
+                    let (mut pull, g) = (P::none(), g / self.size);
+                    match body {
+                        Body::Base => pull.at_base(i, &g),
+                        Body::Platform => {
+                            pull.at_arm(i, &g);
+                            pull.at_position(&g);
+                        }
+                    }
+                    let value = (value - ball - reserve) / self.size;
+                    see(Item { id: (kind, i, body.index(), part), value, pull, exact: None });
+                });
+            }
+        }
+    }
+
+    /// Pairs of legs that stand for pairs of different joints of a body, each pair of joints once.
+    pub(crate) fn separate_joints(&self, body: Body) -> Vec<(usize, usize)> {
+        let joint = self.joints.map(|p| body.of(p));
+        let firsts: Vec<usize> = (0..6).filter(|&i| !joint[..i].contains(&joint[i])).collect();
+        let pairs = firsts.iter().enumerate();
+        pairs.flat_map(|(n, &i)| firsts[n + 1..].iter().map(move |&j| (i, j))).collect()
+    }
+
+    /// Legs that stand for the housings of a body, each housing about a joint once.
+    fn different_housings(&self, body: Body) -> Vec<usize> {
+        let of = |i: usize| (body.of(self.joints[i]), self.required.hardware.housing(body, i));
+        (0..6).filter(|&i| (0..i).all(|k| of(k) != of(i))).collect()
+    }
+
+    /// Pairs of legs that stand for pairs of housings about different joints of a body, each pair once.
+    fn separate_housings(&self, body: Body) -> Vec<(usize, usize)> {
+        let legs = self.different_housings(body);
+        let pairs = legs.iter().enumerate();
+        let pairs = pairs.flat_map(|(n, &i)| legs[n + 1..].iter().map(move |&j| (i, j)));
+        pairs.filter(|&(i, j)| body.of(self.joints[i]) != body.of(self.joints[j])).collect()
+    }
+
+    /// The housings of the joints of two legs, where one of them has one.
+    fn housings(&self, body: Body, i: usize, j: usize) -> Option<[Housing; 2]> {
+        let hardware = &self.required.hardware;
+        Housing::pair(hardware.housing(body, i), hardware.housing(body, j))
+    }
+}
+
+/// `factor` times each quotient, less what it has to be; without quotients the pose is singular and there is no stiffness.
+fn quotients<P: Gradient>(
+    kind: TermKind,
+    found: Option<Vec<RayleighQuotient<P>>>,
+    factor: f64,
+    wanted: f64,
+    see: &mut impl FnMut(Item<P>),
+) {
+    let none = vec![RayleighQuotient { value: 0.0, pull: P::none() }];
+    for (part, q) in found.unwrap_or(none).into_iter().enumerate() {
+        let value = q.value * factor - wanted;
+        see(Item { id: (kind, 0, 0, part), value, pull: q.pull.scaled(factor), exact: None });
+    }
+}
+
+/// Gradient of the difference of joints `j - i` of a body at the identity rotation.
+pub(crate) fn joint_pull<P: Gradient>(body: Body, i: usize, j: usize, g: &Vector3<f64>) -> P {
+    let mut pull = P::none();
+    for (leg, g) in [(i, -g), (j, *g)] {
+        match body {
+            Body::Base => pull.at_base(leg, &g),
+            Body::Platform => pull.at_arm(leg, &g),
+        }
+    }
+    pull
+}
+
+/// Room of a point with half extents along the axes to a cylinder, or to each side of a box, and its gradient.
+fn room_inside(
+    envelope: &Envelope,
+    at: &Vector3<f64>,
+    half: &Vector3<f64>,
+    see: &mut impl FnMut(usize, f64, Vector3<f64>),
+) {
+    match envelope {
+        Envelope::Cylinder { radius, center } => {
+            let d = Vector3::new(at.x - center[0], at.y - center[1], 0.0);
+            let corner = Vector3::new(d.x.abs() + half.x, d.y.abs() + half.y, 0.0);
+            let out = corner.try_normalize(0.0).unwrap_or_default();
+            see(0, radius - corner.norm(), Vector3::new(-out.x * d.x.signum(), -out.y * d.y.signum(), 0.0));
+        }
+        Envelope::Box { min, max } => {
+            for k in 0..3 {
+                see(2 * k, at[k] - min[k] - half[k], Vector3::ith(k, 1.0));
+                see(2 * k + 1, max[k] - at[k] - half[k], Vector3::ith(k, -1.0));
+            }
+        }
+    }
+}
+
+fn sphere_gap(d: &Vector3<f64>, diameter: f64) -> (f64, Vector3<f64>) {
+    (d.norm() - diameter, d.try_normalize(0.0).unwrap_or_else(Vector3::x))
+}
+
+/// Gap of two housings and its gradient ([`Housing::gap`]): outside the distance, inside minus the shortest way out.
+fn housing_gap([a, b]: &[Housing; 2], d: &Vector3<f64>) -> (f64, Vector3<f64>) {
+    let ((half, ball), (other_half, other_ball)) =
+        (requirements::room(Some(*a)), requirements::room(Some(*b)));
+    let balls = ball + other_ball;
+    if let (Housing::Sphere(_), Housing::Sphere(_)) = (a, b) {
+        return sphere_gap(d, balls);
+    }
+    let g = d.abs() - (half + other_half);
+    let out = Vector3::from_fn(|k, _| g[k].max(0.0) * d[k].signum());
+    if g.max() > 0.0 {
+        return (out.norm() - balls, out.normalize());
+    }
+    let k = g.imax();
+    (g[k] - balls, Vector3::ith(k, d[k].signum()))
+}

@@ -1,0 +1,333 @@
+//! Poses at which a requirement is met least: they are held from then on.
+//!
+//! A look goes pose after pose, so that it can end as soon as the point is known to be no better than another.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector6;
+
+use super::leg_lines::{HeldPose, LegLines};
+use super::merit::{Merit, MeritPiece};
+use super::model::{ConstraintGroup, Model, Task};
+use super::shape::JointEnds;
+use super::terms::Item;
+use crate::machine::requirements::{Objective, TermKind};
+use crate::num::{Purpose, Rng};
+
+/// Points looked at.
+const POINTS: usize = 150;
+/// Local searches from the worst of them for each quantity: for an objective, and for what single legs or pairs have.
+const SEARCHES: [usize; 2] = [4, 1];
+/// A requirement is searched when twice the spread over the points would bring it from the worst of them to its limit.
+const SPREADS: f64 = 2.0;
+/// First step of a search in the cube, and the last.
+const STEPS: (f64, f64) = (0.25, 1e-5);
+
+/// Requirements of single legs or pairs, and objectives, that depend on the pose. Each leg has worst poses of its own: searches for the
+/// worst of all legs end again and again at the one that is held already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum PoseQuantity {
+    Constraint(TermKind, usize, usize),
+    Objective(usize),
+    /// Length of a leg for the stroke; with `true` the greatest one.
+    Length(usize, bool),
+}
+
+/// What was seen of a quantity at the points.
+#[derive(Debug, Clone)]
+struct Seen {
+    greatest: f64,
+    worst: Vec<(f64, Vector6<f64>)>,
+}
+
+struct Look<'a> {
+    model: &'a Model<'a>,
+    ends: JointEnds,
+    x: &'a [f64],
+    task: &'a Task,
+}
+
+impl Look<'_> {
+    fn lines(&self, cube: &Vector6<f64>) -> LegLines {
+        let pose = self.model.problem.space.pose(cube);
+        LegLines::new(&self.ends, &HeldPose { pose, follows: true })
+    }
+
+    /// Every quantity at a pose, to be small where it matters.
+    fn all(&self, l: &LegLines) -> BTreeMap<PoseQuantity, f64> {
+        let mut out = BTreeMap::new();
+        let mut keep = |q, value: f64| {
+            let least = out.entry(q).or_insert(f64::INFINITY);
+            *least = f64::min(*least, value);
+        };
+        self.model.terms.visit(l, &self.ends, self.x, &mut |item: Item<()>| {
+            if !self.task.dropped.contains(&ConstraintGroup::Term(item.id.0)) {
+                keep(PoseQuantity::Constraint(item.id.0, item.id.1, item.id.2), item.value);
+            }
+        });
+        for (m, o) in self.model.objectives.iter().enumerate() {
+            if Merit::is_over_poses(*o) && (self.task.weights[m] > 0.0 || self.task.floors[m].is_some()) {
+                keep(PoseQuantity::Objective(m), self.model.merit.at_pose(*o, &self.model.terms, l));
+            }
+        }
+        if self.model.wanted(self.task).any(|(_, o)| o == Objective::Stroke) {
+            for (leg, longest) in (0..6).flat_map(|leg| [(leg, false), (leg, true)]) {
+                keep(PoseQuantity::Length(leg, longest), self.length(l, leg, longest));
+            }
+        }
+        out
+    }
+
+    /// To be small: the length, or the least of its opposite, in sizes.
+    fn length(&self, l: &LegLines, leg: usize, longest: bool) -> f64 {
+        let value = l.length[leg] / self.model.terms.size;
+        if longest { -value } else { value }
+    }
+
+    /// The least of [`Look::length`] of all legs over the held poses.
+    fn least_length(&self, held: &[HeldPose], longest: bool) -> f64 {
+        let at = |at: &HeldPose| {
+            let l = LegLines::new(&self.ends, at);
+            (0..6).map(|leg| self.length(&l, leg, longest)).fold(f64::INFINITY, f64::min)
+        };
+        held.iter().map(at).fold(f64::INFINITY, f64::min)
+    }
+
+    fn one(&self, q: PoseQuantity, cube: &Vector6<f64>) -> f64 {
+        let l = self.lines(cube);
+        match q {
+            PoseQuantity::Objective(m) => {
+                self.model.merit.at_pose(self.model.objectives[m], &self.model.terms, &l)
+            }
+            PoseQuantity::Length(leg, longest) => self.length(&l, leg, longest),
+            PoseQuantity::Constraint(kind, first, second) => {
+                let (mut least, ends) = (f64::INFINITY, (&self.ends, self.x));
+                self.model.terms.visit_some(&l, ends, (kind, first, second), &mut |item: Item<()>| {
+                    if (item.id.0, item.id.1, item.id.2) == (kind, first, second) {
+                        least = least.min(item.value);
+                    }
+                });
+                least
+            }
+        }
+    }
+
+    /// Search along the axes and, for objectives, along as many random directions (singular values have kinks at which the axes lead nowhere), with
+    /// steps that shrink by halves.
+    fn descend(
+        &self,
+        q: PoseQuantity,
+        axes: &[usize],
+        (mut value, mut cube): (f64, Vector6<f64>),
+        rng: &mut Rng,
+    ) -> (f64, Vector6<f64>) {
+        let mut step = STEPS.0;
+        while step > STEPS.1 {
+            let mut better = false;
+            let mut directions: Vec<Vector6<f64>> = axes.iter().map(|k| Vector6::ith(*k, 1.0)).collect();
+            if matches!(q, PoseQuantity::Objective(_)) {
+                directions.extend(axes.iter().map(|_| {
+                    let mut d = Vector6::zeros();
+                    for k in axes {
+                        d[*k] = rng.normal();
+                    }
+                    d.normalize()
+                }));
+            }
+            for d in directions.iter().flat_map(|d| [*d, -d]) {
+                let next = (cube + d * step).map(|c| c.clamp(-1.0, 1.0));
+                let there = if next == cube { value } else { self.one(q, &next) };
+                if there < value {
+                    (value, cube, better) = (there, next, true);
+                }
+            }
+            if !better {
+                step *= 0.5;
+            }
+        }
+        (value, cube)
+    }
+}
+
+/// Poses at which a constraint is violated, or an objective is worse than at the held poses, by more than a hundredth of the spare.
+pub(crate) fn worse_poses(
+    model: &Model<'_>,
+    x: &[f64],
+    task: &Task,
+    held: &[HeldPose],
+    sign: f64,
+    seed: u64,
+) -> Vec<HeldPose> {
+    let space = &model.problem.space;
+    let axes = space.axes();
+    if axes.is_empty() {
+        return Vec::new();
+    }
+    let look = Look { model, ends: model.shape.ends(x), x, task };
+    let judged = model.judge(held, x, task, sign);
+    let mut seen: BTreeMap<PoseQuantity, Seen> = BTreeMap::new();
+    for cube in space.cube_points(POINTS, &mut Purpose::WORSE_POSES.rng(seed)) {
+        for (q, value) in look.all(&look.lines(&cube)) {
+            let of = seen.entry(q).or_insert(Seen { greatest: value, worst: Vec::new() });
+            of.greatest = of.greatest.max(value);
+            of.worst.push((value, cube));
+            of.worst.sort_by(|a, b| a.0.total_cmp(&b.0));
+            of.worst.truncate(SEARCHES[usize::from(!matches!(q, PoseQuantity::Objective(_)))]);
+        }
+    }
+    let lengths = [false, true].map(|longest| look.least_length(held, longest));
+    let (mut out, mut rng): (Vec<HeldPose>, Rng) = (Vec::new(), Purpose::DESCENT.rng(seed));
+    for (q, Seen { greatest, worst }) in seen {
+        // what the held poses guarantee
+        let known = match q {
+            PoseQuantity::Constraint(..) => 0.5 * model.backoff,
+            PoseQuantity::Objective(m) => judged.gains[m] - model.backoff,
+            PoseQuantity::Length(_, longest) => lengths[usize::from(longest)] - model.backoff,
+        };
+        let far = worst.first().is_some_and(|(least, _)| least - SPREADS * (greatest - least) > known);
+        if far && !matches!(q, PoseQuantity::Objective(_)) {
+            continue;
+        }
+        for (value, cube) in worst {
+            let (value, cube) = look.descend(q, &axes, (value, cube), &mut rng);
+            let pose = HeldPose { pose: space.pose(&cube), follows: true };
+            if value < known && !out.contains(&pose) && !held.contains(&pose) {
+                out.push(pose);
+            }
+        }
+    }
+    out
+}
+
+/// Values at a point.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PointValues {
+    /// Gain of each objective.
+    pub(crate) gains: Vec<f64>,
+    /// Largest violation of each group (0 when met).
+    pub(crate) violations: BTreeMap<ConstraintGroup, f64>,
+}
+
+impl PointValues {
+    pub(crate) fn violation(&self) -> f64 {
+        self.violations.values().fold(0.0, |m, v| m.max(*v))
+    }
+
+    /// Sum of the largest violations of the groups; soft ones count a hundredth.
+    pub(crate) fn total_violation(&self, task: &Task) -> f64 {
+        self.violations.iter().map(|(g, v)| task.cost(*g) * v).sum()
+    }
+
+    pub(crate) fn gain(&self, task: &Task) -> f64 {
+        task.weights.iter().zip(&self.gains).filter(|(w, _)| **w > 0.0).map(|(w, g)| w * g).sum()
+    }
+}
+
+/// A point that is being judged: violations only grow with every pose, and gains only fall.
+pub(crate) struct Judging<'m, 'a> {
+    model: &'m Model<'a>,
+    x: &'m [f64],
+    task: &'m Task,
+    ends: JointEnds,
+    lengths: (f64, f64),
+    pub(crate) so_far: PointValues,
+}
+
+impl<'m, 'a> Judging<'m, 'a> {
+    /// Begins with the requirements without a pose; `sign` of `det A` is to be kept.
+    pub(crate) fn new(model: &'m Model<'a>, x: &'m [f64], task: &'m Task, sign: f64) -> Self {
+        let ends = model.shape.ends(x);
+        let so_far =
+            PointValues { gains: vec![f64::INFINITY; model.objectives.len()], violations: BTreeMap::new() };
+        let mut out = Self { model, x, task, ends, lengths: (f64::INFINITY, f64::NEG_INFINITY), so_far };
+        model
+            .terms
+            .fixed(&ends, &mut |item: Item<()>| out.hold(ConstraintGroup::Term(item.id.0), item.value));
+        if let Some((value, _)) = model.determinant(x, sign) {
+            out.hold(ConstraintGroup::Determinant, value);
+        }
+        for room in model.shape.rooms(&ends) {
+            out.hold(ConstraintGroup::Reach, room.value);
+        }
+        out
+    }
+
+    fn hold(&mut self, group: ConstraintGroup, value: f64) {
+        if !self.task.dropped.contains(&group) {
+            let worst = self.so_far.violations.entry(group).or_insert(0.0);
+            let miss = self.model.backoff - value;
+            *worst = if miss.is_nan() { f64::INFINITY } else { worst.max(miss) };
+        }
+    }
+
+    /// Looks at one more pose.
+    pub(crate) fn pose(&mut self, at: &HeldPose) {
+        let (model, ends) = (self.model, self.ends);
+        let l = LegLines::new(&ends, at);
+        for (m, o) in model.wanted(self.task).filter(|(_, o)| Merit::is_over_poses(*o)) {
+            self.so_far.gains[m] = self.so_far.gains[m].min(model.merit.at_pose(o, &model.terms, &l));
+        }
+        // items of a kind come one after the other: each kind is looked up once
+        let mut last: Option<(TermKind, f64)> = None;
+        model.terms.visit(&l, &ends, self.x, &mut |item: Item<()>| match &mut last {
+            Some((kind, least)) if *kind == item.id.0 => {
+                *least = if least.is_nan() || item.value.is_nan() { f64::NAN } else { least.min(item.value) };
+            }
+            _ => {
+                if let Some((kind, least)) = last.replace((item.id.0, item.value)) {
+                    self.hold(ConstraintGroup::Term(kind), least);
+                }
+            }
+        });
+        if let Some((kind, least)) = last {
+            self.hold(ConstraintGroup::Term(kind), least);
+        }
+        self.lengths = l.length.iter().fold(self.lengths, |r, x| (r.0.min(*x), r.1.max(*x)));
+    }
+
+    /// The values after the last pose.
+    pub(crate) fn finish(mut self) -> PointValues {
+        for (m, o) in self.model.wanted(self.task).filter(|(_, o)| !Merit::is_over_poses(*o)) {
+            self.so_far.gains[m] = self.gain_without_pose(o);
+        }
+        for (m, floor) in self.task.floors.iter().enumerate() {
+            if let Some(floor) = floor {
+                self.hold(ConstraintGroup::Floor(m), self.so_far.gains[m] - floor + self.model.backoff);
+            }
+        }
+        self.so_far
+    }
+
+    fn gain_without_pose(&self, o: Objective) -> f64 {
+        let (merit, terms) = (&self.model.merit, &self.model.terms);
+        match o {
+            Objective::Stroke => (self.lengths.0 - self.lengths.1) / terms.size,
+            Objective::MeanConditioning => {
+                let at = |p: &HeldPose| {
+                    merit.at_pose(Objective::WorstConditioning, terms, &LegLines::new(&self.ends, p))
+                };
+                merit.sample.iter().map(at).sum::<f64>() / merit.sample.len() as f64
+            }
+            _ => {
+                let mut least = f64::INFINITY;
+                merit.pieces_fixed(o, terms, &self.ends, &mut |p| {
+                    if let MeritPiece::Linear(value, _) = p {
+                        least = least.min(value);
+                    }
+                });
+                least
+            }
+        }
+    }
+}
+
+impl Model<'_> {
+    /// Values at a point over the poses.
+    pub(crate) fn judge(&self, poses: &[HeldPose], x: &[f64], task: &Task, sign: f64) -> PointValues {
+        let mut judging = Judging::new(self, x, task, sign);
+        for at in poses {
+            judging.pose(at);
+        }
+        judging.finish()
+    }
+}

@@ -1,0 +1,283 @@
+//! Functions that are affine in every offset: determinants, whose greatest values on a box are at its corners.
+//!
+//! With rows `N_i(t_i)` (direction and moment of leg `i`, not divided by its length `l_i`) affine in `t_i`, `J = diag(1 / l_i) N`. For any vectors `x`, `y` by Cramer's rule
+//!
+//! ```text
+//! y^T J^-1 x = (1 / det N) sum_i x_i l_i(t_i) C_i,      C_i = det N with row i replaced by y,
+//! ```
+//!
+//! and `|y^T J^-1 x| <= |x| |y| / sigma_6`. So offsets that reach the limit `g`, where `det N` is not zero, satisfy for either sign
+//!
+//! ```text
+//! |x| |y| |det N| - g sigma_1 (+-) sum_i x_i l_i C_i >= 0.
+//! ```
+//!
+//! `det N` and `C_i` are affine in every offset; `l_i` is convex: its chord minus at most the greatest distance from it; `sigma_1` is at least a number on the box. `|det N|` is convex
+//! in every offset alone and hence nowhere above the function that is affine in every offset and agrees with it at the corners. What results is affine in
+//! every offset, and so is every combination with multipliers: its greatest value is at one of the 64 corners, however the functions share offsets.
+
+use nalgebra::Matrix6;
+
+use super::multipliers::game;
+use super::rows::LegRow;
+use crate::num::ball::Real;
+use crate::num::small::bounded_svd;
+use crate::optimize::offsets::conditioning::PoseLegs;
+use crate::optimize::offsets::limits::OffsetRanges;
+
+/// `a . b`.
+fn dot(a: &[Real; 6], b: &[Real; 6]) -> Real {
+    (1..6).fold(a[0] * b[0], |sum, k| sum + a[k] * b[k])
+}
+
+/// Corners of a box; bit `i` of the number tells the end of offset `i`.
+pub(super) const CORNERS: usize = 64;
+
+/// Values at the corners of a function that is affine in every offset, and not below 0 at offsets which reach the limit.
+pub(super) type AtCorners = [Real; CORNERS];
+
+/// Vectors in the middle of the box.
+struct Vectors {
+    x: [f64; 6],
+    y: [f64; 6],
+    z: [f64; 6],
+    w: [f64; 6],
+}
+
+impl Vectors {
+    /// Singular vectors of the least and of the greatest singular value; `None` when the decomposition fails.
+    fn of(j: &Matrix6<f64>) -> Option<Self> {
+        let svd = bounded_svd(j)?;
+        let (u, v_t) = (svd.u?, svd.v_t?);
+        let sigma = svd.singular_values;
+        let (least, greatest) = (sigma.imin(), sigma.imax());
+        let left = |k: usize| -> [f64; 6] { std::array::from_fn(|c| u[(c, k)]) };
+        let right = |k: usize| -> [f64; 6] { std::array::from_fn(|c| v_t[(k, c)]) };
+        let out = Self { x: left(least), y: right(least), z: left(greatest), w: right(greatest) };
+        let finite = [&out.x, &out.y, &out.z, &out.w].into_iter().flatten().all(|x| x.is_finite());
+        finite.then_some(out)
+    }
+}
+
+/// Three columns.
+type Triple = [usize; 3];
+
+/// All twenty sets of three columns with those that are left and the sign of the expansion by the first three rows.
+fn triples() -> [(Triple, Triple, bool); 20] {
+    let mut out = [([0; 3], [0; 3], false); 20];
+    let mut count = 0;
+    for a in 0..6 {
+        for b in a + 1..6 {
+            for c in b + 1..6 {
+                let mut rest = (0..6).filter(|k| ![a, b, c].contains(k));
+                let left = std::array::from_fn(|_| rest.next().unwrap_or(0));
+                // columns are numbered from 0, and so are the rows 0, 1, 2
+                out[count] = ([a, b, c], left, (a + b + c) % 2 == 1);
+                count += 1;
+            }
+        }
+    }
+    out
+}
+
+type Row = [Real; 6];
+
+/// The twenty determinants of three rows, on the columns of the first (or second) member of each pair of triples.
+fn minors(rows: [&Row; 3], triples: &[(Triple, Triple, bool); 20], second: bool) -> [Real; 20] {
+    let mut out = [Real::ZERO; 20];
+    for (value, (first, rest, _)) in out.iter_mut().zip(triples) {
+        let [a, b, c] = if second { *rest } else { *first };
+        let [p, q, r] = rows;
+        *value = p[a] * (q[b] * r[c] - q[c] * r[b]) - p[b] * (q[a] * r[c] - q[c] * r[a])
+            + p[c] * (q[a] * r[b] - q[b] * r[a]);
+    }
+    out
+}
+
+/// A determinant of six rows from the minors of its halves.
+fn joined(upper: &[Real; 20], lower: &[Real; 20], triples: &[(Triple, Triple, bool); 20]) -> Real {
+    let mut sum = Real::ZERO;
+    for ((u, l), (_, _, odd)) in upper.iter().zip(lower).zip(triples) {
+        // the sign for the columns 0, 1, 2 is positive: their sum is 3
+        sum = if *odd { sum + *u * *l } else { sum - *u * *l };
+    }
+    sum
+}
+
+/// Minors of one half of the rows for the eight corners of its offsets, and with one row replaced.
+struct Half {
+    plain: Vec<[Real; 20]>,
+    /// `[corner][replaced row]`; the end of the replaced row does not matter.
+    replaced: Vec<[[Real; 20]; 3]>,
+}
+
+impl Half {
+    fn new(ends: &[[Row; 2]; 6], y: &Row, triples: &[(Triple, Triple, bool); 20], second: bool) -> Self {
+        let first = if second { 3 } else { 0 };
+        let rows =
+            |corner: usize| -> [&Row; 3] { std::array::from_fn(|k| &ends[first + k][corner >> k & 1]) };
+        let plain = (0..8).map(|corner| minors(rows(corner), triples, second)).collect();
+        let mut replaced: Vec<[[Real; 20]; 3]> = Vec::with_capacity(8);
+        for corner in 0..8 {
+            replaced.push(std::array::from_fn(|k| {
+                let twin = corner & !(1 << k);
+                if twin != corner {
+                    return replaced[twin][k];
+                }
+                let mut own = rows(corner);
+                own[k] = y;
+                minors(own, triples, second)
+            }));
+        }
+        Self { plain, replaced }
+    }
+}
+
+/// Length of a leg at both ends of the range and a bound of how far the chord is above it between.
+fn lengths(row: &LegRow, (low, high): (f64, f64)) -> Option<([Real; 2], f64)> {
+    let (_, _, q) = row.balls();
+    let root = |t: f64| -> Option<Real> {
+        let t = Real::point(t);
+        (q[0] + t * (q[1] + t * q[2])).sqrt()
+    };
+    let (a, b) = (root(low)?, root(high)?);
+    // l'' = (q0 q2 - q1^2 / 4) / l^3 <= q2 / l_min, and the chord is above by at most (high - low)^2 / 8 of that
+    let least = least_length(q, low, high, &a, &b)?;
+    let width = Real::point(high) - Real::point(low);
+    let below = (q[0] * q[2]).scaled(4.0) - q[1] * q[1];
+    let cube = (least * (least * least)).reciprocal()?;
+    let bend = Real::point(0.25) * below * cube;
+    let by_bend = (Real::point(0.125) * (width * width) * bend).high();
+    Some(([a, b], by_bend.max(0.0)))
+}
+
+/// A ball of which all numbers are at most the length anywhere in the range: `l >= (l_low + l_high - width |rate|) / 2` by the triangle inequality, or the least distance of the line.
+fn least_length(q: &[Real; 3], low: f64, high: f64, a: &Real, b: &Real) -> Option<Real> {
+    let width = Real::point(high) - Real::point(low);
+    let travel = width * q[2].sqrt()?;
+    let half = Real::point(0.5) * (*a + *b - travel);
+    let floor = (half.centre - half.radius).next_down();
+    (floor > 0.0).then(|| Real::point(floor))
+}
+
+/// The function of one pose; `None` where nothing can be said.
+pub(super) fn at_corners(
+    rows: &[LegRow; 6],
+    plain: &PoseLegs,
+    bounds: &OffsetRanges,
+    limit: f64,
+) -> Option<AtCorners> {
+    let middle = bounds.map(|(low, high)| f64::midpoint(low, high));
+    let v = Vectors::of(&plain.jacobian(&middle))?;
+    let mut ends: [[Row; 2]; 6] = [[[Real::ZERO; 6]; 2]; 6];
+    let mut length = [[Real::ZERO; 2]; 6];
+    let mut chord = [0.0; 6];
+    for i in 0..6 {
+        let (constant, rate, _) = rows[i].balls();
+        for (end, t) in [bounds[i].0, bounds[i].1].into_iter().enumerate() {
+            ends[i][end] = std::array::from_fn(|k| constant[k] + Real::point(t) * rate[k]);
+        }
+        (length[i], chord[i]) = lengths(&rows[i], bounds[i])?;
+    }
+    let triples = triples();
+    let y = v.y.map(Real::point);
+    let (upper, lower) = (Half::new(&ends, &y, &triples, false), Half::new(&ends, &y, &triples, true));
+    let mut det = [Real::ZERO; CORNERS];
+    // sum x_i l_i C_i, and x_i C_i for each leg
+    let mut sum = [Real::ZERO; CORNERS];
+    let mut parts = [[Real::ZERO; 6]; CORNERS];
+    for corner in 0..CORNERS {
+        let (u, l) = (corner & 7, corner >> 3);
+        det[corner] = joined(&upper.plain[u], &lower.plain[l], &triples);
+        for i in 0..6 {
+            let cofactor = if i < 3 {
+                joined(&upper.replaced[u][i], &lower.plain[l], &triples)
+            } else {
+                joined(&upper.plain[u], &lower.replaced[l][i - 3], &triples)
+            };
+            parts[corner][i] = Real::point(v.x[i]) * cofactor;
+            sum[corner] = sum[corner] + length[i][corner >> i & 1] * parts[corner][i];
+        }
+    }
+    let sign = if sum.iter().map(|s| s.centre).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+    // what the chords are above the lengths
+    let mut lost = Real::ZERO;
+    for i in 0..6 {
+        let greatest = parts.iter().map(|p| sign * p[i].centre + p[i].radius).fold(0.0, f64::max).next_up();
+        lost = lost + Real::point(chord[i]) * Real::point(greatest);
+    }
+    let top = greatest_singular_value(rows, &v, bounds)?;
+    let factor = Real::point(limit) * Real::point(top);
+    let norms = dot(&v.x.map(Real::point), &v.x.map(Real::point)) * dot(&y, &y);
+    let norms = norms.sqrt()?;
+    let scale = det.iter().map(|d| d.centre.abs()).fold(0.0, f64::max);
+    if !(scale > f64::MIN_POSITIVE && scale.is_finite()) {
+        return None;
+    }
+    // a power of two, so that scaling costs nothing
+    let unit = Real::point(2f64.powi(-(scale.log2().floor() as i32)));
+    Some(std::array::from_fn(|k| {
+        let size = Real { centre: det[k].centre.abs(), radius: det[k].radius };
+        let own = Real { centre: sign * sum[k].centre, radius: sum[k].radius };
+        unit * (norms * size - factor * (own - lost))
+    }))
+}
+
+/// A lower bound of `sigma_1` on the box: `z^T J w / (|z| |w|)` is a sum of functions of one offset each.
+fn greatest_singular_value(rows: &[LegRow; 6], v: &Vectors, bounds: &OffsetRanges) -> Option<f64> {
+    let (z, w) = (v.z.map(Real::point), v.w.map(Real::point));
+    let mut sum = Real::ZERO;
+    for i in 0..6 {
+        let least = least_along(&rows[i], &w, z[i], bounds[i])?;
+        sum = sum + Real::point(least);
+    }
+    let norm = (dot(&z, &z) * dot(&w, &w)).sqrt()?.reciprocal()?;
+    let low = sum * norm;
+    let low = (low.centre - low.radius).next_down();
+    (low > 0.0).then_some(low)
+}
+
+/// Parts into which a range is cut for that.
+const PARTS: u32 = 4;
+
+/// A lower bound of `z (row . w) / length` on a range: on each part the value in the middle less the rate over the part times half its width.
+fn least_along(row: &LegRow, w: &Row, z: Real, (low, high): (f64, f64)) -> Option<f64> {
+    let (constant, rate, q) = row.balls();
+    let (a, b) = (dot(constant, w), dot(rate, w));
+    let cut = |k: u32| if k == PARTS { high } else { low + (high - low) * (f64::from(k) / f64::from(PARTS)) };
+    let mut least = f64::INFINITY;
+    for k in 0..PARTS {
+        let (from, to) = (cut(k), cut(k + 1));
+        let c = f64::midpoint(from, to);
+        let step = Real { centre: 0.0, radius: (to - c).max(c - from).next_up() };
+        let middle = Real::point(c);
+        let slope = q[1] + middle.scaled(2.0) * q[2];
+        let square = q[0] + middle * (q[1] + middle * q[2]);
+        let there = square + step * (slope + step * q[2]);
+        // f = (a + b t) / l,  f' = (b - f q' / (2 l)) / l = (b q - (a + b t) q' / 2) / l^3
+        let (here_length, there_length) = (square.sqrt()?, there.sqrt()?);
+        let value = (a + b * middle) * here_length.reciprocal()?;
+        let numerator =
+            b * there - Real::point(0.5) * (a + b * (middle + step)) * (slope + (step * q[2]).scaled(2.0));
+        let rate = numerator * (there * there_length).reciprocal()?;
+        let all = z * (value + step * rate);
+        least = least.min((all.centre - all.radius).next_down());
+        if !(all.radius.is_finite() && all.centre.is_finite()) {
+            return None;
+        }
+    }
+    Some(least)
+}
+
+/// `true` when a combination of the functions is below 0 at all corners, and so on the whole box: proved.
+pub(super) fn excluded(functions: &[AtCorners]) -> bool {
+    let values: Vec<[f64; CORNERS]> = functions.iter().map(|f| f.map(|b| b.centre)).collect();
+    let Some(mu) = game(&values) else { return false };
+    (0..CORNERS).all(|corner| {
+        let mut sum = Real::ZERO;
+        for (mu, f) in mu.iter().zip(functions).filter(|(mu, _)| **mu > 0.0) {
+            sum = sum + Real::point(*mu) * f[corner];
+        }
+        sum.high() < 0.0
+    })
+}

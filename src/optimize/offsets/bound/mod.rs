@@ -1,0 +1,410 @@
+//! A proved upper bound of the worst-case inverse condition number over all offsets: branch and bound.
+//!
+//! A box is left out by a proof that no offsets of it reach the value in question.
+
+mod corners;
+mod multipliers;
+mod rows;
+#[cfg(test)]
+mod tests;
+
+use std::ops::ControlFlow;
+
+use nalgebra::Matrix6;
+
+use self::corners::{AtCorners, at_corners};
+use self::multipliers::{SAMPLES, Sampled, multipliers};
+use self::rows::{LegRow, Quotient, greatest};
+use super::conditioning::{PoseLegs, worst_case_above};
+use super::limits::{OffsetLimits, OffsetRanges, point};
+use super::problem::{OffsetModel, OffsetProblem};
+use crate::num::parallel::parallel;
+use crate::num::small::bounded_svd;
+use crate::synthesis::sides;
+
+/// No offsets within the limits of the problem reach more than `upper`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GlobalBound {
+    /// Upper bound of the worst-case inverse condition number, proved in interval arithmetic.
+    pub upper: f64,
+    /// `upper / value - 1` for the value of the solution.
+    pub gap: f64,
+    /// Boxes of offsets that were looked at.
+    pub boxes: usize,
+}
+
+impl GlobalBound {
+    /// The same with the gap to the value that was reached in the end.
+    pub(crate) fn above(self, value: Option<f64>) -> Self {
+        Self { gap: value.map_or(self.gap, |v| self.upper / v - 1.0), ..self }
+    }
+}
+
+/// How far the bound is to be driven.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BoundOptions {
+    /// Relative gap to prove.
+    pub(crate) gap: f64,
+    /// Boxes after which the gap is widened.
+    pub(crate) boxes: usize,
+    pub(crate) threads: usize,
+}
+
+/// A box of offsets that may still hold something better.
+#[derive(Debug, Clone)]
+struct BoundNode {
+    bounds: OffsetRanges,
+    /// Poses to look at, the worst of the parent first.
+    poses: Vec<usize>,
+    /// Halvings it took.
+    depth: usize,
+}
+
+/// Boxes looked at side by side; their results are taken over in order, so that threads change nothing.
+const BATCH: usize = 32;
+/// Poses a part of a box inherits.
+const INHERITED: usize = 80;
+/// Boxes so many halvings down look at all poses once more.
+const REVIEW: usize = 8;
+/// Share of the gap asked for that the proof aims at.
+const AIM: f64 = 0.999;
+/// Widening of the gap when the boxes are used up, and the share of them that each wider gap gets.
+const WIDER: f64 = 2.0;
+const MORE: usize = 8;
+/// A proof that took at most this share of the boxes is tried again with a tenth of the gap and as many boxes more.
+const EASY: usize = 10;
+/// No bound is claimed beyond this gap.
+const WIDEST: f64 = 64.0;
+
+/// Boxes in whose middles all poses are looked at.
+const LOOKS: usize = 24;
+
+fn middle(bounds: &OffsetRanges) -> [f64; 6] {
+    bounds.map(|(low, high)| f64::midpoint(low, high))
+}
+
+/// The search tree with what it needs of the problem.
+pub(crate) struct Bounding<'a> {
+    model: &'a OffsetModel,
+    limits: &'a OffsetLimits,
+    poses: Vec<EnclosedPose>,
+}
+
+impl<'a> Bounding<'a> {
+    /// `None` when the data do not make intervals.
+    pub(crate) fn new(
+        problem: &OffsetProblem,
+        model: &'a OffsetModel,
+        limits: &'a OffsetLimits,
+    ) -> Option<Self> {
+        let plain = sides(&problem.octahedral, 1.0);
+        let rows = |pose: &crate::platform::geom::Pose| -> Option<EnclosedPose> {
+            let rows: Option<Vec<LegRow>> =
+                plain.iter().map(|s| LegRow::new(s, pose, problem.characteristic_length)).collect();
+            Some(EnclosedPose { rows: rows?.try_into().ok()? })
+        };
+        let poses: Option<Vec<EnclosedPose>> = problem.poses.iter().map(rows).collect();
+        Some(Self { model, limits, poses: poses? })
+    }
+
+    /// The bound for the gap asked for, and for a tenth of it where that was easy; see [`Self::prove_once`].
+    pub(crate) fn prove(
+        &self,
+        boxes: Vec<OffsetRanges>,
+        value: f64,
+        o: BoundOptions,
+        improve: &mut dyn FnMut(&[[f64; 6]]) -> f64,
+        tick: &mut dyn FnMut(usize, usize, f64) -> ControlFlow<()>,
+    ) -> Option<GlobalBound> {
+        let first = self.prove_once(boxes.clone(), value, o, improve, tick)?;
+        let easy = o.boxes / EASY;
+        if first.boxes > easy || first.gap > o.gap {
+            return Some(first);
+        }
+        let finer = BoundOptions { gap: 0.1 * o.gap, boxes: easy, ..o };
+        let value = improve(&[]).max(value);
+        let done = first.boxes;
+        let second = self.prove_once(boxes, value, finer, improve, &mut |boxes, open, best| {
+            // a wider gap than the first is no use
+            if boxes > easy { ControlFlow::Break(()) } else { tick(done + boxes, open, best) }
+        });
+        Some(
+            second
+                .filter(|s| s.upper < first.upper)
+                .map_or(first, |s| GlobalBound { boxes: done + s.boxes, ..s }),
+        )
+    }
+
+    /// Drives the bound down to `value (1 + gap)` over the boxes given. `improve` is asked with the middle of every box that is kept and
+    /// answers with the best value known from then on. `None` when `tick` breaks off, or when nothing could be proved.
+    fn prove_once(
+        &self,
+        boxes: Vec<OffsetRanges>,
+        mut value: f64,
+        o: BoundOptions,
+        improve: &mut dyn FnMut(&[[f64; 6]]) -> f64,
+        tick: &mut dyn FnMut(usize, usize, f64) -> ControlFlow<()>,
+    ) -> Option<GlobalBound> {
+        let first = self.telling_poses(&boxes);
+        let mut open: Vec<BoundNode> =
+            boxes.into_iter().map(|bounds| BoundNode { bounds, poses: first.clone(), depth: 0 }).collect();
+        // a little below, so that rounding does not carry the last step across the gap asked for
+        let (mut gap, mut done, mut budget) = (o.gap * AIM, 0, o.boxes);
+        while !open.is_empty() {
+            if done >= budget {
+                (gap, budget) = (gap * WIDER, budget + o.boxes / MORE);
+                if gap > WIDEST {
+                    return None;
+                }
+            }
+            let batch = open.split_off(open.len().saturating_sub(BATCH));
+            let limit = value * (1.0 + gap);
+            let look = |k: usize| self.look(&batch[k], limit);
+            let results = parallel(batch.len(), o.threads, look, &mut |_, _| ());
+            done += batch.len();
+            let mut middles = Vec::new();
+            for (node, kept) in batch.iter().zip(results) {
+                let Some(poses) = kept else { continue };
+                middles.push(middle(&node.bounds));
+                open.extend(self.halves(node, &poses));
+            }
+            value = value.max(improve(&middles));
+            if tick(done, open.len(), value).is_break() {
+                return None;
+            }
+        }
+        let upper = (value * (1.0 + gap)).next_up();
+        Some(GlobalBound { upper, gap: upper / value - 1.0, boxes: done })
+    }
+
+    /// The poses to go on with, `None` when the box is excluded.
+    fn look(&self, node: &BoundNode, limit: f64) -> Option<Vec<usize>> {
+        if self.limits.is_empty(&node.bounds) {
+            return None;
+        }
+        let Test::Kept(mut order) = test(&self.poses, &self.model.poses, &node.poses, &node.bounds, limit)
+        else {
+            return None;
+        };
+        if self.poses.len() > INHERITED && (node.depth + 1).is_multiple_of(REVIEW) {
+            return Some(self.worst_at(&middle(&node.bounds)));
+        }
+        // a pose that refutes the middle belongs into the proofs for the parts
+        let hint = order.first().copied().unwrap_or(0);
+        if let Err((_, pose)) = worst_case_above(&self.model.poses, &middle(&node.bounds), limit, hint)
+            && !order.contains(&pose)
+        {
+            order.insert(0, pose);
+        }
+        Some(order)
+    }
+
+    /// All poses, the worst at these offsets first.
+    fn worst_at(&self, t: &[f64; 6]) -> Vec<usize> {
+        let mut order: Vec<(f64, usize)> =
+            self.model.poses.iter().map(|p| p.inverse_condition(t)).zip(0..).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        order.into_iter().map(|x| x.1).collect()
+    }
+
+    /// Poses that are worst in the middles of some of the boxes, most frequent first: a start for the proofs.
+    fn telling_poses(&self, boxes: &[OffsetRanges]) -> Vec<usize> {
+        let count = self.model.poses.len();
+        let mut hits: Vec<(usize, usize)> = (0..count).map(|k| (0, k)).collect();
+        if count > INHERITED {
+            for bounds in boxes.iter().step_by(boxes.len().div_ceil(LOOKS).max(1)) {
+                self.worst_at(&middle(bounds)).into_iter().take(3).for_each(|k| hits[k].0 += 1);
+            }
+            hits.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)));
+            hits.truncate(INHERITED);
+        }
+        hits.into_iter().map(|h| h.1).collect()
+    }
+
+    /// The box cut in the middle of the longest range, as measured along the edge.
+    fn halves(&self, node: &BoundNode, poses: &[usize]) -> [BoundNode; 2] {
+        let reach = |i: usize| (node.bounds[i].1 - node.bounds[i].0) * self.model.sides[i].edge_length();
+        let longest = (1..6).fold(0, |best, i| if reach(i) > reach(best) { i } else { best });
+        let (low, high) = node.bounds[longest];
+        let cut = f64::midpoint(low, high);
+        let poses = &poses[..poses.len().min(INHERITED)];
+        [(low, cut), (cut, high)].map(|range| {
+            let mut bounds = node.bounds;
+            bounds[longest] = range;
+            BoundNode { bounds, poses: poses.to_vec(), depth: node.depth + 1 }
+        })
+    }
+}
+
+/// Attempts at a proof: poses that are looked at, those of them that take part, those for which vectors are mixed, and those that take part with
+/// determinants. Most boxes need the first only, which costs little.
+const ATTEMPTS: [(usize, usize, usize, usize); 2] = [(10, 6, 3, 8), (usize::MAX, 30, 20, 14)];
+
+/// The poses of the problem as rows in intervals and the singular vectors that bound the singular values.
+#[derive(Debug)]
+struct EnclosedPose {
+    rows: [LegRow; 6],
+}
+
+/// Vectors that bound the smallest and the largest singular value, and the quotient of these.
+///
+/// The first of each is the right singular vector. Where another singular value is near, the eigenvectors turn quickly with the offsets, and one vector
+/// bounds to first order only: then the other vector and the two halfway directions are added, so that the
+/// multipliers can mix them.
+struct Direction {
+    ratio: f64,
+    low: Vec<[f64; 6]>,
+    high: Vec<[f64; 6]>,
+}
+
+/// Singular values within this factor count as near.
+const NEAR: f64 = 1.6;
+
+impl Direction {
+    /// `None` when the decomposition fails.
+    fn of(j: &Matrix6<f64>) -> Option<Self> {
+        let svd = bounded_svd(j)?;
+        let v = svd.v_t?;
+        let sigma = svd.singular_values;
+        let mut order = [0, 1, 2, 3, 4, 5];
+        order.sort_by(|&a, &b| sigma[a].total_cmp(&sigma[b]));
+        let row = |k: usize| -> [f64; 6] { std::array::from_fn(|c| v[(k, c)]) };
+        let ratio = sigma[order[0]] / sigma[order[5]];
+        let mixed = |first: usize, second: usize| -> Vec<[f64; 6]> {
+            let (x, y) = (row(first), row(second));
+            let near = sigma[first].max(sigma[second]) < NEAR * sigma[first].min(sigma[second]);
+            if !near {
+                return vec![x];
+            }
+            let halfway = |sign: f64| std::array::from_fn(|c| x[c] + sign * y[c]);
+            vec![x, y, halfway(1.0), halfway(-1.0)]
+        };
+        ratio.is_finite().then(|| Self {
+            ratio,
+            low: mixed(order[0], order[1]),
+            high: mixed(order[5], order[4]),
+        })
+    }
+}
+
+/// What was found out about a box.
+#[derive(Debug)]
+enum Test {
+    /// No offsets of the box reach the limit at all poses: proved.
+    Excluded,
+    /// Not shown; the poses worst in the middle come first, for the parts of the box.
+    Kept(Vec<usize>),
+}
+
+/// A function that is not negative at offsets which reach the limit: pose and the two vectors.
+struct Function<'a> {
+    pose: usize,
+    low: &'a [f64; 6],
+    high: &'a [f64; 6],
+}
+
+/// Tries to prove that no offsets in `bounds` have an inverse condition number of `limit` or more at all poses.
+///
+/// For every pose `k` and all vectors, `sigma_6 <= |J v| / |v|` and `sigma_1 >= |J w| / |w|`. If offsets `t` reached the limit, then
+/// `|J_k v_k|^2 / |v_k|^2 - limit^2 |J_k w_k|^2 / |w_k|^2 >= 0` for all `k`. Row `i` of `J_k` depends on `t_i` alone, so for any multipliers
+/// `mu_k >= 0` the sum over `k` is a sum of six functions of one offset each, and the box is excluded when their greatest values
+/// add up to less than 0. `v_k`, `w_k` are the singular vectors in the middle of the box; the multipliers come from a linear
+/// program over samples; both only decide how sharp the proof is.
+fn test(
+    poses: &[EnclosedPose],
+    plain: &[PoseLegs],
+    candidates: &[usize],
+    bounds: &OffsetRanges,
+    limit: f64,
+) -> Test {
+    let middle = bounds.map(|(low, high)| f64::midpoint(low, high));
+    let mut found: Vec<(usize, Direction)> = Vec::new();
+    let mut seen = 0;
+    for (looked_at, taking_part, mixed, at_all_corners) in ATTEMPTS {
+        let more = &candidates[seen..candidates.len().min(looked_at)];
+        seen += more.len();
+        found.extend(more.iter().filter_map(|&k| Some((k, Direction::of(&plain[k].jacobian(&middle))?))));
+        found.sort_by(|a, b| a.1.ratio.total_cmp(&b.1.ratio).then(a.0.cmp(&b.0)));
+        if excluded(poses, &found[..found.len().min(taking_part)], mixed, bounds, limit) {
+            return Test::Excluded;
+        }
+        let function = |(k, _): &(usize, Direction)| at_corners(&poses[*k].rows, &plain[*k], bounds, limit);
+        let functions: Vec<AtCorners> =
+            found[..found.len().min(at_all_corners)].iter().filter_map(function).collect();
+        if corners::excluded(&functions) {
+            return Test::Excluded;
+        }
+    }
+    Test::Kept(found.into_iter().map(|f| f.0).collect())
+}
+
+/// One attempt with these poses, worst first.
+fn excluded(
+    poses: &[EnclosedPose],
+    found: &[(usize, Direction)],
+    mixed: usize,
+    bounds: &OffsetRanges,
+    limit: f64,
+) -> bool {
+    let mut functions: Vec<Function<'_>> = Vec::new();
+    for (place, (pose, d)) in found.iter().enumerate() {
+        // the first vectors with each of the others; for the worst poses only
+        let more = |list: &[[f64; 6]]| if place < mixed { list.len() } else { 1 };
+        let pairs = (0..more(&d.low)).map(|i| (i, 0)).chain((1..more(&d.high)).map(|j| (0, j)));
+        functions.extend(pairs.map(|(i, j)| Function { pose: *pose, low: &d.low[i], high: &d.high[j] }));
+    }
+    let samples = sampled(poses, &functions, bounds, limit * limit);
+    // one function alone often suffices
+    let alone = |s: &Sampled| -> f64 { s.iter().map(|v| v.iter().copied().fold(f64::MIN, f64::max)).sum() };
+    let single = samples.iter().map(alone).zip(0..).min_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((value, k)) = single
+        && value < 0.0
+        && proved(poses, &[(1.0, &functions[k])], bounds, limit)
+    {
+        return true;
+    }
+    multipliers(&samples).is_some_and(|mu| {
+        let terms: Vec<(f64, &Function<'_>)> =
+            mu.into_iter().zip(&functions).filter(|(m, _)| *m > 0.0).collect();
+        proved(poses, &terms, bounds, limit)
+    })
+}
+
+/// In intervals: the greatest values of the sum of the functions with their multipliers add up to less than 0.
+fn proved(poses: &[EnclosedPose], terms: &[(f64, &Function<'_>)], bounds: &OffsetRanges, limit: f64) -> bool {
+    let limit = point(limit).square();
+    let greatest_of = |i: usize| -> f64 {
+        let quotient = |(mu, f): &(f64, &Function<'_>)| -> Option<(f64, Quotient)> {
+            Some((*mu, poses[f.pose].rows[i].excess(f.low, f.high, limit)?))
+        };
+        let all: Option<Vec<(f64, Quotient)>> = terms.iter().map(quotient).collect();
+        all.map_or(f64::INFINITY, |all| greatest(&all, bounds[i]))
+    };
+    // each partial sum is rounded upwards
+    (0..6).map(greatest_of).fold(0.0, |s, x| (s + x.next_up()).next_up()) < 0.0
+}
+
+/// Values of every function at the samples of its offsets, in plain arithmetic.
+fn sampled(
+    poses: &[EnclosedPose],
+    functions: &[Function<'_>],
+    bounds: &OffsetRanges,
+    limit: f64,
+) -> Vec<Sampled> {
+    let norm = |v: &[f64; 6]| v.iter().map(|x| x * x).sum::<f64>();
+    let last = (SAMPLES - 1) as f64;
+    let values = |f: &Function<'_>| -> Sampled {
+        let (low, high) = (1.0 / norm(f.low), limit / norm(f.high));
+        std::array::from_fn(|i| {
+            let row = poses[f.pose].rows[i].plain();
+            let ((a, b), (c, d)) = (row.along(f.low), row.along(f.high));
+            let range = bounds[i];
+            std::array::from_fn(|k| {
+                let t = range.0 + (range.1 - range.0) * (k as f64 / last);
+                let (v, w) = (a + t * b, c + t * d);
+                (low * v * v - high * w * w) / row.square_at(t)
+            })
+        })
+    };
+    functions.iter().map(values).collect()
+}

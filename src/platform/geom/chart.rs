@@ -1,0 +1,343 @@
+//! A set of poses as coordinates with enclosures: what is proved of all poses of a workspace is proved over these.
+
+use nalgebra::{Rotation3, Vector3};
+
+use super::enclosed::{IntervalVector, Rotation, exact_rotation};
+use super::rotation_vector::turn_between;
+use super::turn::radians;
+use super::{Pose, PoseSpace, Region};
+use crate::num::interval::Interval;
+
+/// A part of a pose space: `R = exp([w]x) R_0`, `p = p_0 + d` with `(d, w) = sum_k x_k column_k`, for all `x` of a cell that lie in the unit balls of some groups of
+/// coordinates.
+///
+/// Everything is enclosed: angles given in degrees, and a home rotation that is orthogonal to the last digit only.
+#[derive(Debug, Clone)]
+pub(crate) struct Chart {
+    /// `R_0`.
+    pub(crate) rotation: Rotation,
+    /// `p_0`, design units.
+    pub(crate) position: IntervalVector,
+    /// `d` (design units) and `w` (radians) by coordinate, six coordinates at most.
+    pub(crate) columns: Vec<[Interval; 6]>,
+    /// Groups of coordinates with `|x| <= 1`.
+    pub(crate) balls: Vec<Vec<usize>>,
+    /// The cell of all coordinates.
+    pub(crate) root: ChartCell,
+    /// Rounded `R_0`, `p_0` and columns.
+    home: Pose,
+    steps: Vec<(Vector3<f64>, Vector3<f64>)>,
+}
+
+/// A box of coordinates; those that the chart does not have are 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ChartCell {
+    /// Lower ends.
+    pub(crate) lo: [f64; 6],
+    /// Upper ends.
+    pub(crate) hi: [f64; 6],
+}
+
+/// How a cell lies to the balls of its chart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Covered {
+    /// All of it is in them.
+    Inside,
+    /// None of it is.
+    Outside,
+    /// Some of it may be.
+    Partly,
+}
+
+/// Sides are not halved below this.
+const NARROW: f64 = 1e-12;
+
+impl ChartCell {
+    /// A point.
+    pub(crate) fn point(x: [f64; 6]) -> Self {
+        Self { lo: x, hi: x }
+    }
+
+    /// The interval of a coordinate.
+    pub(crate) fn side(&self, k: usize) -> Interval {
+        Interval::new(self.lo[k], self.hi[k]).unwrap_or(Interval::WHOLE)
+    }
+
+    /// A point about the middle.
+    pub(crate) fn centre(&self) -> [f64; 6] {
+        std::array::from_fn(|k| f64::midpoint(self.lo[k], self.hi[k]).clamp(self.lo[k], self.hi[k]))
+    }
+
+    /// The widest distance of a coordinate from that of a point of the cell, rounded up; 0 where there is no width.
+    pub(crate) fn reach(&self, x: &[f64; 6], k: usize) -> f64 {
+        let from = Interval::from(x[k]);
+        (self.side(k) - from).magnitude() * if self.lo[k] < self.hi[k] { 1.0 } else { 0.0 }
+    }
+
+    /// Cut in two across an axis; `None` where that side is too narrow.
+    pub(crate) fn halves(&self, axis: usize) -> Option<[Self; 2]> {
+        let middle = self.centre()[axis];
+        if !(self.hi[axis] - self.lo[axis] > NARROW) {
+            return None;
+        }
+        let (mut left, mut right) = (*self, *self);
+        (left.hi[axis], right.lo[axis]) = (middle, middle);
+        Some([left, right])
+    }
+
+    /// `|x|^2` of some coordinates over the cell.
+    pub(crate) fn norm_squared(&self, group: &[usize]) -> Interval {
+        group.iter().fold(Interval::ZERO, |sum, k| sum + self.side(*k).square())
+    }
+}
+
+/// `sum_k x_k column_k` over a cell.
+pub(crate) fn combination(columns: &[[Interval; 6]], cell: &ChartCell) -> [Interval; 6] {
+    let mut out = [Interval::ZERO; 6];
+    for (k, column) in columns.iter().enumerate() {
+        for (sum, c) in out.iter_mut().zip(column) {
+            *sum = *sum + *c * cell.side(k);
+        }
+    }
+    out
+}
+
+/// What cutting a chart into cells has shown.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Bisection {
+    /// Every cell is settled.
+    Settled,
+    /// This point refutes what was to be shown.
+    Refuted([f64; 6]),
+    /// Cells ran out, or got too narrow, near this point.
+    Open([f64; 6]),
+}
+
+impl Chart {
+    /// Cuts the chart in two until each cell is settled, on at most `cells` cells, and counts those looked at.
+    ///
+    /// `settled` says of a cell that it is, or across which axis to cut it; `refutes` is asked about a point of each cell that is not.
+    pub(crate) fn bisected(
+        &self,
+        cells: usize,
+        settled: impl Fn(&ChartCell) -> Result<(), usize>,
+        refutes: impl Fn(&[f64; 6]) -> bool,
+    ) -> (Bisection, usize) {
+        let mut waiting = vec![self.root];
+        let mut looked_at = 0;
+        while let Some(cell) = waiting.pop() {
+            if self.covers(&cell, 1.0) == Covered::Outside {
+                continue;
+            }
+            let inside = self.pulled_inside(cell.centre());
+            if looked_at == cells {
+                return (Bisection::Open(inside), looked_at);
+            }
+            looked_at += 1;
+            let Err(axis) = settled(&cell) else { continue };
+            if refutes(&inside) {
+                return (Bisection::Refuted(inside), looked_at);
+            }
+            let Some(parts) = cell.halves(axis) else { return (Bisection::Open(inside), looked_at) };
+            waiting.extend(parts);
+        }
+        (Bisection::Settled, looked_at)
+    }
+
+    /// `R_0` of the pose for every reading of it: its matrix as it is, and the rotation of its quaternion.
+    fn home_rotation(home: &Pose) -> Rotation {
+        let exact = exact_rotation(home);
+        let quarter_turns =
+            home.rotation.matrix().iter().all(|x| *x == 0.0 || x.abs().to_bits() == 1.0_f64.to_bits());
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let (x, y) = (home.rotation[(i, j)], exact[i][j]);
+                if quarter_turns {
+                    return Interval::from(x);
+                }
+                let slack = 4.0 * f64::EPSILON;
+                Interval::new(y.lo().min(x) - slack, y.hi().max(x) + slack).unwrap_or(Interval::WHOLE)
+            })
+        })
+    }
+
+    fn new(home: &Pose, columns: Vec<[Interval; 6]>, balls: Vec<Vec<usize>>, root: ChartCell) -> Self {
+        let middle =
+            |c: &[Interval; 6], from: usize| Vector3::from_fn(|k, _| c[from + k].centre_and_radius().0);
+        let steps = columns.iter().map(|c| (middle(c, 0), middle(c, 3))).collect();
+        let position = std::array::from_fn(|k| Interval::from(home.position[k]));
+        Self { rotation: Self::home_rotation(home), position, columns, balls, root, home: *home, steps }
+    }
+
+    /// One pose.
+    pub(crate) fn of_pose(pose: &Pose) -> Self {
+        Self::new(pose, Vec::new(), Vec::new(), ChartCell::point([0.0; 6]))
+    }
+
+    /// The region of a pose space, by the coordinates `x` of its half widths that are not 0: `[-1, 1]` each, and in unit balls for ellipsoids.
+    pub(crate) fn of_region(space: &PoseSpace) -> Self {
+        let axes = space.axes();
+        let width = |k: usize| {
+            if k < 3 { Interval::from(space.translation[k]) } else { radians(space.rotation_deg[k - 3]) }
+        };
+        let column = |k: &usize| std::array::from_fn(|i| if i == *k { width(i) } else { Interval::ZERO });
+        let group = |keep: &dyn Fn(usize) -> bool| -> Vec<usize> {
+            (0..axes.len()).filter(|j| keep(axes[*j])).collect()
+        };
+        let balls = match space.region {
+            Region::Box => Vec::new(),
+            // a ball of one coordinate is its interval
+            Region::Ellipsoid => {
+                [group(&|k| k < 3), group(&|k| k >= 3)].into_iter().filter(|g| g.len() > 1).collect()
+            }
+        };
+        let mut root = ChartCell::point([0.0; 6]);
+        for j in 0..axes.len() {
+            (root.lo[j], root.hi[j]) = (-1.0, 1.0);
+        }
+        Self::new(&space.home, axes.iter().map(column).collect(), balls, root)
+    }
+
+    /// The poses between two of a trajectory, `x` from 0 to 1.
+    fn of_step(from: &Pose, to: &Pose) -> Self {
+        let (shift, turn) = (to.position - from.position, turn_between(&from.rotation, &to.rotation));
+        let (reach, angle) = (from.position.amax().max(to.position.amax()), turn.norm());
+        // the step is only given by its ends, to their last digits
+        let about = |x: f64, scale: f64| {
+            let slack = 8.0 * f64::EPSILON * scale;
+            Interval::new(x - slack, x + slack).unwrap_or(Interval::WHOLE)
+        };
+        let column = std::array::from_fn(|k| match k {
+            0..3 if shift[k] == 0.0 => Interval::ZERO,
+            0..3 => about(shift[k], reach),
+            _ if angle == 0.0 => Interval::ZERO,
+            _ => about(turn[k - 3], 1.0 + angle),
+        });
+        let mut root = ChartCell::point([0.0; 6]);
+        root.hi[0] = 1.0;
+        Self::new(from, vec![column], Vec::new(), root)
+    }
+
+    /// All poses of a space: its region, its single poses, the steps of its trajectory.
+    pub(crate) fn all(space: &PoseSpace) -> Vec<Self> {
+        let mut out = vec![Self::of_region(space)];
+        out.extend(space.poses.iter().chain(&space.trajectory).map(Self::of_pose));
+        out.extend(space.trajectory.windows(2).map(|w| Self::of_step(&w[0], &w[1])));
+        out
+    }
+
+    /// Number of coordinates.
+    pub(crate) fn len(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The pose at a point, rounded.
+    pub(crate) fn pose(&self, x: &[f64; 6]) -> Pose {
+        let (mut d, mut w) = (Vector3::zeros(), Vector3::zeros());
+        for ((shift, turn), x) in self.steps.iter().zip(x) {
+            d += shift * *x;
+            w += turn * *x;
+        }
+        Pose { rotation: Rotation3::new(w) * self.home.rotation, position: self.home.position + d }
+    }
+
+    /// Whether a cell lies in the balls of radius `scale`.
+    pub(crate) fn covers(&self, cell: &ChartCell, scale: f64) -> Covered {
+        let limit = Interval::from(scale).square();
+        let mut all = Covered::Inside;
+        for group in &self.balls {
+            let norm = cell.norm_squared(group);
+            if norm.lo() > limit.hi() {
+                return Covered::Outside;
+            }
+            if !(norm.hi() <= limit.lo()) {
+                all = Covered::Partly;
+            }
+        }
+        all
+    }
+
+    /// A scale whose balls and box hold the point, rounded up.
+    pub(crate) fn scale_of(&self, x: &[f64; 6]) -> f64 {
+        let largest = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let point = ChartCell::point(*x);
+        let norm = |g: &Vec<usize>| point.norm_squared(g).sqrt().map_or(f64::INFINITY, Interval::hi);
+        self.balls.iter().map(norm).fold(largest, f64::max)
+    }
+
+    /// The point moved into the balls of radius 1 where it lies outside, by shrinking: exactly inside.
+    pub(crate) fn pulled_inside(&self, mut x: [f64; 6]) -> [f64; 6] {
+        for group in &self.balls {
+            let norm = ChartCell::point(x).norm_squared(group).sqrt().map_or(1.0, Interval::hi);
+            if norm > 1.0 {
+                for k in group {
+                    x[*k] *= (1.0 - 4.0 * f64::EPSILON) / norm;
+                }
+            }
+        }
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+    use crate::platform::geom::enclosed::apply;
+    use crate::platform::geom::turn::turn;
+
+    fn space(region: Region) -> PoseSpace {
+        let rotation = Rotation3::from_euler_angles(0.3, -0.2, 1.1);
+        let home = Pose { rotation, position: Vector3::new(0.5, 0.0, 9.0) };
+        let mut space = PoseSpace {
+            region,
+            translation: Vector3::new(2.0, 0.0, 1.0),
+            rotation_deg: Vector3::new(10.0, 20.0, 150.0),
+            ..PoseSpace::at(home)
+        };
+        let end =
+            Pose { rotation: Rotation3::new(Vector3::z()) * rotation, position: Vector3::new(4.0, 0.0, 9.0) };
+        space.trajectory = vec![home, end];
+        space
+    }
+
+    /// Poses that the space draws lie in the enclosures of its charts.
+    #[test]
+    fn charts_hold_the_poses_of_their_space() {
+        let mut rng = Rng::new(2);
+        for region in [Region::Box, Region::Ellipsoid] {
+            let s = space(region);
+            let charts = Chart::all(&s);
+            assert_eq!((charts.len(), charts[0].len(), charts[3].len()), (4, 5, 1));
+            for x in s.cube_points(200, &mut rng) {
+                let pose = s.pose(&x);
+                let d = pose.position - s.home.position;
+                let w = turn_between(&s.home.rotation, &pose.rotation).map(f64::to_degrees);
+                let q = [d.x / 2.0, d.z, w.x / 10.0, w.y / 20.0, w.z / 150.0, 0.0];
+                assert!(charts[0].scale_of(&q) < 1.0 + 1e-12);
+                let cell = ChartCell { lo: q.map(|x| x - 1e-9), hi: q.map(|x| x + 1e-9) };
+                let there = combination(&charts[0].columns, &cell);
+                let turned = turn(&[there[3], there[4], there[5]]);
+                for k in 0..3 {
+                    assert!((there[k] + charts[0].position[k]).contains(pose.position[k]));
+                    let column = apply(&turned, &std::array::from_fn(|i| charts[0].rotation[i][k]));
+                    assert!((0..3).all(|i| column[i].contains(pose.rotation[(i, k)])));
+                }
+                assert!((charts[0].pose(&q).rotation.matrix() - pose.rotation.matrix()).norm() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn cells_inside_outside_and_across_a_ball_are_told_apart() {
+        let chart = Chart::of_region(&space(Region::Ellipsoid));
+        let at = |x: [f64; 6], half: f64| ChartCell { lo: x.map(|x| x - half), hi: x.map(|x| x + half) };
+        assert_eq!(chart.covers(&at([0.0; 6], 0.5), 1.0), Covered::Inside);
+        assert_eq!(chart.covers(&at([0.9, 0.9, 0.0, 0.0, 0.0, 0.0], 0.1), 1.0), Covered::Outside);
+        assert_eq!(chart.covers(&at([0.9, 0.0, 0.0, 0.0, 0.0, 0.0], 0.2), 1.0), Covered::Partly);
+        let far = chart.pulled_inside([3.0, 4.0, 1.0, 1.0, 1.0, 0.0]);
+        assert!(chart.scale_of(&far) <= 1.0 && (far[0] - 0.6).abs() < 1e-14);
+        // the box has no balls: a corner belongs to it
+        assert_eq!(Chart::of_region(&space(Region::Box)).covers(&at([0.9; 6], 0.1), 1.0), Covered::Inside);
+    }
+}

@@ -1,0 +1,45 @@
+//! Figures that show how near a design is to being singular everywhere.
+
+use crate::num::Rng;
+use crate::num::linalg::LinalgError;
+use crate::platform::geom::CentredPoses;
+use crate::platform::manipulator::{Manipulator, inverse_condition, jacobian};
+use crate::synthesis::LegSpan;
+
+/// Singular values of the leg vectors, and inverse condition numbers of the Jacobian at random poses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conditioning {
+    /// Singular values of the six normalised leg vectors, largest first.
+    pub leg_vectors: [f64; 6],
+    /// Number of poses: any rotation, middle of the platform within the size of the middle of the base in every coordinate.
+    pub poses: usize,
+    /// Greatest `sigma_min / sigma_max` of the length-normalised Jacobian among the poses: small for a design near singular.
+    pub best: f64,
+    /// Their median.
+    pub median: f64,
+    /// The least; small for every design, because singular poses exist.
+    pub worst: f64,
+}
+
+/// Random poses that the figures are taken over.
+const POSES: usize = 200;
+
+/// The figures of `m`, poses drawn with `seed`.
+///
+/// # Errors
+/// When the singular value decomposition does not converge.
+pub fn conditioning(m: &Manipulator, seed: u64) -> Result<Conditioning, LinalgError> {
+    let leg_vectors = LegSpan::of(m, 0.0)?.singular_values();
+    let centred = CentredPoses::new(m);
+    let mut rng = Rng::new(seed);
+    let mut values: Vec<f64> = (0..POSES)
+        .map(|_| {
+            let (rotation, offset) = centred.draw(&mut rng);
+            let pose = centred.pose(rotation, offset);
+            inverse_condition(&jacobian(m, &pose, m.platform_rms_radius()))
+        })
+        .collect();
+    values.sort_by(f64::total_cmp);
+    let (worst, median, best) = (values[0], values[POSES / 2], values[POSES - 1]);
+    Ok(Conditioning { leg_vectors, poses: POSES, best, median, worst })
+}

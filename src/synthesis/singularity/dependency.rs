@@ -1,0 +1,155 @@
+//! Exact linear relations between the leg vectors `v = (1, a) (x) (1, b)`.
+
+use crate::num::algebraic::Algebraic;
+use crate::num::exact::{Rational, approximate, relations};
+use crate::platform::manipulator::{Body, ExactLegs, SquaredLegLengths};
+
+/// A smallest set of legs with dependent vectors: `sum c_i v_i = 0`, and no proper part of it is dependent.
+///
+/// It forces `sum c_i s_i = constant` on the squared leg lengths of every pose: other lengths cannot be assembled.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dependency {
+    /// The legs, 0-based, ascending.
+    pub legs: Vec<usize>,
+    /// `c_1 .. c_6`, zero for the legs outside; small integers where there are such, otherwise scaled to a largest of 1.
+    pub coefficients: [f64; 6],
+    /// `sum c_i (|a_i|^2 + |b_i|^2)`, design units squared, computed exactly and rounded once.
+    pub constant: f64,
+    /// Dimension (0 to 3) of the smallest point, line, plane or space with the base ends.
+    pub base_dimension: usize,
+    /// The same for the platform ends.
+    pub platform_dimension: usize,
+}
+
+impl Dependency {
+    /// How far squared lengths are from the condition: `sum c_i s_i - constant`, over the sum of the moduli of its terms.
+    #[must_use]
+    pub fn defect(&self, s: &SquaredLegLengths) -> f64 {
+        let terms = self.coefficients.iter().zip(s.get()).map(|(c, s)| c * s);
+        let (sum, moduli) = terms.fold((0.0, self.constant.abs()), |(x, y), t| (x + t, y + f64::abs(t)));
+        (sum - self.constant) / moduli
+    }
+}
+
+fn one() -> Rational {
+    Rational::from_integer(1.into())
+}
+
+impl ExactLegs {
+    /// All smallest dependent sets, fewest legs first.
+    pub(super) fn dependencies(&self) -> Vec<Dependency> {
+        let mut found: Vec<Dependency> = Vec::new();
+        for legs in subsets_by_size(2) {
+            if found.iter().any(|d| d.legs.iter().all(|i| legs.contains(i))) {
+                continue;
+            }
+            // no part is dependent: there is at most one relation
+            if let Some(c) = relations(&self.vectors_of(&legs)).first() {
+                found.push(self.dependency(&legs, c));
+            }
+        }
+        found
+    }
+
+    fn dependency(&self, legs: &[usize], c: &[Algebraic]) -> Dependency {
+        let fractions: Option<Vec<Rational>> = c.iter().map(|x| x.as_rational().cloned()).collect();
+        let c = match fractions {
+            Some(fractions) => scaled(&fractions).into_iter().map(Algebraic::Rational).collect(),
+            None => scaled_to_one(c),
+        };
+        let mut coefficients = [0.0; 6];
+        let mut constant = Algebraic::integer(0);
+        for (i, c) in legs.iter().zip(&c) {
+            coefficients[*i] = c.approximate();
+            constant = &constant + &(c * &self.squares(*i));
+        }
+        Dependency {
+            legs: legs.to_vec(),
+            coefficients,
+            constant: constant.approximate(),
+            base_dimension: self.dimension(Body::Base, legs),
+            platform_dimension: self.dimension(Body::Platform, legs),
+        }
+    }
+}
+
+/// Subsets of the six legs with at least `least` members, small ones first, then in lexicographic order.
+pub(super) fn subsets_by_size(least: usize) -> Vec<Vec<usize>> {
+    let mut all: Vec<Vec<usize>> =
+        (1u8..64).map(|mask| (0..6).filter(|i| mask >> i & 1 == 1).collect()).collect();
+    all.retain(|s: &Vec<usize>| s.len() >= least);
+    all.sort_by(|x, y| x.len().cmp(&y.len()).then_with(|| x.cmp(y)));
+    all
+}
+
+/// The multiple of `c` with a largest modulus of 1 and a positive first entry that is not zero.
+fn scaled_to_one(c: &[Algebraic]) -> Vec<Algebraic> {
+    let largest = c.iter().map(|x| x.approximate().abs()).enumerate().max_by(|x, y| x.1.total_cmp(&y.1));
+    let Some(most) = largest.map(|(k, _)| &c[k]).filter(|x| !x.is_zero()) else { return c.to_vec() };
+    let ratios: Vec<Algebraic> = c.iter().map(|x| x / most).collect();
+    let negative = ratios.iter().find(|x| !x.is_zero()).is_some_and(|x| x.approximate() < 0.0);
+    if negative { ratios.iter().map(|x| -x).collect() } else { ratios }
+}
+
+/// A multiple of `c` with a positive first entry: integers below a million without a common factor, or a largest modulus of 1.
+fn scaled(c: &[Rational]) -> Vec<Rational> {
+    let zero = Rational::from_integer(0.into());
+    let Some(first) = c.iter().find(|x| **x != zero) else { return c.to_vec() };
+    // ratios to the smallest entry are integers for the usual small relations
+    let modulus = |x: &Rational| if *x < zero { -x } else { x.clone() };
+    let least = c.iter().filter(|x| **x != zero).map(modulus).min().unwrap_or_else(one);
+    let most = c.iter().map(modulus).max().unwrap_or_else(one);
+    let sign = if *first < zero { -one() } else { one() };
+    let ratio = approximate(&(&most / &least));
+    if ratio < 1e6 {
+        let ratios: Vec<Rational> = c.iter().map(|x| x * &sign / &least).collect();
+        for k in (1..=60u32).take_while(|k| ratio * f64::from(*k) < 1e6) {
+            let tried: Vec<Rational> = ratios.iter().map(|x| x * Rational::from_integer(k.into())).collect();
+            if tried.iter().all(Rational::is_integer) {
+                return tried;
+            }
+        }
+    }
+    c.iter().map(|x| x * &sign / &most).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::platform::manipulator::{Leg, Manipulator};
+    use nalgebra::Point3;
+
+    fn legs(list: &[([f64; 3], [f64; 3]); 6]) -> Manipulator {
+        let leg = |(a, b): &([f64; 3], [f64; 3])| Leg { base: Point3::from(*a), platform: Point3::from(*b) };
+        Manipulator::from_legs(list.each_ref().map(leg)).unwrap()
+    }
+
+    #[test]
+    fn three_legs_on_a_line_of_legs_are_one_dependency_with_its_condition() {
+        let p = [0.5, 0.25, 1.0];
+        let m = legs(&[
+            ([0.0, 0.0, 0.0], p),
+            ([4.0, 0.0, 0.0], p),
+            ([1.0, 0.0, 0.0], p),
+            ([0.0, 3.0, 1.0], [1.0, 2.0, 0.0]),
+            ([2.0, 3.0, 0.0], [-1.0, 2.0, 0.5]),
+            ([0.0, -3.0, 2.0], [1.0, -2.0, 0.0]),
+        ]);
+        let found = ExactLegs::of(&m).unwrap().dependencies();
+        assert_eq!(found.len(), 1);
+        let d = &found[0];
+        assert_eq!((d.legs.as_slice(), d.base_dimension, d.platform_dimension), (&[0, 1, 2][..], 1, 0));
+        assert!(
+            d.coefficients.iter().zip([3.0, 1.0, -4.0, 0.0, 0.0, 0.0]).all(|(x, y)| (x - y).abs() <= 0.0)
+        );
+        // Stewart's theorem: 3 s_1 + s_2 - 4 s_3 = 12 for the feet 0, 4 and 1 of a triangle
+        assert!((d.constant - 12.0).abs() <= 0.0, "{}", d.constant);
+    }
+
+    #[test]
+    fn subsets_are_in_order_and_complete() {
+        let all = subsets_by_size(2);
+        assert_eq!((all.len(), all[0].as_slice(), all[56].len()), (57, &[0, 1][..], 6));
+        assert!(all.windows(2).all(|w| w[0].len() <= w[1].len()));
+    }
+}

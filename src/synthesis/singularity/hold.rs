@@ -1,0 +1,168 @@
+//! Decides whether the legs hold the platform at a pose, and along a path of poses: the one test that all commands
+//! share.
+//!
+//! The sign of `det J` is proved by intervals. Where the intervals hold zero, exact arithmetic decides on joints that
+//! are exact. A pose that is left
+//! is singular to rounding: `det J` is not above the rounding errors of its own computation.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use super::path::{ControlPoint, PathPiece, Sign, SignsAlong, signs_along, signs_on_curve};
+use crate::num::exact::{ExactVector, rank, rational};
+use crate::num::surd::{Surd, combination, eliminate};
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::{ExactEnds, Manipulator};
+
+/// What shows that a pose is singular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SingularEvidence {
+    /// Proved: `det J` is zero in exact arithmetic on the joints and the rotation as written.
+    Zero,
+    /// Proved: `det J` has opposite signs on both sides.
+    SignChange,
+    /// `det J` is not above the rounding errors of its computation.
+    Rounding,
+}
+
+impl std::fmt::Display for SingularEvidence {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Zero => "det J = 0, proved in exact arithmetic",
+            Self::SignChange => "det J changes its sign there",
+            Self::Rounding => "det J = 0 to rounding",
+        })
+    }
+}
+
+/// Whether the legs hold the platform at a pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PoseHold {
+    /// Proved: `det J` has this sign.
+    Held(Sign),
+    /// The pose is singular.
+    Singular(SingularEvidence),
+}
+
+impl PoseHold {
+    /// What shows that the pose is singular, where it is.
+    #[must_use]
+    pub fn singular(self) -> Option<SingularEvidence> {
+        match self {
+            Self::Held(_) => None,
+            Self::Singular(evidence) => Some(evidence),
+        }
+    }
+}
+
+/// Whether the legs hold the platform at a pose. The rotation is that of the rounded quaternion of the pose, exactly.
+#[must_use]
+pub fn hold_at(m: &Manipulator, pose: &Pose) -> PoseHold {
+    if let Some(sign) = signs_along(m, pose, pose).kept() {
+        return PoseHold::Held(sign);
+    }
+    match is_exactly_singular(m, pose) {
+        Some(true) => PoseHold::Singular(SingularEvidence::Zero),
+        Some(false) | None => PoseHold::Singular(SingularEvidence::Rounding),
+    }
+}
+
+/// A singular pose of a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SingularOnPath {
+    /// Index of the curve.
+    pub curve: usize,
+    /// Parameter on the curve, from 0 to 1.
+    pub at: f64,
+    /// The pose there.
+    pub pose: Pose,
+    /// What shows it.
+    pub evidence: SingularEvidence,
+}
+
+/// The first singular pose of a path of Bezier curves, each of which begins where the one before ends; `None` where
+/// every pose is proved to be regular.
+#[must_use]
+pub fn singular_along<'a>(
+    m: &Manipulator,
+    curves: impl IntoIterator<Item = &'a [ControlPoint]>,
+) -> Option<SingularOnPath> {
+    // the sign before the open pieces, which may reach over the ends of curves, and the first of these
+    let mut before = None;
+    let mut open: Option<SingularOnPath> = None;
+    for (curve, control) in curves.into_iter().enumerate() {
+        let SignsAlong { pieces } = signs_on_curve(m, control);
+        for PathPiece { from, to, sign } in pieces {
+            match (sign, open) {
+                (None, None) => {
+                    let at = 0.5 * (from + to);
+                    let pose = on_curve(control, at);
+                    open = Some(SingularOnPath { curve, at, pose, evidence: SingularEvidence::Rounding });
+                }
+                (None, Some(_)) => {}
+                (Some(after), Some(found)) => return Some(judged(m, found, before, Some(after))),
+                (Some(sign), None) => before = Some(sign),
+            }
+        }
+    }
+    open.map(|found| judged(m, found, before, None))
+}
+
+fn judged(
+    m: &Manipulator,
+    found: SingularOnPath,
+    before: Option<Sign>,
+    after: Option<Sign>,
+) -> SingularOnPath {
+    let evidence = match (before, after) {
+        (Some(x), Some(y)) if x != y => SingularEvidence::SignChange,
+        _ => hold_at(m, &found.pose).singular().unwrap_or(SingularEvidence::Rounding),
+    };
+    SingularOnPath { evidence, ..found }
+}
+
+/// The pose of a Bezier curve at a parameter.
+fn on_curve(control: &[ControlPoint], u: f64) -> Pose {
+    let mut row = control.to_vec();
+    while row.len() > 1 {
+        row = row.windows(2).map(|w| std::array::from_fn(|k| w[0][k] * (1.0 - u) + w[1][k] * u)).collect();
+    }
+    let [x, y, z, w, i, j, k] = row[0];
+    let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k));
+    Pose { rotation: turn.to_rotation_matrix(), position: Vector3::new(x, y, z) }
+}
+
+/// Whether the leg lines are dependent, in exact arithmetic; `None` where joints are not known exactly, or numbers
+/// become too long.
+fn is_exactly_singular(m: &Manipulator, pose: &Pose) -> Option<bool> {
+    let ends = m.exact_ends()?;
+    let number = |x: f64| Surd::rational(&rational(x)?);
+    let position: Vec<Surd> = pose.position.iter().map(|x| number(*x)).collect::<Option<_>>()?;
+    let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
+    let e: Vec<Surd> = [q.w, q.i, q.j, q.k].into_iter().map(number).collect::<Option<_>>()?;
+    let norm = combination(&e, &e)?;
+    let cross = |x: &[Surd], y: &[Surd]| -> Option<Vec<Surd>> {
+        let part = |i: usize, j: usize| x[i].times(&y[j])?.minus(&x[j].times(&y[i])?);
+        Some(vec![part(1, 2)?, part(2, 0)?, part(0, 1)?])
+    };
+    let two = Surd::integer(2);
+    let row = |[a, b]: &ExactEnds| -> Option<Vec<Surd>> {
+        let once = cross(&e[1..], b)?;
+        let twice = cross(&e[1..], &once)?;
+        let mut line = Vec::new();
+        for k in 0..3 {
+            // N (p + b - a) + 2 (w (v x b) + v x (v x b))
+            let turned = two.times(&e[0].times(&once[k])?.plus(&twice[k])?)?;
+            line.push(norm.times(&position[k].plus(&b[k])?.minus(&a[k])?)?.plus(&turned)?);
+        }
+        let moment = cross(a, &line)?;
+        line.extend(moment);
+        Some(line)
+    };
+    let mut rows: Vec<Vec<Surd>> = ends.iter().map(row).collect::<Option<_>>()?;
+    let fractions: Option<Vec<ExactVector>> =
+        rows.iter().map(|row| row.iter().map(Surd::as_rational).collect()).collect();
+    match fractions {
+        Some(rows) => Some(rank(&rows) < 6),
+        None => Some(eliminate(&mut rows, 6)? < 6),
+    }
+}

@@ -1,0 +1,479 @@
+//! How far a design is from being architecturally singular.
+//!
+//! Distance is the Euclidean norm of the change of all joints together, design units; a shared joint moves as one. What is found is an explicit
+//! singular design, hence an upper bound of the distance; nothing is claimed about the best one.
+//!
+//! The nearest design with a relation between its leg vectors is found by Gauss-Newton steps on joints and relation together.
+//! Minimise `|y|^2` over changes `y` of the joints and unit vectors `c` with `F = sum c_i v_i(x_0 + y) = 0` (sixteen equations). Each step solves the
+//! linearised problem: the part of the equations that a change of `c` cannot reach is met by the least `y`, the rest by `c`.
+//!
+//! The nearest designs in which joints meet or line up so that no pose is held are known in closed form.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
+
+use super::lattice::candidate_poses;
+use super::lower_bound::proved_at_pose;
+use crate::num::Purpose;
+use crate::num::linalg::LinalgError;
+use crate::num::small::{bounded_svd, symmetric_eigen3};
+use crate::platform::manipulator::{Body, InvalidManipulator, Level, Manipulator};
+use crate::synthesis::LegSpan;
+
+/// A singular design near a given one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearestSingular {
+    /// Norm of the change of all joints, design units.
+    pub distance: f64,
+    /// What makes it singular: a name as in [`Case::name`](super::Case::name).
+    pub kind: &'static str,
+    /// The legs (0-based) that depend on each other there.
+    pub legs: Vec<usize>,
+    /// The relation between leg vectors, where that is what makes it singular; of norm 1.
+    pub coefficients: Option<[f64; 6]>,
+    /// Base joints of the singular design, in the order of the manipulator; joints no leg uses stay.
+    pub base: Vec<Point3<f64>>,
+    /// Its platform joints.
+    pub platform: Vec<Point3<f64>>,
+    /// What rounding of these joints leaves: smallest over largest singular value of the normalised leg vectors for a relation between them,
+    /// otherwise 0.
+    pub residual: f64,
+    /// Whether every coordinate changes by at most `2^-50` of the largest coordinate of its body: rounding of the file may hide it.
+    pub within_rounding: bool,
+    /// Half a unit of the last decimal that is given, design units, where no coordinate changes by more: the design is singular to the digits given.
+    pub within_digits: Option<f64>,
+}
+
+impl NearestSingular {
+    /// Whether the design may be a rounded value of this one.
+    #[must_use]
+    pub fn may_be_meant(&self) -> bool {
+        self.within_rounding || self.within_digits.is_some()
+    }
+
+    /// What a design near this one is called where this one may be meant; lengths in `units`.
+    #[must_use]
+    pub fn words(&self, units: &str) -> String {
+        match self.within_digits.filter(|_| !self.within_rounding) {
+            Some(half) => format!("singular to the digits given ({half} {units})"),
+            None => format!("singular within rounding ({:.1e} {units})", self.distance),
+        }
+    }
+}
+
+/// The singular design that plain doubles may be rounded values of, if any; asked of designs that are regular as written. Designs with exact joints are rounded values of none.
+///
+/// # Errors
+/// When a singular value decomposition does not converge.
+pub fn rounded_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSingular>, LinalgError> {
+    if m.level() == Level::ExactJoints {
+        return Ok(None);
+    }
+    // a design that one pose proves farther from every singular one than rounding reaches needs no search
+    let reach = ROUNDING * largest(m.base_joints()).max(largest(m.platform_joints()));
+    let reach = 6.0 * half_unit_given(m).map_or(reach, |half| reach.max(half));
+    if candidate_poses(m).take(4).any(|pose| proved_at_pose(m, &pose.pose()) > reach) {
+        return Ok(None);
+    }
+    Ok(nearest_singular(m, seed)?.filter(NearestSingular::may_be_meant))
+}
+
+fn largest(points: &[Point3<f64>]) -> f64 {
+    points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max)
+}
+
+/// Half a unit of the last decimal of the coordinates as they are written, design units; `None` where it is a large share of the design, so that the numbers are not meant to be rounded.
+fn half_unit_given(m: &Manipulator) -> Option<f64> {
+    let decimals = |x: f64| format!("{x}").split_once('.').map_or(0, |(_, digits)| digits.len());
+    let used = m.legs().into_iter().flat_map(|leg| [leg.base, leg.platform]);
+    let most = used.flat_map(|p| [p.x, p.y, p.z]).map(decimals).max().unwrap_or(0);
+    let half = 0.5 * 10f64.powi(-i32::try_from(most).ok()?);
+    (half <= COARSE * m.size()).then_some(half)
+}
+
+/// Changes of the joints that make a design singular.
+#[derive(Debug, Clone)]
+pub(super) struct Change {
+    kind: &'static str,
+    pub(super) legs: Vec<usize>,
+    pub(super) coefficients: Option<[f64; 6]>,
+    pub(super) base: Vec<Vector3<f64>>,
+    pub(super) platform: Vec<Vector3<f64>>,
+}
+
+impl Change {
+    pub(super) fn norm(&self) -> f64 {
+        self.base.iter().chain(&self.platform).map(Vector3::norm_squared).sum::<f64>().sqrt()
+    }
+}
+
+/// Share of the largest coordinate that counts as rounding: eight half units in its last place.
+const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
+/// Digits that are a greater share of the size than this are the design, not a rounding of it.
+const COARSE: f64 = 1.0 / 512.0;
+/// Two distances that differ by less than this are one.
+const SAME: f64 = 1e-6;
+/// Random starts besides the six singular vectors.
+const STARTS: u64 = 12;
+
+/// The nearest singular design found: closed forms for joints that have to meet or to line up, local optimisation from several
+/// starts (with `seed`) for relations between leg vectors.
+///
+/// # Errors
+/// When a singular value decomposition does not converge.
+pub fn nearest_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSingular>, LinalgError> {
+    let least = |all: Vec<Change>| {
+        all.into_iter().filter(|c| c.norm().is_finite()).min_by(|x, y| x.norm().total_cmp(&y.norm()))
+    };
+    let closed = least(changes(m));
+    let searched =
+        least(UnitCoefficients::all(m, seed, STARTS).iter().filter_map(|start| project(m, start)).collect());
+    let best = match (closed, searched) {
+        // a design found both ways is the exact one, whatever rounding says
+        (Some(x), Some(y)) => Some(if x.norm() <= y.norm() * (1.0 + SAME) { x } else { y }),
+        (x, y) => x.or(y),
+    };
+    best.map(|change| describe(m, change)).transpose()
+}
+
+fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgError> {
+    let moved = |from: &[Point3<f64>], by: &[Vector3<f64>]| -> Vec<Point3<f64>> {
+        from.iter().zip(by).map(|(p, d)| p + d).collect()
+    };
+    let base = moved(m.base_joints(), &change.base);
+    let platform = moved(m.platform_joints(), &change.platform);
+    let rebuilt: Result<Manipulator, InvalidManipulator> =
+        Manipulator::try_new(base.clone(), platform.clone(), m.pairs());
+    let (residual, kind) = match (&change.coefficients, rebuilt) {
+        (Some(_), Ok(there)) => {
+            (LegSpan::of(&there, 0.0)?.inverse_condition(), super::case::name(&there, &change.legs)?)
+        }
+        _ => (0.0, change.kind),
+    };
+    let within = |by: &[Vector3<f64>], limit: f64| by.iter().all(|d| d.amax() <= limit);
+    let within_rounding = within(&change.base, ROUNDING * largest(m.base_joints()))
+        && within(&change.platform, ROUNDING * largest(m.platform_joints()));
+    let given = half_unit_given(m).filter(|_| m.level() == Level::DoublesAsWritten);
+    let within_digits = given.filter(|half| within(&change.base, *half) && within(&change.platform, *half));
+    Ok(NearestSingular {
+        distance: change.norm(),
+        kind,
+        legs: change.legs,
+        coefficients: change.coefficients,
+        base,
+        platform,
+        residual,
+        within_rounding,
+        within_digits,
+    })
+}
+
+/// Where the search begins: a unit vector of coefficients.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct UnitCoefficients([f64; 6]);
+
+impl UnitCoefficients {
+    /// The six singular vectors of the relation `c -> sum c_i v_i`, and `random` others.
+    pub(super) fn all(m: &Manipulator, seed: u64, random: u64) -> Vec<Self> {
+        let problem = NearestProblem::of(m);
+        let singular = bounded_svd(&problem.vectors(&problem.start)).and_then(|d| d.v_t);
+        let rows =
+            singular.iter().flat_map(|v| (0..6).rev().map(move |k| std::array::from_fn(|i| v[(k, i)])));
+        let mut starts: Vec<Self> = rows.map(Self).collect();
+        for k in 0..random {
+            let mut rng = Purpose::NEAREST_STARTS.item(seed, k);
+            starts.push(Self([(); 6].map(|()| rng.normal())));
+        }
+        starts
+    }
+}
+
+/// Most Gauss-Newton steps.
+const STEPS: usize = 60;
+/// Largest change in one step, in the normalised coordinates.
+const STRIDE: f64 = 0.3;
+/// Largest `|F|` at the end, in the normalised coordinates.
+const SOLVED: f64 = 1e-13;
+/// Smaller steps than this end the search: what they leave in `F` is their square.
+const SETTLED: f64 = 1e-10;
+/// Legs with a smaller share in the relation count as not taking part.
+const SHARE: f64 = 1e-7;
+
+/// Coordinates below this, relative to the size, are left out of the search; what it finds is measured from the joints as they are.
+const LEAST: f64 = 1e-100;
+
+/// Joints in use, centred and scaled to the size.
+struct NearestProblem {
+    joints: [Vec<usize>; 2],
+    start: DVector<f64>,
+    legs: [(usize, usize); 6],
+}
+
+impl NearestProblem {
+    fn of(m: &Manipulator) -> Self {
+        let used = |pick: fn(&(usize, usize)) -> usize| {
+            let mut list: Vec<usize> = m.pairs().iter().map(pick).collect();
+            list.sort_unstable();
+            list.dedup();
+            list
+        };
+        let joints = [used(|p| p.0), used(|p| p.1)];
+        let mut x = Vec::new();
+        for (list, at) in joints.iter().zip([m.base_joints(), m.platform_joints()]) {
+            let first = at[list[0]];
+            let mean = list.iter().map(|j| at[*j] - first).sum::<Vector3<f64>>() / list.len() as f64;
+            let scaled = |j: &usize| (at[*j] - first - mean) / m.size();
+            // parts that no sum with a part of order one can hold: products of them are below the range of doubles, where iterations do not settle
+            let held = |x: f64| if x.abs() < LEAST { 0.0 } else { x };
+            x.extend(list.iter().flat_map(|j| scaled(j).iter().map(|x| held(*x)).collect::<Vec<_>>()));
+        }
+        let place = |list: &[usize], j: usize| list.iter().position(|k| *k == j).unwrap_or_default();
+        let legs = m.pairs().map(|(a, b)| (place(&joints[0], a), joints[0].len() + place(&joints[1], b)));
+        Self { joints, start: DVector::from_vec(x), legs }
+    }
+
+    /// `(1, a)` and `(1, b)` of a leg.
+    fn ends(&self, x: &DVector<f64>, leg: usize) -> [[f64; 4]; 2] {
+        let (a, b) = self.legs[leg];
+        [a, b].map(|j| [1.0, x[3 * j], x[3 * j + 1], x[3 * j + 2]])
+    }
+
+    /// The leg vectors as columns.
+    fn vectors(&self, x: &DVector<f64>) -> DMatrix<f64> {
+        let ends: Vec<_> = (0..6).map(|i| self.ends(x, i)).collect();
+        DMatrix::from_fn(16, 6, |k, i| ends[i][0][k / 4] * ends[i][1][k % 4])
+    }
+
+    /// Derivative of `sum c_i v_i` by the joints.
+    fn by_joints(&self, x: &DVector<f64>, c: &DVector<f64>) -> DMatrix<f64> {
+        let mut d = DMatrix::zeros(16, x.len());
+        for leg in 0..6 {
+            let [a, b] = self.ends(x, leg);
+            let (j, k) = self.legs[leg];
+            for axis in 0..3 {
+                for other in 0..4 {
+                    d[(4 * (axis + 1) + other, 3 * j + axis)] += c[leg] * b[other];
+                    d[(4 * other + axis + 1, 3 * k + axis)] += c[leg] * a[other];
+                }
+            }
+        }
+        d
+    }
+}
+
+/// Follows one start; `None` when it does not settle on a design with a relation.
+fn project(m: &Manipulator, start: &UnitCoefficients) -> Option<Change> {
+    let problem = NearestProblem::of(m);
+    let mut x = problem.start.clone();
+    let mut c = DVector::from_row_slice(&start.0).normalize();
+    for _ in 0..STEPS {
+        let v = problem.vectors(&x);
+        let f = &v * &c;
+        let by_x = problem.by_joints(&x, &c);
+        let reached = bounded_svd(&tangent(&v, &c))?;
+        // columns of U with a singular value: what a change of c reaches
+        let u = reached.u.as_ref()?;
+        let limit = 1e-10 * reached.singular_values.max();
+        let kept: Vec<usize> = (0..5).filter(|k| reached.singular_values[*k] > limit).collect();
+        let across = |w: &DMatrix<f64>| {
+            let basis = u.select_columns(&kept);
+            w - &basis * (basis.transpose() * w)
+        };
+        let y = &x - &problem.start;
+        let target = across(&DMatrix::from_column_slice(16, 1, (&by_x * &y - &f).as_slice()));
+        let least = pseudo_solve(&across(&by_x), &target)?;
+        let mut step = DVector::from_column_slice(least.as_slice()) - &y;
+        let left = -(&f + &by_x * &step);
+        let mut turn = pseudo_solve(&tangent(&v, &c), &DMatrix::from_column_slice(16, 1, left.as_slice()))?;
+        let damping = (STRIDE / step.norm().max(turn.norm())).min(1.0);
+        step *= damping;
+        turn *= damping;
+        x += &step;
+        c = (&c + basis_across(&c) * DVector::from_column_slice(turn.as_slice())).normalize();
+        if step.norm() <= SETTLED && turn.norm() <= SETTLED {
+            break;
+        }
+    }
+    let residual = (problem.vectors(&x) * &c).norm();
+    (residual < SOLVED).then(|| change(m, &problem, &x, &c))
+}
+
+/// An orthonormal basis of the vectors at right angles to `c`, as 6 x 5.
+fn basis_across(c: &DVector<f64>) -> DMatrix<f64> {
+    // Householder: the reflection that takes the first axis to c takes the others to a basis
+    let mut h = c.clone();
+    let sign = if h[0] < 0.0 { -1.0 } else { 1.0 };
+    h[0] += sign;
+    let reflection = DMatrix::identity(6, 6) - (&h * h.transpose()) * (2.0 / h.norm_squared());
+    reflection.columns(1, 5).into_owned()
+}
+
+/// Changes of `F` by changes of `c` on the unit sphere.
+fn tangent(v: &DMatrix<f64>, c: &DVector<f64>) -> DMatrix<f64> {
+    v * basis_across(c)
+}
+
+fn pseudo_solve(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let svd = bounded_svd(a)?;
+    let limit = 1e-10 * svd.singular_values.max();
+    svd.solve(b, limit).ok()
+}
+
+fn change(m: &Manipulator, problem: &NearestProblem, x: &DVector<f64>, c: &DVector<f64>) -> Change {
+    let moved = (x - &problem.start) * m.size();
+    let still = |count: usize| vec![Vector3::zeros(); count];
+    let mut bodies = [still(m.base_joints().len()), still(m.platform_joints().len())];
+    let mut next = 0;
+    for (body, list) in problem.joints.iter().enumerate() {
+        for j in list {
+            bodies[body][*j] = Vector3::new(moved[next], moved[next + 1], moved[next + 2]);
+            next += 3;
+        }
+    }
+    let [base, platform] = bodies;
+    let coefficients: [f64; 6] = std::array::from_fn(|i| c[i]);
+    let legs = (0..6).filter(|i| c[*i].abs() > SHARE).collect();
+    Change { kind: "leg_vectors_dependent", legs, coefficients: Some(coefficients), base, platform }
+}
+
+/// The nearest member of each simple family: coincident legs, four legs at one point, two points that hold all legs, a collinear body,
+/// three legs of a pencil, a bundle and a pencil with a common line.
+///
+/// Each is the least change within its family: points that have to meet meet in their centroid, points that have to line up go
+/// to the line through their centroid along the principal axis.
+pub(super) fn changes(m: &Manipulator) -> Vec<Change> {
+    let mut found = Vec::new();
+    let bodies = Body::BOTH;
+    for set in (1u8..64).map(members) {
+        let rest: Vec<usize> = (0..6).filter(|i| !set.contains(i)).collect();
+        if set.len() == 2 {
+            let mut change = still(m, "coincident_legs", &set);
+            for body in bodies {
+                meet(m, &mut change, body, &set);
+            }
+            found.push(change);
+        }
+        for body in bodies {
+            if set.len() == 4 {
+                let mut change = still(m, "concurrent_four", &set);
+                meet(m, &mut change, body, &set);
+                found.push(change);
+            }
+            if set.len() == 3 {
+                let mut change = still(m, "point_line", &set);
+                meet(m, &mut change, body, &set);
+                line_up(m, &mut change, body.other(), &each(m, body.other(), &set));
+                found.push(change);
+                stars_and_pencils(m, body, &set, &rest, &mut found);
+                for other in bodies {
+                    let mut change = still(m, "two_joints_hold_all_legs", &[0, 1, 2, 3, 4, 5]);
+                    meet(m, &mut change, body, &set);
+                    meet_again(m, &mut change, other, &rest);
+                    found.push(change);
+                }
+            }
+            if set.len() == 6 {
+                let mut change = still(m, "all_collinear", &set);
+                line_up(m, &mut change, body, &each(m, body, &set));
+                found.push(change);
+            }
+        }
+    }
+    found
+}
+
+fn members(mask: u8) -> Vec<usize> {
+    (0..6).filter(|i| mask >> i & 1 == 1).collect()
+}
+
+fn still(m: &Manipulator, kind: &'static str, legs: &[usize]) -> Change {
+    let none = |joints: &[Point3<f64>]| vec![Vector3::zeros(); joints.len()];
+    let (base, platform) = (none(m.base_joints()), none(m.platform_joints()));
+    Change { kind, legs: legs.to_vec(), coefficients: None, base, platform }
+}
+
+/// The joints of `body` at which `legs` end, each once.
+fn joints(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<usize> {
+    let pairs = m.pairs();
+    let mut list: Vec<usize> = legs.iter().map(|i| body.of(pairs[*i])).collect();
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
+fn displacements(change: &mut Change, body: Body) -> &mut Vec<Vector3<f64>> {
+    body.of((&mut change.base, &mut change.platform))
+}
+
+/// Moves the ends of `legs` to their centroid.
+fn meet(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
+    let (list, at) = (joints(m, body, legs), m.joints(body));
+    let mean = list.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / list.len() as f64;
+    for j in list {
+        displacements(change, body)[j] = mean - at[j].coords;
+    }
+}
+
+/// As [`meet`], where joints of `body` may have been moved already: a joint in both sets makes the two points one.
+fn meet_again(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
+    let list = joints(m, body, legs);
+    let moved = |j: &usize, change: &mut Change| displacements(change, body)[*j].norm_squared() > 0.0;
+    if list.iter().any(|j| moved(j, change)) {
+        let all: Vec<usize> = (0..6).collect();
+        meet(m, change, body, &all);
+    } else {
+        meet(m, change, body, legs);
+    }
+}
+
+/// Moves the ends of each group to one point, and these points to a line: the line through the weighted centroid along the principal axis
+/// leaves the least change.
+fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize>]) {
+    let at = m.joints(body);
+    let groups: Vec<Vec<usize>> = groups.iter().map(|g| joints(m, body, g)).collect();
+    let centre =
+        |group: &Vec<usize>| group.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / group.len() as f64;
+    let weight: f64 = groups.iter().map(|g| g.len() as f64).sum();
+    let mean = groups.iter().map(|g| centre(g) * g.len() as f64).sum::<Vector3<f64>>() / weight;
+    let term = |g: &Vec<usize>| (centre(g) - mean) * (centre(g) - mean).transpose() * g.len() as f64;
+    let scatter: Matrix3<f64> = groups.iter().map(term).sum();
+    let (values, vectors) = symmetric_eigen3(&scatter);
+    let axis = vectors.column(values.imax()).into_owned();
+    for group in &groups {
+        let place = mean + axis * axis.dot(&(centre(group) - mean));
+        for j in group {
+            displacements(change, body)[*j] = place - at[*j].coords;
+        }
+    }
+}
+
+/// One group a joint of `body` at which `legs` end.
+fn each(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<Vec<usize>> {
+    let mut seen = Vec::new();
+    legs.iter()
+        .filter_map(|i| {
+            let joint = joints(m, body, &[*i]);
+            let new = !seen.contains(&joint);
+            seen.push(joint);
+            new.then(|| vec![*i])
+        })
+        .collect()
+}
+
+/// Three legs from one point of `body`, two of the others from one point of the other body to a line through it.
+fn stars_and_pencils(m: &Manipulator, body: Body, star: &[usize], rest: &[usize], found: &mut Vec<Change>) {
+    for skipped in rest {
+        let pair: Vec<usize> = rest.iter().copied().filter(|i| i != skipped).collect();
+        let mut legs: Vec<usize> = star.iter().chain(&pair).copied().collect();
+        legs.sort_unstable();
+        let at_star = joints(m, body, star);
+        if pair.iter().any(|i| at_star.contains(&joints(m, body, &[*i])[0])) {
+            continue; // four legs at one point: another family
+        }
+        let mut change = still(m, "star_and_pencil", &legs);
+        let mut groups = each(m, body, &pair);
+        groups.push(star.to_vec());
+        line_up(m, &mut change, body, &groups);
+        meet(m, &mut change, body.other(), &pair);
+        found.push(change);
+    }
+}

@@ -1,0 +1,548 @@
+//! Joins poses by paths without a singular pose: `det J` along paths, and paths that keep its sign.
+//!
+//! The *straight path* from one pose to another: `p` linear, the quaternion linear (and normalised), that is, the rotation about the fixed axis of
+//! the relative rotation, the short way. On it `det J` is a polynomial of degree 18 over a positive function, so that its sign is proved piece
+//! by piece in interval arithmetic. Poses of the same sign may be joined by other paths ([`join()`]).
+//!
+//! For the polynomial, with the quaternion `e(u) = (1 - u) e_0 + u e_1` (not normalised) and `p(u) = (1 - u) p_0 + u p_1` the vectors
+//! `N n_i = N R(e) b_i + N (p - a_i)`, `N = e.e`, are cubic forms in `(1 - u, u)`, and `N^6 det J` is one of degree 18. It is kept by its
+//! coefficients `c_k` of `(1 - u)^{18 - k} u^k`, which multiply like those of ordinary polynomials; `c_k` over the binomial coefficient is
+//! the Bernstein coefficient: when all have one sign the form has it on `[0, 1]`.
+//!
+//! A *curved path* is given by the control points of a Bezier curve of positions and quaternions; of degree `n` it has
+//! a form of degree `18 n`
+//! ([`signs_on_curve`]).
+//!
+//! [`join()`] looks for a chain of straight paths on a random roadmap, whose edges are proved.
+
+#[cfg(test)]
+mod tests;
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use crate::num::Rng;
+use crate::num::interval::Interval;
+use crate::platform::geom::{Pose, random_rotation};
+use crate::platform::manipulator::{Manipulator, plucker_matrix};
+
+/// Pieces are halved this often before they are left open.
+const DEPTH: u32 = 40;
+
+/// A part `[from, to]` of a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathPiece {
+    /// Parameter of its start, in `[0, 1]`.
+    pub from: f64,
+    /// Parameter of its end.
+    pub to: f64,
+    /// The sign of `det J` proved for all of it; `None` when a zero is there or nearly so.
+    pub sign: Option<Sign>,
+}
+
+/// The signs of `det J` along a straight path, in order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SignsAlong {
+    /// Pieces that follow each other from 0 to 1; neighbours differ in sign, or one is open.
+    pub pieces: Vec<PathPiece>,
+}
+
+impl SignsAlong {
+    /// The sign proved for the whole path: no pose on it is singular.
+    #[must_use]
+    pub fn kept(&self) -> Option<Sign> {
+        match self.pieces[..] {
+            [piece] => piece.sign,
+            _ => None,
+        }
+    }
+
+    /// Proved signs at start and end.
+    #[must_use]
+    pub fn ends(&self) -> [Option<Sign>; 2] {
+        let sign = |piece: Option<&PathPiece>| piece.and_then(|p| p.sign);
+        [sign(self.pieces.first()), sign(self.pieces.last())]
+    }
+
+    /// Open pieces between opposite signs: each holds a singular pose.
+    pub fn changes(&self) -> impl Iterator<Item = PathPiece> + '_ {
+        self.open().filter(|w| w.1).map(|w| w.0)
+    }
+
+    /// Open pieces not between opposite signs: `det J` vanishes there, twice or more, or nearly does.
+    pub fn doubtful(&self) -> impl Iterator<Item = PathPiece> + '_ {
+        self.open().filter(|w| !w.1).map(|w| w.0)
+    }
+
+    fn open(&self) -> impl Iterator<Item = (PathPiece, bool)> + '_ {
+        let sign = |k: Option<usize>| k.and_then(|k| self.pieces.get(k)).and_then(|p| p.sign);
+        self.pieces.iter().enumerate().filter(|(_, p)| p.sign.is_none()).map(move |(k, p)| {
+            let (before, after) = (sign(k.checked_sub(1)), sign(Some(k + 1)));
+            (*p, before.is_some() && after.is_some() && before != after)
+        })
+    }
+}
+
+/// The pose at the parameter `u` of the straight path.
+#[must_use]
+pub fn between(from: &Pose, to: &Pose, u: f64) -> Pose {
+    let (e0, e1) = quaternions(from, to);
+    let e: [f64; 4] = std::array::from_fn(|k| e0[k] * (1.0 - u) + e1[k] * u);
+    let rotation =
+        UnitQuaternion::from_quaternion(Quaternion::new(e[0], e[1], e[2], e[3])).to_rotation_matrix();
+    Pose { rotation, position: from.position * (1.0 - u) + to.position * u }
+}
+
+/// Where `det J` is proved to have which sign on the straight path from `from` to `to`.
+///
+/// Rotations are those of the rounded quaternions of the poses, exactly; the poses of the path are exact functions of these and of the positions.
+#[must_use]
+pub fn signs_along(m: &Manipulator, from: &Pose, to: &Pose) -> SignsAlong {
+    signs(determinant(m, &Curve::straight(from, to)))
+}
+
+/// Position, then quaternion with the scalar part first, of any norm above zero.
+pub type ControlPoint = [f64; 7];
+
+/// The control points of the straight path.
+#[must_use]
+pub fn straight(from: &Pose, to: &Pose) -> [ControlPoint; 2] {
+    let (e0, e1) = quaternions(from, to);
+    let point = |pose: &Pose, e: [f64; 4]| {
+        let p = pose.position;
+        [p.x, p.y, p.z, e[0], e[1], e[2], e[3]]
+    };
+    [point(from, e0), point(to, e1)]
+}
+
+/// The same on the Bezier curve of positions and quaternions that has these control points, one or more.
+#[must_use]
+pub fn signs_on_curve(m: &Manipulator, control: &[ControlPoint]) -> SignsAlong {
+    signs(determinant(m, &Curve::of(control)))
+}
+
+fn signs(coefficients: Vec<Interval>) -> SignsAlong {
+    let mut pieces: Vec<PathPiece> = Vec::new();
+    let mut open: Vec<(f64, f64, Vec<Interval>, u32)> = vec![(0.0, 1.0, coefficients, 0)];
+    while let Some((from, to, c, depth)) = open.pop() {
+        let sign = common_sign(&c);
+        if sign.is_none() && depth < DEPTH && !hopeless(&c) {
+            let (left, right) = halves(&c);
+            let middle = 0.5 * (from + to); // exact: dyadic with few digits
+            open.push((middle, to, right, depth + 1));
+            open.push((from, middle, left, depth + 1));
+            continue;
+        }
+        match pieces.last_mut().filter(|last| last.sign == sign) {
+            Some(last) => last.to = to,
+            None => pieces.push(PathPiece { from, to, sign }),
+        }
+    }
+    SignsAlong { pieces }
+}
+
+/// No coefficient has a sign: rounding hides everything, halving helps no more.
+fn hopeless(c: &[Interval]) -> bool {
+    c.iter().all(|x| x.lo() <= 0.0 && x.hi() >= 0.0)
+}
+
+/// Degree of `N^6 det J` on a straight path.
+const DEGREE: usize = 18;
+
+/// Positions and quaternions of a path, forms of one degree.
+struct Curve {
+    degree: usize,
+    position: [Form; 3],
+    quaternion: [Form; 4],
+}
+
+impl Curve {
+    fn straight(from: &Pose, to: &Pose) -> Self {
+        Self::of(&straight(from, to))
+    }
+
+    fn of(control: &[ControlPoint]) -> Self {
+        let degree = control.len().saturating_sub(1);
+        let weights = ones(degree);
+        let form = |k: usize| -> Form {
+            control.iter().zip(&weights).map(|(point, w)| Interval::from(point[k]) * *w).collect()
+        };
+        Self { degree, position: std::array::from_fn(form), quaternion: std::array::from_fn(|k| form(k + 3)) }
+    }
+}
+
+/// The constant 1 as a form: the binomial coefficients, which are exact.
+fn ones(degree: usize) -> Form {
+    let mut binomial = 1.0;
+    let coefficient = |k: usize| {
+        let here = Interval::from(binomial);
+        binomial = binomial * (degree - k) as f64 / (k + 1) as f64;
+        here
+    };
+    (0..=degree).map(coefficient).collect()
+}
+
+/// A form in `(1 - u, u)` by its coefficients.
+type Form = Vec<Interval>;
+
+fn times(x: &Form, y: &Form) -> Form {
+    let mut out = vec![Interval::ZERO; x.len() + y.len() - 1];
+    for (i, a) in x.iter().enumerate() {
+        for (j, b) in y.iter().enumerate() {
+            out[i + j] = out[i + j] + *a * *b;
+        }
+    }
+    out
+}
+
+fn plus(x: &Form, y: &Form) -> Form {
+    x.iter().zip(y).map(|(a, b)| *a + *b).collect()
+}
+
+fn minus(x: &Form, y: &Form) -> Form {
+    x.iter().zip(y).map(|(a, b)| *a - *b).collect()
+}
+
+fn scaled(x: &Form, factor: Interval) -> Form {
+    x.iter().map(|a| *a * factor).collect()
+}
+
+/// Bernstein coefficients of `N^6 det J` on a path, up to the power of the size.
+fn determinant(m: &Manipulator, curve: &Curve) -> Vec<Interval> {
+    let rows = rows(m, curve);
+    let minor = |r: usize, c: [usize; 3]| {
+        let part = |i: usize, j: usize, k: usize| {
+            let two =
+                minus(&times(&rows[r + 1][j], &rows[r + 2][k]), &times(&rows[r + 1][k], &rows[r + 2][j]));
+            times(&rows[r][i], &two)
+        };
+        plus(&minus(&part(c[0], c[1], c[2]), &part(c[1], c[0], c[2])), &part(c[2], c[0], c[1]))
+    };
+    let degree = DEGREE * curve.degree;
+    let mut sum = vec![Interval::ZERO; degree + 1];
+    // Laplace expansion by complementary minors of the first three rows
+    for i in 0..6 {
+        for j in i + 1..6 {
+            for k in j + 1..6 {
+                let mut others = (0..6).filter(|x| ![i, j, k].contains(x));
+                let rest: [usize; 3] = std::array::from_fn(|_| others.next().unwrap_or(0));
+                let term = times(&minor(0, [i, j, k]), &minor(3, rest));
+                sum = if (i + j + k) % 2 == 1 { plus(&sum, &term) } else { minus(&sum, &term) };
+            }
+        }
+    }
+    for (c, binomial) in sum.iter_mut().zip(ones(degree)) {
+        *c = c.checked_div(binomial).unwrap_or(Interval::WHOLE);
+    }
+    sum
+}
+
+/// Rows `N [n_i, a_i x n_i]`, about the mean base joint in units of the size.
+fn rows(m: &Manipulator, curve: &Curve) -> Vec<[Form; 6]> {
+    let [mean, _] = m.mean_leg_ends();
+    let unit = Interval::from(m.size());
+    let place =
+        |x: Interval, origin: f64| (x - Interval::from(origin)).checked_div(unit).unwrap_or(Interval::WHOLE);
+    let e = &curve.quaternion;
+    let one = ones(curve.degree);
+    let squares = e.each_ref().map(|x| times(x, x));
+    let vector = plus(&plus(&squares[1], &squares[2]), &squares[3]);
+    let norm = plus(&squares[0], &vector);
+    let row = |leg: usize| {
+        let [a, b] = m.enclosed_ends(leg);
+        let base: [Interval; 3] = std::array::from_fn(|k| place(a[k], mean[k]));
+        let arm: [Interval; 3] = b.map(|x| place(x, 0.0));
+        let turned = turned(e, &minus(&squares[0], &vector), &arm);
+        let direction: [Form; 3] = std::array::from_fn(|k| {
+            let offset = Interval::from(mean[k]) + base[k] * unit;
+            let from_joint = minus(&curve.position[k], &scaled(&one, offset));
+            let line: Form =
+                from_joint.iter().map(|x| x.checked_div(unit).unwrap_or(Interval::WHOLE)).collect();
+            // the form of the rotation times the constant 1 of the degree of the path
+            plus(&times(&turned[k], &one), &times(&norm, &line))
+        });
+        let moment =
+            |i: usize, j: usize| minus(&scaled(&direction[j], base[i]), &scaled(&direction[i], base[j]));
+        let (x, y, z) = (moment(1, 2), moment(2, 0), moment(0, 1));
+        let [u, v, w] = direction;
+        [u, v, w, x, y, z]
+    };
+    (0..6).map(row).collect()
+}
+
+/// `N R(e) b = (w^2 - v.v) b + 2 (v.b) v + 2 w v x b` with `e = (w, v)`.
+fn turned(e: &[Form; 4], difference: &Form, b: &[Interval; 3]) -> [Form; 3] {
+    let v = [&e[1], &e[2], &e[3]];
+    let along = plus(&plus(&scaled(v[0], b[0]), &scaled(v[1], b[1])), &scaled(v[2], b[2]));
+    let two = Interval::from(2.0);
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let cross = minus(&scaled(v[i], b[j]), &scaled(v[j], b[i]));
+        let rest = plus(&times(&along, v[k]), &times(&e[0], &cross));
+        plus(&scaled(difference, b[k]), &scaled(&rest, two))
+    })
+}
+
+/// The quaternions of two poses, the second with the sign that makes the way short.
+fn quaternions(from: &Pose, to: &Pose) -> ([f64; 4], [f64; 4]) {
+    let q = [from, to].map(|pose| {
+        let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
+        [q.w, q.i, q.j, q.k]
+    });
+    let dot: f64 = q[0].iter().zip(q[1]).map(|(x, y)| x * y).sum();
+    (q[0], if dot < 0.0 { q[1].map(|x| -x) } else { q[1] })
+}
+
+/// The sign all numbers share, if they do.
+fn common_sign(c: &[Interval]) -> Option<Sign> {
+    if c.iter().all(|x| x.lo() > 0.0) {
+        Some(Sign::Positive)
+    } else if c.iter().all(|x| x.hi() < 0.0) {
+        Some(Sign::Negative)
+    } else {
+        None
+    }
+}
+
+/// Bernstein coefficients on the two halves (de Casteljau).
+fn halves(c: &[Interval]) -> (Vec<Interval>, Vec<Interval>) {
+    let half = Interval::from(0.5);
+    let (mut row, mut left, mut right) = (c.to_vec(), Vec::new(), Vec::new());
+    while let (Some(first), Some(last)) = (row.first(), row.last()) {
+        left.push(*first);
+        right.push(*last);
+        row = row.windows(2).map(|w| (w[0] + w[1]) * half).collect();
+    }
+    right.reverse();
+    (left, right)
+}
+
+/// Sign of `det J`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sign {
+    /// `det J > 0`.
+    Positive,
+    /// `det J < 0`.
+    Negative,
+}
+
+impl Sign {
+    /// `+1` or `-1`.
+    #[must_use]
+    pub fn value(self) -> i8 {
+        match self {
+            Self::Positive => 1,
+            Self::Negative => -1,
+        }
+    }
+}
+
+/// Neighbours of a pose of the roadmap.
+const NEIGHBOURS: usize = 12;
+/// Poses looked at on an edge before it is proved.
+const PROBES: usize = 12;
+
+/// How hard to search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JoinOptions {
+    /// Random poses drawn for each sign.
+    pub samples: usize,
+    /// Seed of the drawing.
+    pub seed: u64,
+}
+
+/// A chain of poses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Way {
+    /// Index of the pose it starts from.
+    pub from: usize,
+    /// Index of the pose it leads to.
+    pub to: usize,
+    /// All poses of the chain, both ends included; `det J` is proved to keep its sign on every straight path from one to the next.
+    pub poses: Vec<Pose>,
+}
+
+/// Which of some poses are proved to be joined without a singular pose between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joined {
+    /// Sign of `det J` at each pose, `None` where it is not proved.
+    pub signs: Vec<Option<Sign>>,
+    /// Poses proved to be joined, each pose in one group. Poses of different groups and opposite signs cannot be joined; those of equal signs
+    /// were not joined by the search.
+    pub groups: Vec<Vec<usize>>,
+    /// Ways inside the groups: every pose of a group is reached from its first.
+    pub ways: Vec<Way>,
+}
+
+/// Joins poses by chains of straight paths without a singular pose.
+///
+/// Two poses in different regions of `det J != 0` are never joined, whatever the effort; two in one region may be missed.
+#[must_use]
+pub fn join(m: &Manipulator, poses: &[Pose], options: &JoinOptions) -> Joined {
+    let signs: Vec<Option<Sign>> = poses.iter().map(|p| signs_along(m, p, p).kept()).collect();
+    let mut joined = Joined { signs, groups: Vec::new(), ways: Vec::new() };
+    for sign in [Sign::Positive, Sign::Negative] {
+        let members: Vec<usize> = (0..poses.len()).filter(|k| joined.signs[*k] == Some(sign)).collect();
+        if members.is_empty() {
+            continue;
+        }
+        let mut map = Roadmap::new(m, members.iter().map(|k| poses[*k]).collect(), sign, options);
+        let mut left: Vec<usize> = (0..members.len()).collect();
+        while let Some(first) = left.first().copied() {
+            let mut group = vec![members[first]];
+            let reached: Vec<(usize, Vec<Pose>)> =
+                left[1..].iter().filter_map(|k| map.way(first, *k).map(|way| (*k, way))).collect();
+            for (k, poses) in reached {
+                group.push(members[k]);
+                joined.ways.push(Way { from: members[first], to: members[k], poses });
+            }
+            left.retain(|k| !group.contains(&members[*k]));
+            joined.groups.push(group);
+        }
+    }
+    let unsigned = (0..poses.len()).filter(|k| joined.signs[*k].is_none());
+    joined.groups.extend(unsigned.map(|k| vec![k]));
+    joined.groups.sort();
+    joined
+}
+
+/// Poses of one sign with edges that seem to keep it.
+struct Roadmap<'a> {
+    m: &'a Manipulator,
+    sign: Sign,
+    poses: Vec<Pose>,
+    edges: Vec<Vec<usize>>,
+    /// Edges proved, smaller index first.
+    proved: Vec<(usize, usize)>,
+}
+
+impl<'a> Roadmap<'a> {
+    fn new(m: &'a Manipulator, mut poses: Vec<Pose>, sign: Sign, options: &JoinOptions) -> Self {
+        let mut rng = Rng::stream(options.seed, u64::from(sign == Sign::Positive));
+        let low = poses.iter().fold(poses[0].position, |x, p| x.inf(&p.position));
+        let high = poses.iter().fold(poses[0].position, |x, p| x.sup(&p.position));
+        let margin = Vector3::repeat(0.5 * m.size());
+        let (low, high) = (low - margin, high + margin);
+        for _ in 0..options.samples {
+            let position = Vector3::from_fn(|k, _| rng.uniform(low[k], high[k]));
+            let pose = Pose { rotation: random_rotation(&mut rng), position };
+            if has_sign(m, &pose, sign) {
+                poses.push(pose);
+            }
+        }
+        let edges = neighbours(m, &poses);
+        let mut map = Self { m, sign, poses, edges, proved: Vec::new() };
+        for k in 0..map.edges.len() {
+            let list = std::mem::take(&mut map.edges[k]);
+            map.edges[k] = list.into_iter().filter(|l| map.seems_free(k, *l)).collect();
+        }
+        map
+    }
+
+    fn seems_free(&self, k: usize, l: usize) -> bool {
+        let probe = |i: usize| between(&self.poses[k], &self.poses[l], (i as f64 + 0.5) / PROBES as f64);
+        (0..PROBES).all(|i| has_sign(self.m, &probe(i), self.sign))
+    }
+
+    fn is_free(&self, k: usize, l: usize) -> bool {
+        signs_along(self.m, &self.poses[k], &self.poses[l]).kept() == Some(self.sign)
+    }
+
+    /// A proved way between two poses; edges that turn out not to be free are dropped on the way.
+    fn way(&mut self, from: usize, to: usize) -> Option<Vec<Pose>> {
+        loop {
+            let chain = self.shortest(from, to)?;
+            let bad = chain.windows(2).find(|w| !self.prove(w[0], w[1])).map(|w| (w[0], w[1]));
+            match bad {
+                Some((k, l)) => {
+                    self.edges[k].retain(|x| *x != l);
+                    self.edges[l].retain(|x| *x != k);
+                }
+                None => return Some(self.shortened(&chain).iter().map(|k| self.poses[*k]).collect()),
+            }
+        }
+    }
+
+    fn prove(&mut self, k: usize, l: usize) -> bool {
+        let edge = (k.min(l), k.max(l));
+        if !self.proved.contains(&edge) {
+            if !self.is_free(k, l) {
+                return false;
+            }
+            self.proved.push(edge);
+        }
+        true
+    }
+
+    /// Fewest edges, breadth first.
+    fn shortest(&self, from: usize, to: usize) -> Option<Vec<usize>> {
+        let mut before: Vec<Option<usize>> = vec![None; self.poses.len()];
+        before[from] = Some(from);
+        let mut queue = std::collections::VecDeque::from([from]);
+        while let Some(k) = queue.pop_front() {
+            if k == to {
+                let mut chain = vec![to];
+                let mut at = to;
+                while at != from {
+                    at = before[at]?;
+                    chain.push(at);
+                }
+                chain.reverse();
+                return Some(chain);
+            }
+            for &l in &self.edges[k] {
+                if before[l].is_none() {
+                    before[l] = Some(k);
+                    queue.push_back(l);
+                }
+            }
+        }
+        None
+    }
+
+    /// Leaves out poses that a proved straight path passes by.
+    fn shortened(&self, chain: &[usize]) -> Vec<usize> {
+        let (mut out, mut at) = (vec![chain[0]], 0);
+        while at + 1 < chain.len() {
+            let far = (at + 2..chain.len()).rev().find(|k| self.is_free(chain[at], chain[*k]));
+            at = far.unwrap_or(at + 1);
+            out.push(chain[at]);
+        }
+        out
+    }
+}
+
+/// The sign of `det J` in rounded numbers.
+fn has_sign(m: &Manipulator, pose: &Pose, sign: Sign) -> bool {
+    plucker_matrix(m, pose, m.size()).determinant() * f64::from(sign.value()) > 0.0
+}
+
+/// For every pose the nearest others, in both directions.
+fn neighbours(m: &Manipulator, poses: &[Pose]) -> Vec<Vec<usize>> {
+    let places: Vec<(UnitQuaternion<f64>, Vector3<f64>)> = poses
+        .iter()
+        .map(|p| (UnitQuaternion::from_rotation_matrix(&p.rotation), p.position / m.size()))
+        .collect();
+    let apart = |k: usize, l: usize| {
+        let ((q, x), (r, y)) = (&places[k], &places[l]);
+        (x - y).norm_squared() + 8.0 * (1.0 - q.coords.dot(&r.coords).abs())
+    };
+    let mut edges: Vec<Vec<usize>> = vec![Vec::new(); poses.len()];
+    for k in 0..poses.len() {
+        let mut others: Vec<(f64, usize)> =
+            (0..poses.len()).filter(|l| *l != k).map(|l| (apart(k, l), l)).collect();
+        let count = NEIGHBOURS.min(others.len());
+        if count > 0 && count < others.len() {
+            others.select_nth_unstable_by(count - 1, |x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        }
+        for (_, l) in others.into_iter().take(count) {
+            if !edges[k].contains(&l) {
+                edges[k].push(l);
+                edges[l].push(k);
+            }
+        }
+    }
+    for list in &mut edges {
+        list.sort_unstable();
+    }
+    edges
+}

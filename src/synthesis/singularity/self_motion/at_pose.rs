@@ -1,0 +1,709 @@
+//! Decides whether a platform with locked legs can leave a pose: proved not to, or a motion found by tracing, or
+//! undecided.
+//!
+//! Displacements of the pose are `x = (t, c)`: the quaternion `(1, c)` and the dual part `(-c.t, t)`, lengths in units
+//! of the size. With the
+//! joints `a` and `w` of a leg at the pose, `d = w - a` and `o = a + w`, the leg keeps its length where
+//!
+//! ```text
+//! f = d.r + (r.r + k^2 - d.d c.c) / 2 + m k + m^2 / 2 = 0,   r = t - o x c,  k = d.c,  m = c.t.
+//! ```
+//!
+//! So `f = L x + Q(x) + ..` with exact `f(0) = 0`. `docs/theory/self-motions.md` has the theorem of second order that
+//! [`isolated`] proves.
+
+use nalgebra::{DMatrix, Matrix6, Quaternion, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3, Vector6};
+
+use crate::num::Rng;
+use crate::num::interval::Interval;
+use crate::num::small::bounded_svd;
+use crate::platform::geom::Pose;
+use crate::platform::manipulator::Manipulator;
+use crate::synthesis::singularity::Architecture;
+
+/// Singular values of the leg lines below this times the largest count as zero.
+const ZERO: f64 = 1e-9;
+/// Largest residual of a pose of a motion, relative to the squared distances of the joints.
+const RESIDUAL: f64 = 2e-14;
+/// The first distance from the pose at which a motion is looked for, and the factor from one distance to the next.
+const FIRST: f64 = 1e-3;
+/// Distances at which a motion is looked for, each twice the one before.
+const RUNGS: usize = 9;
+/// Distances that a motion has to reach: 32 times the first one.
+const REQUIRED: usize = 6;
+/// Motions after which no more are looked for: on surfaces every direction has one.
+const ARCS: usize = 12;
+/// Distance of the poses from which the dimension of a motion is sampled.
+const NEARBY: f64 = 3e-5;
+/// Part of the sampled differences beyond which a direction belongs to the motion.
+const SPANNED: f64 = 0.1;
+/// Boxes of directions looked at before a proof of second order is given up.
+const BOXES: usize = 100_000;
+/// A proof has to leave the pose a ball this much smaller than the one that it clears.
+const CLEAR: f64 = 1e-3;
+
+/// What the legs allow at a pose when they are locked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AtPose {
+    /// Freedoms of first order: six less the rank of the leg lines, by singular values.
+    pub tangent_dimension: usize,
+    /// Singular values of the leg lines, largest first.
+    pub singular_values: [f64; 6],
+    /// Isolated, moving, or undecided.
+    pub verdict: PoseVerdict,
+}
+
+/// Whether the platform can leave a pose with locked legs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PoseVerdict {
+    /// Proved: every pose with these lengths within `radius` lies within `within`, in `(t / size, c)` of the
+    /// displacement.
+    Isolated {
+        /// 1: the leg lines are independent; 2: no freedom of first order can be continued.
+        order: u8,
+        /// Radius of the ball cleared.
+        radius: f64,
+        /// Radius left by the rounding of the numbers; 0 for the order 1.
+        within: f64,
+    },
+    /// The pose is no isolated one.
+    Moves {
+        /// Dimension of the set of poses with these lengths near the pose.
+        dimension: usize,
+        /// Length of the stretch of poses found from the pose, in `(t / size, c)`.
+        reach: f64,
+        /// What shows it.
+        evidence: MotionEvidence,
+    },
+    /// Neither.
+    Undecided,
+}
+
+/// What shows that a platform moves with locked legs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MotionEvidence {
+    /// Proved: the leg lines have the rank of this pose at all poses nearby, so that the poses with these lengths are
+    /// a manifold.
+    ConstantRank,
+    /// Found by tracing: poses with equal lengths, to rounding, along a stretch; the dimension is sampled.
+    Traced,
+}
+
+impl PoseVerdict {
+    /// Dimension of the self-motion through the pose, where it is known.
+    #[must_use]
+    pub fn dimension(&self) -> Option<usize> {
+        match self {
+            Self::Isolated { .. } => Some(0),
+            Self::Moves { dimension, .. } => Some(*dimension),
+            Self::Undecided => None,
+        }
+    }
+}
+
+/// A motion that leaves the pose: a pose on it, and the pose a little further on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Departure {
+    pub(super) from: Pose,
+    pub(super) to: Pose,
+}
+
+/// Whether the platform can leave the pose with the lengths that its legs have there.
+#[must_use]
+pub fn motion_at(m: &Manipulator, pose: &Pose, seed: u64) -> AtPose {
+    leaving(m, pose, seed).0
+}
+
+/// The same, with the motions found.
+pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<Departure>) {
+    let local = Local::new(m, pose);
+    let undecided = |values: [f64; 6], tangent_dimension: usize| AtPose {
+        tangent_dimension,
+        singular_values: values,
+        verdict: PoseVerdict::Undecided,
+    };
+    let Some(split) = Split::of(&local.lines()) else { return (undecided([0.0; 6], 6), Vec::new()) };
+    let k = split.corank();
+    let mut at = undecided(split.values, k);
+    if let Some(verdict) = isolated(&local, &split, k) {
+        at.verdict = verdict;
+        return (at, Vec::new());
+    }
+    let search = Search::new(&local);
+    let arcs = search.arcs(&split, k.max(1), &mut Rng::new(seed));
+    let sampled = arcs.iter().map(|arc| search.dimension(arc, &mut Rng::new(seed))).max().unwrap_or(0);
+    // no motion has more freedoms than there are of first order at the pose
+    let sampled = sampled.min(k);
+    let reach = arcs.iter().map(Arc::reach).fold(0.0, f64::max);
+    if has_generic_rank(m, &local, &split) {
+        at.verdict = PoseVerdict::Moves { dimension: k, reach, evidence: MotionEvidence::ConstantRank };
+    } else if sampled > 0 {
+        at.verdict = PoseVerdict::Moves { dimension: sampled, reach, evidence: MotionEvidence::Traced };
+    }
+    let departure = |arc: &Arc| {
+        let [from, to] = arc.last_two().map(|x| local.displaced(&x));
+        Departure { from, to }
+    };
+    (at, arcs.iter().map(departure).collect())
+}
+
+/// Whether the leg lines are proved to have the same rank at the pose and at all poses around it, and this is below
+/// six.
+///
+/// No pose has a greater rank than almost all poses have, and the rank does not fall near a pose. The rank at the pose is proved for all joints between their bounds, that of almost all
+/// poses about the exact joints.
+fn has_generic_rank(m: &Manipulator, local: &Local, split: &Split) -> bool {
+    let k = split.corank();
+    if k == 0 || Inverted::of(&local.rows(), split, k).is_none() {
+        return false;
+    }
+    let architecture = Architecture::of(m);
+    architecture.level.is_some() && architecture.jacobian.rank == 6 - k
+}
+
+type Vector = [Interval; 3];
+
+/// A leg at the pose, its joints in the base frame about the mean base joint in units of the size.
+struct LocalLeg {
+    /// `d`.
+    along: Vector,
+    /// `o`.
+    sum: Vector,
+}
+
+/// The legs at a pose.
+struct Local {
+    legs: [LocalLeg; 6],
+    pose: Pose,
+    origin: Vector3<f64>,
+    unit: f64,
+}
+
+fn cross(x: &Vector, y: &Vector) -> Vector {
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        x[i] * y[j] - x[j] * y[i]
+    })
+}
+
+fn dot(x: &[Interval], y: &[Interval]) -> Interval {
+    x.iter().zip(y).fold(Interval::ZERO, |sum, (x, y)| sum + *x * *y)
+}
+
+fn middle(x: Interval) -> f64 {
+    x.centre_and_radius().0
+}
+
+type Rows = [[Interval; 6]; 6];
+
+impl Local {
+    fn new(m: &Manipulator, pose: &Pose) -> Self {
+        let origin = m.mean_leg_ends()[0];
+        let unit = m.size();
+        let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
+        let (w, v) = (Interval::from(q.w), [q.i, q.j, q.k].map(Interval::from));
+        let two = Interval::from(2.0);
+        let norm = w.square() + v[0].square() + v[1].square() + v[2].square();
+        let over = |x: Interval, y: Interval| x.checked_div(y).unwrap_or(Interval::WHOLE);
+        let leg = |i: usize| {
+            let [a, b] = m.enclosed_ends(i);
+            // R b = b + 2 (w (v x b) + v x (v x b)) / N, which holds for quaternions of any norm
+            let once = cross(&v, &b);
+            let twice = cross(&v, &once);
+            let base: Vector =
+                std::array::from_fn(|k| over(a[k] - Interval::from(origin[k]), Interval::from(unit)));
+            let end: Vector = std::array::from_fn(|k| {
+                let turned = b[k] + over(two * (w * once[k] + twice[k]), norm);
+                let place = Interval::from(pose.position[k]) - Interval::from(origin[k]);
+                over(turned + place, Interval::from(unit))
+            });
+            LocalLeg {
+                along: std::array::from_fn(|k| end[k] - base[k]),
+                sum: std::array::from_fn(|k| end[k] + base[k]),
+            }
+        };
+        Self { legs: std::array::from_fn(leg), pose: *pose, origin, unit }
+    }
+
+    /// The linear part `L`: `(d, o x d)`.
+    fn rows(&self) -> Rows {
+        self.legs.each_ref().map(|leg| {
+            let moment = cross(&leg.sum, &leg.along);
+            std::array::from_fn(|k| if k < 3 { leg.along[k] } else { moment[k - 3] })
+        })
+    }
+
+    fn lines(&self) -> Matrix6<f64> {
+        let rows = self.rows();
+        Matrix6::from_fn(|i, j| middle(rows[i][j]))
+    }
+
+    /// Symmetric matrices of the quadratic parts.
+    fn forms(&self) -> [Rows; 6] {
+        let half = Interval::from(0.5);
+        self.legs.each_ref().map(|leg| {
+            let o = &leg.sum;
+            let zero = Interval::ZERO;
+            // r = t + s c
+            let s = [[zero, o[2], -o[1]], [-o[2], zero, o[0]], [o[1], -o[0], zero]];
+            let squared = dot(&leg.along, &leg.along);
+            std::array::from_fn(|i| {
+                std::array::from_fn(|j| match (i < 3, j < 3) {
+                    (true, true) if i == j => half,
+                    (true, true) => zero,
+                    (true, false) => half * s[i][j - 3],
+                    (false, true) => half * s[j][i - 3],
+                    (false, false) => {
+                        let (i, j) = (i - 3, j - 3);
+                        let columns = (0..3).fold(zero, |sum, k| sum + s[k][i] * s[k][j]);
+                        let diagonal = if i == j { squared } else { zero };
+                        half * (columns + leg.along[i] * leg.along[j] - diagonal)
+                    }
+                })
+            })
+        })
+    }
+
+    /// The pose displaced by `x`.
+    fn displaced(&self, x: &Vector6<f64>) -> Pose {
+        let (t, c) = (Vector3::new(x[0], x[1], x[2]), Vector3::new(x[3], x[4], x[5]));
+        let e = Quaternion::new(1.0, c.x, c.y, c.z);
+        let g = Quaternion::new(-c.dot(&t), t.x, t.y, t.z);
+        let p = (g * e.conjugate() / e.norm_squared()).imag();
+        let turn: Rotation3<f64> = UnitQuaternion::new_normalize(e).to_rotation_matrix();
+        Pose {
+            rotation: turn * self.pose.rotation,
+            position: self.origin + turn * (self.pose.position - self.origin) + p * self.unit,
+        }
+    }
+}
+
+/// Singular vectors of the leg lines.
+struct Split {
+    values: [f64; 6],
+    left: Matrix6<f64>,
+    right: Matrix6<f64>,
+}
+
+impl Split {
+    fn of(lines: &Matrix6<f64>) -> Option<Self> {
+        let d = bounded_svd(lines)?;
+        let (left, right) = (d.u?, d.v_t?.transpose());
+        Some(Self { values: d.singular_values.into(), left, right })
+    }
+
+    fn corank(&self) -> usize {
+        self.values.iter().filter(|s| **s <= ZERO * self.values[0]).count()
+    }
+}
+
+/// The proof that the pose is isolated, with the last `k` singular values taken as zeros.
+///
+/// With the parts `a` (along the `k` right vectors `K`) and `b` (along the others, `N`) of a displacement in the ball,
+/// the rows along the left vectors
+/// of `N` give `|b| <= tau |a|`. The rows along the others, `W`, give `c |a|^2 <= rest |a|^2 + error |a|`, where `c`
+/// is the least
+/// norm of the forms `W Q(K a)` for `|a| = 1`.
+fn isolated(local: &Local, split: &Split, k: usize) -> Option<PoseVerdict> {
+    let rank = 6 - k;
+    let (u, w) = (columns(&split.left, 0, rank), columns(&split.left, rank, 6));
+    let (n, kernel) = (columns(&split.right, 0, rank), columns(&split.right, rank, 6));
+    let rows = local.rows();
+    let forms = local.forms();
+    // norms of the two orthogonal matrices up to rounding
+    let off = |m: &Matrix6<f64>| {
+        let at = |i: usize, j: usize| {
+            let sum =
+                (0..6).fold(Interval::ZERO, |s, r| s + Interval::from(m[(r, i)]) * Interval::from(m[(r, j)]));
+            sum - Interval::from(f64::from(u8::from(i == j)))
+        };
+        norm((0..6).flat_map(|i| (0..6).map(move |j| at(i, j))))
+    };
+    let (mu, nu) = (1.0 + off(&split.left), 1.0 + off(&split.right));
+    if !(mu < 1.1 && nu < 1.1) {
+        return None;
+    }
+    let inverse = Inverted::of(&rows, split, k)?.norm;
+    let part = |left: &[Vec<f64>], right: &[Vec<f64>]| -> Vec<Interval> {
+        left.iter().flat_map(|l| right.iter().map(|r| bilinear(&rows, l, r))).collect()
+    };
+    let first = norm(part(&u, &kernel));
+    let second = norm([part(&w, &n), part(&w, &kernel)].concat());
+    let quadratic = norm(forms.iter().flatten().flatten().copied());
+    let reach = norm(local.legs.iter().flat_map(|leg| leg.along));
+    let c = if k == 0 { 0.0 } else { Forms::new(&forms, &w, &kernel).least()? };
+    let mut radius = 0.25;
+    for _ in 0..40 {
+        // |m k + m^2 / 2| <= (|d| / 2 + r / 8) r |x|^2 for |x| <= r
+        let cubic = 0.5 * reach + 0.125 * radius * 6.0_f64.sqrt();
+        let rho = mu * nu * (quadratic + cubic * radius) * radius;
+        if inverse * rho < 0.5 {
+            let tau = inverse * (first + rho) / (1.0 - inverse * rho);
+            let rest = mu
+                * nu
+                * nu
+                * (quadratic * tau * (2.0 + tau) + cubic * nu * (1.0 + tau).powi(3) * radius * nu);
+            if k == 0 {
+                return Some(PoseVerdict::Isolated { order: 1, radius, within: 0.0 });
+            }
+            // factors of one part in a million cover the rounding of these bounds
+            if rest * (1.0 + 1e-6) < c {
+                let within =
+                    nu * (1.0 + tau) * (1.0 + tau) * second / (c - rest * (1.0 + 1e-6)) * (1.0 + 1e-6);
+                return (within < CLEAR * radius).then_some(PoseVerdict::Isolated {
+                    order: 2,
+                    radius,
+                    within,
+                });
+            }
+        }
+        radius *= 0.5;
+    }
+    None
+}
+
+fn columns(m: &Matrix6<f64>, from: usize, to: usize) -> Vec<Vec<f64>> {
+    (from..to).map(|c| m.column(c).iter().copied().collect()).collect()
+}
+
+/// The part of the leg lines without the last `k` singular values, proved to be invertible.
+struct Inverted {
+    /// An upper bound of the norm of its inverse.
+    norm: f64,
+}
+
+impl Inverted {
+    fn of(rows: &Rows, split: &Split, k: usize) -> Option<Self> {
+        let rank = 6 - k;
+        if rank == 0 {
+            return Some(Self { norm: 0.0 });
+        }
+        let (u, n) = (columns(&split.left, 0, rank), columns(&split.right, 0, rank));
+        // the diagonal matrix of singular values, up to rounding
+        let entry = |i: usize, j: usize| {
+            let diagonal = if i == j { split.values[i] } else { 0.0 };
+            bilinear(rows, &u[i], &n[j]) - Interval::from(diagonal)
+        };
+        let deviation =
+            norm((0..rank).flat_map(|i| (0..rank).map(move |j| (i, j))).map(|(i, j)| entry(i, j)));
+        let least = split.values[rank - 1];
+        // the subtraction and the division round by less than the last factor
+        (deviation < 0.5 * least).then(|| Self { norm: 1.0 / (least - deviation) * (1.0 + 1e-12) })
+    }
+}
+
+/// An upper bound of the root of the sum of squares.
+fn norm(entries: impl IntoIterator<Item = Interval>) -> f64 {
+    let sum = entries.into_iter().fold(Interval::ZERO, |sum, x| sum + x.square());
+    sum.sqrt().map_or(f64::INFINITY, Interval::hi)
+}
+
+fn bilinear(m: &Rows, left: &[f64], right: &[f64]) -> Interval {
+    m.iter().zip(left).fold(Interval::ZERO, |sum, (row, l)| {
+        let along = row.iter().zip(right).fold(Interval::ZERO, |s, (x, r)| s + *x * Interval::from(*r));
+        sum + along * Interval::from(*l)
+    })
+}
+
+/// The quadratic forms `W Q(K a)` in `k` unknowns, by symmetric matrices.
+struct Forms {
+    k: usize,
+    matrices: Vec<Vec<Interval>>,
+}
+
+impl Forms {
+    fn new(forms: &[Rows; 6], w: &[Vec<f64>], kernel: &[Vec<f64>]) -> Self {
+        let k = kernel.len();
+        let mut restricted: Vec<Vec<Interval>> = Vec::new();
+        for form in forms {
+            let entries = (0..k * k).map(|e| bilinear(form, &kernel[e / k], &kernel[e % k]));
+            restricted.push(entries.collect());
+        }
+        let combined = |l: &Vec<f64>| {
+            let entry = |e: usize| {
+                restricted.iter().zip(l).fold(Interval::ZERO, |s, (f, x)| s + f[e] * Interval::from(*x))
+            };
+            (0..k * k).map(entry).collect()
+        };
+        Self { k, matrices: w.iter().map(combined).collect() }
+    }
+
+    /// The values in doubles.
+    fn at(&self, a: &[f64]) -> Vec<f64> {
+        let k = self.k;
+        let value = |m: &Vec<Interval>| (0..k * k).map(|e| middle(m[e]) * a[e / k] * a[e % k]).sum();
+        self.matrices.iter().map(value).collect()
+    }
+
+    /// A lower bound of their norm on the unit sphere; `None` unless one above zero is proved.
+    ///
+    /// The sphere is covered by the faces of a cube, whose boxes are halved. On a box the combination that is greatest
+    /// at its middle is bounded.
+    fn least(&self) -> Option<f64> {
+        let k = self.k;
+        let size = norm(self.matrices.iter().flatten().copied());
+        let mut boxes: Vec<Vec<[f64; 2]>> = (0..k)
+            .map(|face| (0..k).map(|j| if j == face { [1.0, 1.0] } else { [-1.0, 1.0] }).collect())
+            .collect();
+        let mut least = f64::INFINITY;
+        let mut looked = 0;
+        while let Some(cell) = boxes.pop() {
+            looked += 1;
+            if looked > BOXES {
+                return None;
+            }
+            let middle: Vec<f64> = cell.iter().map(|x| 0.5 * (x[0] + x[1])).collect();
+            let values = self.at(&middle);
+            let length = values.iter().map(|x| x * x).sum::<f64>().sqrt();
+            // a zero of the forms, as far as doubles can tell: there is nothing to prove
+            if !(length > 1e-7 * size) {
+                return None;
+            }
+            let weights: Vec<f64> = values.iter().map(|x| x / length).collect();
+            let scale = norm(weights.iter().map(|x| Interval::from(*x)));
+            let norm_squared =
+                norm(cell.iter().map(|x| Interval::new(x[0], x[1]).unwrap_or(Interval::WHOLE))).powi(2);
+            let bound = self.bound(&cell, &middle, &weights).lo() / (scale * norm_squared) * (1.0 - 1e-12);
+            if bound > 0.25 * length / norm_squared {
+                least = least.min(bound);
+                continue;
+            }
+            let widest =
+                (0..k).max_by(|i, j| (cell[*i][1] - cell[*i][0]).total_cmp(&(cell[*j][1] - cell[*j][0])))?;
+            for half in [[cell[widest][0], middle[widest]], [middle[widest], cell[widest][1]]] {
+                let mut next = cell.clone();
+                next[widest] = half;
+                boxes.push(next);
+            }
+        }
+        (least > 0.0 && least.is_finite()).then_some(least)
+    }
+
+    /// Encloses a combination of the forms on a box: `G(m, m) + (2 G m + G (x - m)).(x - m)`.
+    fn bound(&self, cell: &[[f64; 2]], middle: &[f64], weights: &[f64]) -> Interval {
+        let k = self.k;
+        let entry = |e: usize| {
+            self.matrices.iter().zip(weights).fold(Interval::ZERO, |s, (m, w)| s + m[e] * Interval::from(*w))
+        };
+        let g: Vec<Interval> = (0..k * k).map(entry).collect();
+        let m: Vec<Interval> = middle.iter().map(|x| Interval::from(*x)).collect();
+        let delta: Vec<Interval> = cell
+            .iter()
+            .zip(&m)
+            .map(|(x, m)| Interval::new(x[0], x[1]).unwrap_or(Interval::WHOLE) - *m)
+            .collect();
+        let row = |i: usize, x: &[Interval]| dot(&g[i * k..(i + 1) * k], x);
+        let value = (0..k).fold(Interval::ZERO, |s, i| s + row(i, &m) * m[i]);
+        (0..k).fold(value, |s, i| s + (row(i, &m) + row(i, &m) + row(i, &delta)) * delta[i])
+    }
+}
+
+/// Poses found along a motion, by their displacement, each about twice as far as the one before.
+struct Arc {
+    points: Vec<Vector6<f64>>,
+}
+
+impl Arc {
+    fn reach(&self) -> f64 {
+        self.points.last().map_or(0.0, Vector6::norm)
+    }
+
+    fn last_two(&self) -> [Vector6<f64>; 2] {
+        let n = self.points.len();
+        [self.points[n.saturating_sub(2)], self.points[n - 1]]
+    }
+}
+
+/// Looks for motions in doubles.
+struct Search<'a> {
+    local: &'a Local,
+    along: [Vector3<f64>; 6],
+    sum: [Vector3<f64>; 6],
+    tolerance: f64,
+}
+
+impl<'a> Search<'a> {
+    fn new(local: &'a Local) -> Self {
+        let vector = |x: &Vector| Vector3::from(x.map(middle));
+        let along = local.legs.each_ref().map(|leg| vector(&leg.along));
+        let sum = local.legs.each_ref().map(|leg| vector(&leg.sum));
+        let far = along.iter().chain(&sum).map(Vector3::norm).fold(1.0, f64::max);
+        Self { local, along, sum, tolerance: RESIDUAL * far * far }
+    }
+
+    /// `f` and its derivatives.
+    fn equations(&self, x: &Vector6<f64>) -> (Vector6<f64>, Matrix6<f64>) {
+        let (t, c) = (Vector3::new(x[0], x[1], x[2]), Vector3::new(x[3], x[4], x[5]));
+        let (mut f, mut j) = (Vector6::zeros(), Matrix6::zeros());
+        let m = c.dot(&t);
+        for i in 0..6 {
+            let (d, o) = (self.along[i], self.sum[i]);
+            let r = t - o.cross(&c);
+            let k = d.dot(&c);
+            f[i] = d.dot(&r)
+                + 0.5 * (r.norm_squared() + k * k - d.norm_squared() * c.norm_squared())
+                + m * k
+                + 0.5 * m * m;
+            let by_t = d + r + c * (k + m);
+            let by_c = o.cross(&(d + r)) + (d + t) * (k + m) - c * d.norm_squared();
+            for e in 0..3 {
+                j[(i, e)] = by_t[e];
+                j[(i, e + 3)] = by_c[e];
+            }
+        }
+        (f, j)
+    }
+
+    /// The nearest zero by Gauss-Newton steps, at the distance `h` along `n` where that is given.
+    ///
+    /// On sets of poses that are zeros of higher multiplicity every step halves the error.
+    fn corrected(&self, start: &Vector6<f64>, plane: Option<(&Vector6<f64>, f64)>) -> Option<Vector6<f64>> {
+        let mut x = *start;
+        let most = 0.3 * start.norm().max(NEARBY);
+        let mut best: Option<(f64, Vector6<f64>)> = None;
+        let mut waited = 0;
+        for _ in 0..80 {
+            let (f, j) = self.equations(&x);
+            let mut values = SVector::<f64, 7>::zeros();
+            let mut rows = SMatrix::<f64, 7, 6>::zeros();
+            values.fixed_rows_mut::<6>(0).copy_from(&f);
+            rows.fixed_view_mut::<6, 6>(0, 0).copy_from(&j);
+            if let Some((n, h)) = plane {
+                values[6] = n.dot(&x) - h;
+                rows.set_row(6, &n.transpose());
+            }
+            let residual = values.norm();
+            if best.is_none_or(|b| residual < 0.7 * b.0) {
+                (best, waited) = (Some((residual, x)), 0);
+            } else {
+                waited += 1;
+            }
+            if residual == 0.0 || waited > 6 {
+                break;
+            }
+            let d = bounded_svd(&rows)?;
+            let (u, v_t) = (d.u?, d.v_t?);
+            let mut step = Vector6::zeros();
+            for k in 0..6 {
+                let s = d.singular_values[k];
+                if s > ZERO * d.singular_values[0] {
+                    step += v_t.row(k).transpose() * (u.column(k).dot(&values) / s);
+                }
+            }
+            let length = step.norm();
+            x -= step * (most / length.max(most));
+        }
+        best.filter(|b| b.0 <= self.tolerance).map(|b| b.1)
+    }
+
+    /// Motions that leave the pose, one for each direction found.
+    fn arcs(&self, split: &Split, k: usize, rng: &mut Rng) -> Vec<Arc> {
+        let mut arcs: Vec<Arc> = Vec::new();
+        for direction in self.directions(split, k, rng) {
+            let Some(first) = self.corrected(&(direction * FIRST), Some((&direction, FIRST))) else {
+                continue;
+            };
+            let heading = first.normalize();
+            let known = |arc: &Arc| arc.points[0].normalize().dot(&heading) > 0.99;
+            if arcs.iter().any(known) || heading.dot(&direction) < 0.3 {
+                continue;
+            }
+            let mut points = vec![first];
+            while points.len() < RUNGS {
+                let Some(last) = points.last().copied() else { break };
+                let (n, h) = (last.normalize(), 2.0 * last.norm());
+                match self.corrected(&(n * h), Some((&n, h))) {
+                    Some(next) if next.normalize().dot(&n) > 0.8 => points.push(next),
+                    _ => break,
+                }
+            }
+            if points.len() >= REQUIRED {
+                arcs.push(Arc { points });
+            }
+            if arcs.len() >= ARCS {
+                break;
+            }
+        }
+        arcs
+    }
+
+    /// Directions of first order to try: zeros of the forms of second order, and random ones.
+    fn directions(&self, split: &Split, k: usize, rng: &mut Rng) -> Vec<Vector6<f64>> {
+        let kernel = columns(&split.right, 6 - k, 6);
+        let in_space = |a: &[f64]| -> Vector6<f64> {
+            kernel
+                .iter()
+                .zip(a)
+                .fold(Vector6::zeros(), |s, (v, a)| s + Vector6::from_column_slice(v) * *a)
+                .normalize()
+        };
+        if k == 1 {
+            return vec![in_space(&[1.0]), in_space(&[-1.0])];
+        }
+        let forms = Forms::new(&self.local.forms(), &columns(&split.left, 6 - k, 6), &kernel);
+        let mut out = Vec::new();
+        for _ in 0..12 * k {
+            let mut a: Vec<f64> = (0..k).map(|_| rng.normal()).collect();
+            if rng.unit() < 0.8 {
+                forms.towards_zero(&mut a);
+            }
+            let direction = in_space(&a);
+            if direction.iter().all(|x| x.is_finite()) {
+                out.push(direction);
+                out.push(-direction);
+            }
+        }
+        out
+    }
+
+    /// Dimension of the set of poses at the end of an arc: the span of the nearest poses of the set to random poses
+    /// nearby.
+    fn dimension(&self, arc: &Arc, rng: &mut Rng) -> usize {
+        const SAMPLES: usize = 18;
+        let [_, at] = arc.last_two();
+        let mut rows: Vec<f64> = Vec::new();
+        for _ in 0..SAMPLES {
+            let aside = Vector6::from_fn(|_, _| rng.normal()).normalize() * NEARBY;
+            // a correction that goes far says nothing about this place
+            let near = |on: &Vector6<f64>| (on - at).norm() < 5.0 * NEARBY;
+            if let Some(on) = self.corrected(&(at + aside), None).filter(near) {
+                rows.extend((on - at).iter().map(|x| x / NEARBY));
+            }
+        }
+        let count = rows.len() / 6;
+        let matrix = DMatrix::from_row_slice(count, 6, &rows) / (count.max(1) as f64 / 6.0).sqrt();
+        let Some(d) = bounded_svd(&matrix).filter(|_| count > 6) else { return 0 };
+        d.singular_values.iter().filter(|s| **s > SPANNED).count()
+    }
+}
+
+impl Forms {
+    /// Goes from `a` to a zero of the forms on the unit sphere, by Gauss-Newton steps; where there is none, to a small
+    /// value.
+    fn towards_zero(&self, a: &mut [f64]) {
+        let k = self.k;
+        for _ in 0..40 {
+            let length = a.iter().map(|x| x * x).sum::<f64>().sqrt();
+            for x in a.iter_mut() {
+                *x /= length;
+            }
+            let values = self.at(a);
+            let rows = DMatrix::from_fn(k + 1, k, |i, j| {
+                if i == k {
+                    return a[j];
+                }
+                2.0 * (0..k).map(|e| middle(self.matrices[i][j * k + e]) * a[e]).sum::<f64>()
+            });
+            let Some(d) = bounded_svd(&rows) else { return };
+            let (Some(u), Some(v_t)) = (&d.u, &d.v_t) else { return };
+            for (c, s) in d.singular_values.iter().enumerate() {
+                if *s > 1e-7 * d.singular_values[0] {
+                    let along: f64 = (0..k).map(|i| u[(i, c)] * values[i]).sum::<f64>() / s;
+                    for (j, x) in a.iter_mut().enumerate() {
+                        *x -= v_t[(c, j)] * along.clamp(-0.5, 0.5);
+                    }
+                }
+            }
+        }
+    }
+}

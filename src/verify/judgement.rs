@@ -1,0 +1,44 @@
+//! The one judgement on two platforms: every command that asks whether they are equivalent asks it.
+
+use crate::num::linalg::LinalgError;
+use crate::platform::manipulator::{Level, Manipulator};
+use crate::synthesis::singularity::{Architecture, rounded_singular};
+use crate::synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
+
+/// Seed of the search for a singular design within rounding.
+const SEED: u64 = 1;
+
+/// What platforms A and B, described in the same two frames and units, have to do with each other.
+///
+/// | relation | when |
+/// |---|---|
+/// | singular | one of the two is architecturally singular: dependent leg vectors, or dependent lines at every pose |
+/// | equivalent | the leg vectors of B are combinations of those of A, with a regular `A` |
+/// | unrelated | a leg vector of B is no combination of those of A |
+/// | undecided | it holds within rounding only, or a singular design is within rounding of plain doubles, or joints are known between bounds only |
+///
+/// The first three are proved about the exact joints or about doubles as written ([`LegMapOutcome::level`]), except for unrelated platforms whose joints are known between bounds only.
+///
+/// # Errors
+/// When a singular value decomposition does not converge.
+pub fn judge(a: &Manipulator, b: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
+    let map = leg_map(a, b, LegMapTolerances::default())?;
+    if map.relation == Relation::Singular {
+        return Ok(map);
+    }
+    // independent leg vectors may belong to dependent lines
+    for m in [a, b] {
+        let found = Architecture::of(m);
+        if let (Some(true), Some(level)) = (found.is_singular(), found.level) {
+            return Ok(map.with_dependent_lines(level));
+        }
+    }
+    if map.relation == Relation::Equivalent && map.level == Level::DoublesAsWritten {
+        for m in [a, b] {
+            if let Some(near) = rounded_singular(m, SEED)? {
+                return Ok(map.near_singular(near.distance));
+            }
+        }
+    }
+    Ok(map)
+}
