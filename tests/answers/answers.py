@@ -75,7 +75,7 @@ CALLS = """
 0 equivalents-map {rbt-octahedral} {free}
 1 equivalents-map {rbt-octahedral} {rbt-midline}
 1 equivalents-map {rbt-octahedral} {rbt-griffis-duffy} --exchange -o {exchanged.toml}
-0 equivalents-map {general-6-6} {turned} --align -o {aligned.toml}
+3 equivalents-map {general-6-6} {turned} --align -o {aligned.toml}
 1 equivalents-map {general-6-6} {off} --align
 0 compare {rbt-octahedral} {rbt-griffis-duffy} --points 20 --sine z:1:1 --accuracy 0.1,0.05 --csv {compare.csv} -o {compare.html}
 0 compare {simulator-octahedral} {simulator-joint-free} --points 20 --accelerate z:1

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use equipod::methods::coupled::{CoupledLegs, CoupledTracker};
 use equipod::methods::design::{Format, parse_with_cranks};
+use equipod::methods::num::Rng;
 use equipod::prelude::*;
 use tempfile::TempDir;
 
@@ -179,19 +181,54 @@ fn sources(exported: &Exported) -> Vec<PathBuf> {
     names.filter(|path| path.extension().is_some_and(|end| end == "c")).collect()
 }
 
-#[test]
-fn all_sources_of_the_folder_are_one_program() {
-    if !compiler() {
-        return;
-    }
+/// The symmetric hexapod on universal joints whose axes do not meet, with screws that turn.
+fn not_ideal() -> Design {
     let universal = r#"leg_length = [200, 600]
 screw_lead = 8
 base_joint = { model = "universal", first_axis = [[0, 1, 0], [0, 1, 0], [-0.866, -0.5, 0], [-0.866, -0.5, 0], [0.866, -0.5, 0], [0.866, -0.5, 0]], offset = 14 }
 platform_joint = { model = "universal", first_axis = [[0, 1, 0], [0, 1, 0], [-0.866, -0.5, 0], [-0.866, -0.5, 0], [0.866, -0.5, 0], [0.866, -0.5, 0]], offset = 9 }
 "#;
     let text = std::fs::read_to_string("designs/symmetric-hexapod.toml").unwrap();
+    parse_with_cranks(&format!("{text}{universal}"), Format::Toml).unwrap().0
+}
+
+/// Near a singularity the corrections may grow away from a pose to another one: then there is no pose, and never the other one.
+#[test]
+fn a_pose_of_joints_that_are_not_ideal_is_found_from_itself_or_not_at_all() {
+    let design = not_ideal();
+    let home = design.home_or_default();
+    let legs = CoupledLegs::new(design.manipulator(), &design.hardware, &home).unwrap();
+    let size = design.manipulator().size();
+    let (mut rng, mut found, mut lost) = (Rng::new(5), 0, 0);
+    for k in 0..super::evidence::size(400, 4000) {
+        // as the legs come to lie in the plane of the base, poses are nearly singular
+        let low = if k % 2 == 0 { 1.0 } else { 0.04 };
+        let mut draw = |most: f64| rng.uniform(-most, most);
+        let shift = nalgebra::Vector3::from_fn(|_, _| draw(0.04 * size));
+        let turn = Angles::from_degrees([draw(15.0), draw(15.0), draw(15.0)]);
+        let at = home.position.component_mul(&nalgebra::Vector3::new(1.0, 1.0, low)) + shift;
+        let pose = Pose::new(at, turn);
+        let Ok(drives) = legs.drives(&pose) else { continue };
+        let outcome = CoupledTracker::new(legs.clone(), pose).find(&drives);
+        match outcome.pose() {
+            Some(reached) => {
+                found += 1;
+                let off = (reached.position - pose.position).norm() / size;
+                assert!(off < 1e-8, "case {k}: {off:e} of the size, {:?}", outcome.status);
+            }
+            None => lost += 1,
+        }
+    }
+    assert!(found > 20 * lost, "{found} found, {lost} lost");
+}
+
+#[test]
+fn all_sources_of_the_folder_are_one_program() {
+    if !compiler() {
+        return;
+    }
     let parsed = |text: &str| parse_with_cranks(text, Format::Toml).unwrap().0;
-    let drives = parsed(&format!("{text}{universal}"));
+    let drives = not_ideal();
     let cranks = parsed(&std::fs::read_to_string("designs/presets/reachy-mini.toml").unwrap());
     let legs = Design::load("designs/worked/linuxcnc-griffis-duffy.toml").unwrap();
     for (design, count, modules) in [(&legs, 3, 3), (&drives, 4, 3), (&cranks, 4, 0)] {

@@ -160,8 +160,8 @@ impl CoupledTracker {
                     continue;
                 }
             }
-            // rounding of the pose may keep corrections from settling to the last bit
-            if settled || least <= 1e-13 * size {
+            // rounding of the pose may keep corrections from settling to the last bit; those that grew away from a pose did not settle
+            if settled || last <= 1e-13 * size {
                 let bound = self.legs.bound(&from, &states, drives);
                 out.status = bound.map_or(CoupledStatus::Unproved, CoupledStatus::Proved);
             }

@@ -10,6 +10,12 @@
 #ifndef CASES
 #define CASES 40u
 #endif
+/* Below this ratio a pose may be lost: where joints are not ideal the fixed point leaves it sooner. */
+#ifdef EQUIPOD_HAS_DRIVES
+#define LOST_BELOW 1e-2
+#else
+#define LOST_BELOW 1e-4
+#endif
 
 static machine_t machine;
 static double size; /* millimetres */
@@ -111,7 +117,7 @@ static void there_and_back(unsigned number)
         /* from the pose itself it comes back, whatever the joints and the tool are */
         (void)pose_from(&machine, joints, &start, &r);
         condition = r.frobenius_ratio;
-        check(r.status == EQUIPOD_TRACKED || condition < 1e-4, "a pose is tracked from itself", number);
+        check(r.status == EQUIPOD_TRACKED || condition < LOST_BELOW, "a pose is tracked from itself", number);
         check(r.status != EQUIPOD_TRACKED || apart(&r.pose, &pose) <= 1e-11 * size / EQUIPOD_UNIT_MILLIMETRES / condition,
               "the pose tracked from itself", number);
 #ifndef EQUIPOD_HAS_DRIVES

@@ -364,8 +364,8 @@ equipod_drive_status equipod_track_drives(const equipod_drives *drives, const eq
                 continue;
             }
         }
-        /* rounding of the pose may keep corrections from settling to the last bit */
-        if (settled || least <= R(SETTLED) * drives->size) {
+        /* rounding of the pose may keep corrections from settling to the last bit; those that grew away from a pose did not settle */
+        if (settled || last <= R(SETTLED) * drives->size) {
             result->status = EQUIPOD_DRIVES_REACHED;
         }
         return result->status;
