@@ -130,7 +130,7 @@ CALLS = """
 0 verify {rbt-octahedral} {free} --samples 1
 1 verify {rbt-octahedral} {rbt-midline} --samples 1
 1 verify {general-6-6} {off} --samples 1
-0 verify {general-6-6} {turned} --align --samples 1
+3 verify {general-6-6} {turned} --align --samples 1
 1 verify {general-6-6} {off} --align --samples 1
 0 view {rbt-octahedral} -o {view.html}
 0 sweep-run {small-plan} --estimate
