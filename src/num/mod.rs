@@ -39,6 +39,8 @@ pub(crate) mod poly;
 pub(crate) mod real;
 pub mod rounding;
 mod seed;
+#[cfg(feature = "files")]
+pub(crate) mod shown;
 pub(crate) mod small;
 pub(crate) mod split;
 pub(crate) mod stream;

@@ -12,6 +12,7 @@ use super::files::{self, OutputPath};
 use crate::app::records::{AlignmentRecord, FramesRecord};
 use crate::files::design::Design;
 use crate::num::linalg::LinalgError;
+use crate::num::shown::fixed;
 use crate::platform::geom::Pose;
 use crate::platform::manipulator::Manipulator;
 use crate::synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
@@ -203,8 +204,7 @@ fn motion_text(p: &Pose) -> String {
     // by the quaternion: the axis of a half turn has no place in the skew part of the matrix
     let q = UnitQuaternion::from_rotation_matrix(&p.rotation);
     let (axis, angle) = q.axis_angle().map_or((Vector3::z(), 0.0), |(u, t)| (u.into_inner(), t.to_degrees()));
-    let place = |x: f64| (x * 1e6).round() / 1e6 + 0.0; // + 0.0: no "-0.000000"
-    let vector = |v: &Vector3<f64>| format!("({:.6}, {:.6}, {:.6})", place(v.x), place(v.y), place(v.z));
+    let vector = |v: &Vector3<f64>| format!("({})", [v.x, v.y, v.z].map(|x| fixed(x, 6)).join(", "));
     format!("turn by {angle:.6} deg about {}, then shift by {}", vector(&axis), vector(&p.position))
 }
 

@@ -1,5 +1,7 @@
 //! Numbers in options, and in texts for people.
 
+use crate::num::shown::fixed;
+
 /// So many finite numbers separated by commas.
 pub(crate) fn parse<const N: usize>(text: &str) -> Option<[f64; N]> {
     let all: Option<Vec<f64>> =
@@ -29,14 +31,7 @@ pub(crate) fn significant(x: f64) -> String {
 
 /// Numbers with so many decimals, in brackets; what rounds to zero has no sign.
 pub(crate) fn listed(numbers: impl IntoIterator<Item = f64>, decimals: usize) -> String {
-    let text = |x: f64| {
-        let signed = format!("{x:.decimals$}");
-        match signed.strip_prefix('-') {
-            Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_string(),
-            _ => signed,
-        }
-    };
-    format!("[{}]", numbers.into_iter().map(text).collect::<Vec<_>>().join(", "))
+    format!("[{}]", numbers.into_iter().map(|x| fixed(x, decimals)).collect::<Vec<_>>().join(", "))
 }
 
 #[cfg(test)]
@@ -57,13 +52,5 @@ mod tests {
         ] {
             assert_eq!(significant(x), text);
         }
-    }
-    #[test]
-    fn lists_have_their_decimals_and_no_negative_zero() {
-        assert_eq!(
-            listed([-1e-9, 0.0, -0.0, -5.1e-5, 1.0, -12.5], 4),
-            "[0.0000, 0.0000, 0.0000, -0.0001, 1.0000, -12.5000]"
-        );
-        assert_eq!(listed([-0.4, f64::NEG_INFINITY], 0), "[0, -inf]");
     }
 }

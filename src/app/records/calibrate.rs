@@ -11,6 +11,7 @@ use crate::machine::calibration::{
     NoiseSource, Observability, Outlier, PoseDeviation, ResidualSpread, StartName, UnobservableChange,
     pose_deviation,
 };
+use crate::num::shown::fixed;
 use crate::platform::geom::Pose;
 use crate::platform::manipulator::Body;
 
@@ -340,10 +341,10 @@ impl UnobservableRecord {
     #[must_use]
     pub fn words(&self) -> String {
         let joint = |j: &JointShiftRecord| {
-            let shift = j.shift.map(|x| format!("{:.3}", x.0 + 0.0));
+            let shift = j.shift.map(|x| fixed(x.0, 3));
             format!("{}.{} ({})", j.body, j.joint, shift.join(", "))
         };
-        let offset = |o: &OffsetShiftRecord| format!("offset {} by {:.3}", o.leg, o.change.0);
+        let offset = |o: &OffsetShiftRecord| format!("offset {} by {}", o.leg, fixed(o.change.0, 3));
         let all: Vec<String> = self.joints.iter().map(joint).chain(self.offsets.iter().map(offset)).collect();
         all.join(", ")
     }

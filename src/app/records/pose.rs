@@ -9,6 +9,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Number;
+use crate::num::shown::fixed;
 use crate::platform::geom::{Pose, nearest_rotation};
 use crate::platform::manipulator::LegIndex;
 
@@ -58,8 +59,7 @@ impl PoseQuaternionRecord {
     /// `x,y,z,qw,qx,qy,qz` with four decimals, for people.
     pub(crate) fn short(&self) -> String {
         let values = self.position.iter().chain(&self.quaternion);
-        // no number says `-0.0000`
-        values.map(|x| format!("{:.4}", (x.0 * 1e4).round() / 1e4 + 0.0)).collect::<Vec<_>>().join(",")
+        values.map(|x| fixed(x.0, 4)).collect::<Vec<_>>().join(",")
     }
 }
 

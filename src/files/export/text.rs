@@ -44,11 +44,6 @@ pub(super) fn rounded(x: f64) -> String {
     real((x * 1e3).round() / 1e3)
 }
 
-/// With four decimals, never `-0.0000`.
-pub(super) fn four_decimals(x: f64) -> String {
-    format!("{:.4}", (x * 1e4).round() / 1e4 + 0.0)
-}
-
 /// Lines that each begin with `mark` and a space.
 pub(super) fn commented(mark: &str, lines: impl IntoIterator<Item = String>) -> String {
     let mut out = String::new();

@@ -1,5 +1,6 @@
 //! Hole plans of the plates as DXF R12 in millimetres.
 
+use crate::num::shown::fixed;
 mod dimension;
 mod page;
 
@@ -8,7 +9,7 @@ use nalgebra::{Point2, Vector2};
 use self::dimension::dimensions;
 use self::page::Page;
 use super::plate::ClearanceHole;
-use super::text::{four_decimals, one_line};
+use super::text::one_line;
 use super::{Export, ExportBody, ExportedFile, OutlinePart, Plate, PlateHole, Unsupported, Writer};
 
 /// The format `dxf`.
@@ -138,7 +139,7 @@ fn title_block(
     };
     let lines = [
         format!("{}: {} plate", one_line(&export.name), body.body),
-        format!("material {material}, thickness {}", four_decimals(plate.thickness * mm)),
+        format!("material {material}, thickness {}", fixed(plate.thickness * mm, 4)),
         "mm, scale 1:1; ISO 2768-m for sizes, not for the places of holes".to_string(),
         "places of holes: within what `equipod build tolerances` says".to_string(),
         datum.to_string(),
@@ -167,9 +168,9 @@ fn table(page: &mut Page, export: &Export, body: &ExportBody, plate: &Plate, ext
     let (h, mm) = (page.text_height, export.unit.millimetres);
     let mut at = Point2::new(page.right() + 3.0 * h, extent[1].y);
     let mut lines = vec![
-        format!("{} plate, mm, thickness {}", body.body, four_decimals(plate.thickness * mm)),
-        format!("{} holes, diameter {}", plate.holes.len(), four_decimals(plate.hole_diameter * mm)),
-        format!("corner radius {}", four_decimals(plate.outline.margin * mm)),
+        format!("{} plate, mm, thickness {}", body.body, fixed(plate.thickness * mm, 4)),
+        format!("{} holes, diameter {}", plate.holes.len(), fixed(plate.hole_diameter * mm, 4)),
+        format!("corner radius {}", fixed(plate.outline.margin * mm, 4)),
         "hole   x   y".to_string(),
     ];
     if let Some(material) = &plate.material {
@@ -178,13 +179,12 @@ fn table(page: &mut Page, export: &Export, body: &ExportBody, plate: &Plate, ext
     if plate.bolt_count() > 0 {
         let (count, diameter) = (plate.bolt_count(), plate.bolt_diameter * mm);
         let thread = ClearanceHole::of(diameter).map_or_else(String::new, |thread| format!(" ({thread})"));
-        let line = format!("{count} bolt holes, diameter {}{thread}", four_decimals(diameter));
+        let line = format!("{count} bolt holes, diameter {}{thread}", fixed(diameter, 4));
         lines.insert(lines.len() - 1, line);
     }
-    let place = |p: &Point2<f64>| format!("{}   {}", four_decimals(p.x * mm), four_decimals(p.y * mm));
+    let place = |p: &Point2<f64>| format!("{}   {}", fixed(p.x * mm, 4), fixed(p.y * mm, 4));
     let row = |h: &PlateHole| {
-        let post =
-            if h.post > 0.0 { format!("   post {}", four_decimals(h.post * mm)) } else { String::new() };
+        let post = if h.post > 0.0 { format!("   post {}", fixed(h.post * mm, 4)) } else { String::new() };
         format!("{}   {}{post}", h.joints.join("/"), place(&h.at))
     };
     lines.extend(plate.holes.iter().map(row));

@@ -7,6 +7,7 @@ use crate::app::records::{
     CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationRecord, Number, ResidualsRecord,
 };
 use crate::machine::calibration::{NoiseSource, StartName};
+use crate::num::shown::fixed;
 
 /// Unobservable changes that are written out.
 const CHANGES: usize = 12;
@@ -39,8 +40,8 @@ pub(super) fn text(answer: &CalibrateAnswer, wanted: bool) -> String {
                 .pose
                 .position
                 .iter()
-                .map(|x| format!("{:>10.3}", x.0))
-                .chain(next.rpy_deg.iter().map(|x| format!("{:>9.3}", x.0 + 0.0)))
+                .map(|x| format!("{:>10}", fixed(x.0, 3)))
+                .chain(next.rpy_deg.iter().map(|x| format!("{:>9}", fixed(x.0, 3))))
                 .collect();
             let _ = writeln!(
                 out,
@@ -152,7 +153,7 @@ fn machine(out: &mut String, found: &CalibrationRecord, units: &str) {
         "joint", "x", "y", "z"
     );
     let numbers = |list: &[Number; 3], width: usize| {
-        list.iter().map(|x| format!("{:>width$.4}", x.0 + 0.0)).collect::<Vec<_>>().join(" ")
+        list.iter().map(|x| format!("{:>width$}", fixed(x.0, 4))).collect::<Vec<_>>().join(" ")
     };
     for joint in &found.joints {
         let moved = joint.moved.iter().map(|x| x.0 * x.0).sum::<f64>().sqrt();

@@ -9,6 +9,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::records::{CorrespondenceRecord, MapAnswer, MapRecord};
+use crate::num::shown::fixed;
 use crate::synthesis::{LegCorrespondence, Relation};
 
 /// Arguments of `equivalents map`.
@@ -68,8 +69,7 @@ pub(super) fn table(r: &MapRecord, from: &str, to: &str) -> String {
     for (i, row) in r.matrix.iter().enumerate() {
         let _ = write!(text, "leg {}  ", i + 1);
         for x in row {
-            let shown = (x.0 * 1e5).round() / 1e5 + 0.0; // + 0.0: no "-0.00000"
-            let _ = write!(text, "{shown:>9.5} ");
+            let _ = write!(text, "{:>9} ", fixed(x.0, 5));
         }
         let _ = writeln!(text, "{:>14.6}  {:>10.1e}", r.constants[i].0, r.residuals[i].0);
     }
