@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use nalgebra::{Point2, Rotation3, Vector3};
+use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 
 use super::text::real;
 use super::triangulate::triangulate;
@@ -237,6 +237,50 @@ fn meshes_are_closed_and_hold_the_volume_of_the_plate() {
         let wanted = (plate.volume() + posts) * export.unit.millimetres.powi(3);
         assert!((volume / wanted - 1.0).abs() < 2e-3, "{volume} {wanted}");
     }
+}
+
+/// Numbers of an attribute of the inertia of a body.
+fn inertial(text: &str, body: &str, attribute: &str) -> Vec<f64> {
+    let from = text.split(&format!("<body name=\"{body}\"")).nth(1).unwrap();
+    let own = from.split("<inertial ").nth(1).unwrap().split("/>").next().unwrap();
+    let value = own.split(&format!("{attribute}=\"")).nth(1).unwrap().split('"').next().unwrap();
+    value.split(' ').map(|x| x.parse().unwrap()).collect()
+}
+
+#[test]
+fn rods_carry_a_part_of_the_platform_and_nothing_moves_otherwise() {
+    let payload = "[payload]\nmass = 40\ncenter = [5, -8, 60]\ninertia = [9.0e5, 8.0e5, 7.0e5]\n";
+    let carrying = |payload: &str| {
+        Export::of(&design(&format!("{SYMMETRIC}{payload}")), &ExportOptions::default()).unwrap()
+    };
+    let export = carrying(payload);
+    assert_eq!(export.added_rod_mass(), None);
+    let text = text_of(&export, "mjcf", "platform.xml");
+    let moments = |mass: f64, c: Vector3<f64>, i: Matrix3<f64>| {
+        Matrix3::identity() * (0.5 * i.trace()) - i + c * c.transpose() * mass
+    };
+    let i = inertial(&text, "platform", "fullinertia");
+    let own = Matrix3::new(i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2]);
+    let (mass, at) = (inertial(&text, "platform", "mass")[0], inertial(&text, "platform", "pos"));
+    let at = Vector3::new(at[0], at[1], at[2]);
+    let (mut all, mut first, mut second) = (mass, at * mass, moments(mass, at, own));
+    for leg in &export.legs {
+        let rod = format!("rod{}", leg.number);
+        let share = inertial(&text, &rod, "mass")[0];
+        assert!(share > 0.2 && inertial(&text, &rod, "pos") == [0.0; 3], "in the joint: {share}");
+        let joint = export.bodies[1].joints[leg.platform].at.coords * 1e-3;
+        (all, first, second) =
+            (all + share, first + joint * share, second + joint * joint.transpose() * share);
+    }
+    let centre = Vector3::new(5e-3, -8e-3, 60e-3);
+    let stated = Matrix3::from_diagonal(&Vector3::new(0.9, 0.8, 0.7));
+    assert!((all - 40.0).abs() < 1e-12 && (first - centre * 40.0).norm() < 1e-12);
+    assert!((second - moments(40.0, centre, stated)).norm() < 1e-12);
+    // a lamina above the joints has nothing to spare
+    let export = carrying(&payload.replace("[9.0e5, 8.0e5, 7.0e5]", "[4.0e5, 3.0e5, 7.0e5]"));
+    let text = text_of(&export, "mjcf", "platform.xml");
+    assert_eq!(export.added_rod_mass(), Some(inertial(&text, "rod1", "mass")[0]));
+    assert!((inertial(&text, "platform", "mass")[0] - 40.0).abs() < 1e-12);
 }
 
 #[test]

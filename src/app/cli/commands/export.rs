@@ -9,6 +9,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::numbers::significant;
 use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
 use crate::app::entrance::exporting::octahedral_of_controllers;
@@ -156,7 +157,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let mut text = text;
     let mut record = ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats);
     if simulated {
-        record.assumptions = simulator_assumptions(&design);
+        record.assumptions = simulator_assumptions(&design, &export);
     }
     text.push_str("sizes\n");
     for c in &record.sizes {
@@ -171,9 +172,17 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 }
 
 /// What the model of the simulator takes of masses because the design doesn't say it.
-fn simulator_assumptions(design: &Design) -> Vec<String> {
-    if design.moving_payload().is_some() {
-        return design.mass_assumptions();
+fn simulator_assumptions(design: &Design, export: &Export) -> Vec<String> {
+    let mut out = if design.moving_payload().is_some() {
+        design.mass_assumptions()
+    } else {
+        vec!["The design has no [payload]: the platform is a ball in the middle of its joints.".to_owned()]
+    };
+    if let Some(mass) = export.added_rod_mass() {
+        out.push(format!(
+            "The simulator's rods weigh {} kg each that the design does not have: its inertia leaves them nothing of the platform, and rods without mass cannot be moved.",
+            significant(mass)
+        ));
     }
-    vec!["The design has no [payload]: the platform is a ball in the middle of its joints.".to_owned()]
+    out
 }

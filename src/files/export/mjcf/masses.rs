@@ -75,7 +75,7 @@ pub(super) struct ModelMasses {
     /// What each rod carries of the mass of the platform in its joint.
     share: f64,
     /// Whether the platform cannot spare it, so that it comes on top.
-    pub(super) added: bool,
+    added: bool,
     size: f64,
 }
 
@@ -182,6 +182,15 @@ impl ModelMasses {
             String::new()
         };
         format!("platform with payload {} kg{legs}{carried}", real(export.moving.mass))
+    }
+}
+
+impl Export {
+    /// What each rod of the simulator's model weighs that the design doesn't have, kilograms; `None` where the platform can spare it.
+    #[must_use]
+    pub fn added_rod_mass(&self) -> Option<f64> {
+        let masses = ModelMasses::of(self);
+        masses.added.then_some(masses.share)
     }
 }
 
