@@ -1,7 +1,7 @@
 //! Agreement is evidence only between computations that share no code: poses stay apart from leg maps, and certificates from solvers.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The sources of a module without lines of comments.
 fn code(module: &Path) -> String {
@@ -14,8 +14,12 @@ fn code(module: &Path) -> String {
     lines.join("\n")
 }
 
+fn file(module: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(module)
+}
+
 fn source(module: &str) -> String {
-    code(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(module))
+    code(&file(module))
 }
 
 /// The words of paths and of `use` statements.
@@ -32,7 +36,11 @@ fn named(code: &str) -> impl Iterator<Item = String> {
         let mut path = rest.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
         let (room, part) = (path.next().unwrap_or_default(), path.nth(1).unwrap_or_default());
         let within = format!("{room}/{part}");
-        if part.is_empty() || source(&within).is_empty() { room.to_owned() } else { within }
+        if !part.is_empty() && (file(&within).is_dir() || file(&within).with_extension("rs").is_file()) {
+            within
+        } else {
+            room.to_owned()
+        }
     })
 }
 
