@@ -210,7 +210,7 @@ impl FitProblem<'_> {
         let scale = if self.loss == Loss::Squares {
             (distances.iter().map(|d| d.pose * d.pose).sum::<f64>() / freedoms).sqrt()
         } else {
-            usual_distance(&distances) * (numbers as f64 / freedoms).sqrt()
+            self.usual(&distances) * (numbers as f64 / freedoms).sqrt()
         };
         let noise = fit.noise.scaled(scale);
         let least = NOISE_OF_ROUNDING * self.size;
@@ -219,7 +219,17 @@ impl FitProblem<'_> {
 
     /// The usual distance where it shows that the model is still wrong; `None` also for a loss that knows no gross errors.
     fn far(&self, distances: &[Distances]) -> Option<f64> {
-        Some(usual_distance(distances)).filter(|usual| self.loss != Loss::Squares && *usual > FAR)
+        Some(self.usual(distances)).filter(|usual| self.loss != Loss::Squares && *usual > FAR)
+    }
+
+    /// The median distance over that of normal errors: of whole poses, or of single lengths where these are doubted. Gross errors of less than half of them hardly change it.
+    fn usual(&self, distances: &[Distances]) -> f64 {
+        let (mut squares, count): (Vec<f64>, usize) = match self.unit {
+            LossUnit::Pose => (distances.iter().map(|d| d.pose * d.pose).collect(), 6),
+            LossUnit::Leg => (distances.iter().flat_map(|d| d.legs.map(|x| x * x)).collect(), 1),
+        };
+        squares.sort_by(f64::total_cmp);
+        (squares[squares.len() / 2] / chi_square_quantile(0.5, count)).sqrt()
     }
 
     /// The weights of the loss, graduated: a convex loss counts distances in the usual one until the model is about right.
@@ -247,11 +257,4 @@ impl FitProblem<'_> {
         };
         self.distances(&fit.model, &fit.noise).iter().map(of).sum()
     }
-}
-
-/// The median distance over that of normal errors: gross errors of less than half of the poses hardly change it.
-fn usual_distance(distances: &[Distances]) -> f64 {
-    let mut squares: Vec<f64> = distances.iter().map(|d| d.pose * d.pose).collect();
-    squares.sort_by(f64::total_cmp);
-    (squares[squares.len() / 2] / chi_square_quantile(0.5, 6)).sqrt()
 }

@@ -441,8 +441,8 @@ fn status(fit: &Fit, spectrum: &Spectrum, chi: &ChiSquare, unknowns: usize) -> C
     }
 }
 
-/// Measurements that are farther than all right ones together are with a probability of 99 %. Where more than half of the poses are, none is an outlier: the noise or the
-/// model is wrong.
+/// Measurements that are farther than all right ones together are with a probability of 99 %. Where more than half of the poses are, or of the lengths where these are doubted, none
+/// is an outlier: the noise or the model is wrong.
 fn outliers(problem: &FitProblem<'_>, fit: &Fit) -> Vec<Outlier> {
     if fit.source == NoiseSource::Assumed {
         return Vec::new();
@@ -475,8 +475,11 @@ fn outliers(problem: &FitProblem<'_>, fit: &Fit) -> Vec<Outlier> {
             }
         }
     }
-    let doubted = (0..problem.measurements.len()).filter(|k| out.iter().any(|o| o.measurement == *k)).count();
-    if 2 * doubted > problem.measurements.len() {
+    let all = match problem.unit {
+        LossUnit::Pose => problem.measurements.len(),
+        LossUnit::Leg => 6 * problem.measurements.len(),
+    };
+    if 2 * out.len() > all {
         return Vec::new();
     }
     out.sort_by(|a, b| b.distance.total_cmp(&a.distance));

@@ -465,3 +465,28 @@ fn the_covariance_turns_with_the_joints() {
     let b = found.unknowns.joint(Body::Platform, 3).unwrap();
     assert!((of(&turned, b) - of(&found.root, b)).abs() < 1e-12);
 }
+
+/// Three of five poses have a length that is off: the median pose is wrong, the median length is not.
+#[test]
+fn gross_lengths_in_most_poses_are_named_where_single_lengths_are_doubted() {
+    let mut rng = Rng::new(23);
+    let truth = built(&nominal(), 0.5, 2.0, &mut rng);
+    let mut rows = measured(&truth, &poses(40, &mut rng), Some(&ENCODERS), &mut rng);
+    let mut wrong = Vec::new();
+    for (k, row) in rows.iter_mut().enumerate().filter(|(k, _)| k % 5 < 3) {
+        let leg = (rng.next_u64() % 6) as usize;
+        let off = rng.uniform(5.0, 20.0);
+        row.lengths[leg] += if rng.unit() < 0.5 { off } else { -off };
+        wrong.push((k, leg));
+    }
+    for loss in [Loss::Cauchy, Loss::Tukey] {
+        let options = CalibrateOptions { loss, loss_unit: LossUnit::Leg, ..options(Some(ENCODERS)) };
+        let found = calibrate(&nominal(), &rows, &options).unwrap();
+        assert_eq!(found.status, CalibrationStatus::Calibrated, "{loss:?}");
+        let named: Vec<_> = found.outliers.iter().map(|o| (o.measurement, o.leg.unwrap())).collect();
+        assert!(
+            wrong.iter().all(|w| named.contains(w)) && named.len() <= wrong.len() + 1,
+            "{loss:?}: {named:?}"
+        );
+    }
+}
