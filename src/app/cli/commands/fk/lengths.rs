@@ -25,28 +25,27 @@ pub(in crate::app::cli::commands) enum Given {
     Rows(TimeSeries<ShownLengths>),
 }
 
-/// `--lengths`, else the lengths of the design.
+/// `--lengths`, which the legs show, else the lengths of the design, which are distances of joints.
 pub(in crate::app::cli::commands) fn given(
     option: Option<&str>,
     design: &Design,
     context: &Context,
 ) -> Result<Given, Failure> {
     let offsets = design.leg_offsets();
-    let bad = |option: &str, message: &str| {
-        Failure::refused("fk::bad_lengths", format!("{option}: {message}"))
-            .with_help("give six lengths separated by commas, or a CSV file")
-    };
     let Some(text) = option else {
         let own = design.lengths.ok_or_else(|| {
             Failure::refused("fk::no_lengths", "the design has no `lengths` and --lengths was not given")
                 .with_help("give --lengths l1,l2,l3,l4,l5,l6 or --lengths FILE.csv")
         })?;
-        return ShownLengths::new(own.get(), &offsets)
-            .map(Given::One)
-            .map_err(|why| bad("`lengths` of the design", &why));
+        // those of the file are distances of joints, for every command
+        let shown = std::array::from_fn(|i| own.get()[i] + offsets[i]);
+        return Ok(Given::One(ShownLengths { shown, distances: own }));
     };
     if text.contains(',') || text.parse::<f64>().is_ok() {
-        return six(text, &offsets).map(Given::One).map_err(|message| bad("--lengths", &message));
+        return six(text, &offsets).map(Given::One).map_err(|message| {
+            Failure::refused("fk::bad_lengths", format!("--lengths: {message}"))
+                .with_help("give six lengths separated by commas, or a CSV file")
+        });
     }
     rows(Path::new(text), &offsets, context).map(Given::Rows)
 }
@@ -117,6 +116,13 @@ mod tests {
         assert_eq!(given(None).unwrap(), Given::One(own));
         assert_eq!(given(Some("1,2,3")).unwrap_err().code, "fk::bad_lengths");
         assert_eq!(given(Some("no-such-file.csv")).unwrap_err().code, "file::not_readable");
+        // those of the file are distances, whatever the legs show
+        let table = "\n[calibration]\noffsets = [0.5, -0.5, 0.25, 0, 0, 2]\n";
+        let text = format!("{}{table}", include_str!("../../../../../designs/rbt-octahedral.toml"));
+        let mut shown: Design = text.parse().unwrap();
+        shown.lengths = design.lengths;
+        let Given::One(found) = super::given(None, &shown, &context).unwrap() else { panic!("one set") };
+        assert_eq!((Some(found.distances), found.shown), (design.lengths, [1.5, 0.5, 1.25, 1.0, 1.0, 3.0]));
     }
 
     #[test]
