@@ -1,4 +1,4 @@
-//! What users ask and how they are answered: the questions, the answers as data, and the doors, which are the command line, the page, Python, C and sweeps.
+//! Answers users: it holds their questions, the answers as data, and the doors, which are the command line, the page, Python, C and sweeps.
 //!
 //! It knows everything below. It proves nothing: each "proved", "singular", "equivalent" and "met" is copied from one value of the rooms below.
 //!

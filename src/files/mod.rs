@@ -1,4 +1,4 @@
-//! What goes in and out as text: design files, tables, drawings, models of simulators, code of controllers, pictures.
+//! Reads and writes texts: design files, tables, drawings, models of simulators, code of controllers, pictures.
 //!
 //! It knows `num`, `platform`, `fk`, `synthesis`, `verify` and `machine`; it turns text into values and values into text, and opens no file.
 //!

@@ -1,4 +1,4 @@
-//! What a built machine can do: requirements with their margins and proofs, drives, limits, motion, tolerances, calibration.
+//! Says what a built machine can do: requirements with their margins and proofs, drives, limits, motion, tolerances, calibration.
 //!
 //! It knows `num`, `platform`, `fk` and, where tolerances ask whether two platforms are equivalent, `verify`; it reads no files.
 //!

@@ -1,4 +1,4 @@
-//! The best platform: offsets that keep the kinematics of an octahedral platform, and platforms of any size under all requirements.
+//! Searches for the best platform: offsets that keep the kinematics of an octahedral platform, and platforms of any size under all requirements.
 //!
 //! It knows `num`, `platform`, `synthesis` and `machine`; it never computes poses from lengths.
 //!

@@ -1,4 +1,4 @@
-//! The device: six legs between two rigid bodies.
+//! Describes the device: six legs between two rigid bodies.
 //!
 //! It knows poses, joints and legs, the lengths and the Jacobian at a pose, and which legs share which joints; it solves nothing and judges nothing. It names `num` alone.
 //!

@@ -198,13 +198,13 @@ fn a_pose_of_joints_that_are_not_ideal_is_found_from_itself_or_not_at_all() {
     let design = not_ideal();
     let home = design.home_or_default();
     let legs = CoupledLegs::new(design.manipulator(), &design.hardware, &home).unwrap();
-    let size = design.manipulator().size();
+    let scale = design.manipulator().size();
     let (mut rng, mut found, mut lost) = (Rng::new(5), 0, 0);
-    for k in 0..super::evidence::size(400, 4000) {
+    for k in 0..size(400, 4000) {
         // as the legs come to lie in the plane of the base, poses are nearly singular
         let low = if k % 2 == 0 { 1.0 } else { 0.04 };
         let mut draw = |most: f64| rng.uniform(-most, most);
-        let shift = nalgebra::Vector3::from_fn(|_, _| draw(0.04 * size));
+        let shift = nalgebra::Vector3::from_fn(|_, _| draw(0.04 * scale));
         let turn = Angles::from_degrees([draw(15.0), draw(15.0), draw(15.0)]);
         let at = home.position.component_mul(&nalgebra::Vector3::new(1.0, 1.0, low)) + shift;
         let pose = Pose::new(at, turn);
@@ -213,7 +213,7 @@ fn a_pose_of_joints_that_are_not_ideal_is_found_from_itself_or_not_at_all() {
         match outcome.pose() {
             Some(reached) => {
                 found += 1;
-                let off = (reached.position - pose.position).norm() / size;
+                let off = (reached.position - pose.position).norm() / scale;
                 assert!(off < 1e-8, "case {k}: {off:e} of the size, {:?}", outcome.status);
             }
             None => lost += 1,

@@ -92,7 +92,7 @@ fn sweep_run_in_full(mut args: Vec<OsString>) -> Vec<OsString> {
 /// What `sweep` takes beside a plan.
 const SWEEP_COMMANDS: [&str; 8] = ["run", "status", "merge", "verify", "best", "design", "script", "help"];
 
-/// What clap has to say about the arguments: help and version, or why they are refused.
+/// Prints help and version, or refuses the arguments, as clap says.
 fn told(output: Output, said: &clap::Error, words: &[String]) -> Exit {
     if said.use_stderr() { output.failure(&usage::refusal(said, words), None) } else { output.help(said) }
 }

@@ -100,7 +100,7 @@ impl Design {
     where
         Error: From<L::Error>,
     {
-        let distances = lengths.try_into()?.plus(&self.leg_offsets().map(|d| -d))?;
+        let distances = lengths.try_into()?.without(&self.leg_offsets())?;
         self.manipulator().fk_with::<&LegLengths>(&distances, options)
     }
 
@@ -109,7 +109,7 @@ impl Design {
     /// # Errors
     /// [`Error::Overflow`] for a pose so far away that lengths overflow; an offset that makes a length negative.
     pub fn ik(&self, pose: &Pose) -> Result<LegLengths, Error> {
-        Ok(self.manipulator().ik(pose)?.plus(&self.leg_offsets())?)
+        Ok(self.manipulator().ik(pose)?.shown_with(&self.leg_offsets())?)
     }
 
     /// Forward kinematics prepared for many lengths that the legs show.
@@ -135,7 +135,7 @@ pub struct Solver {
     options: FkOptions,
     threads: Threads,
     cancel: Cancel,
-    /// What legs show more than the distances of their joints.
+    /// Each leg shows the distance of its joints and this.
     offsets: [f64; 6],
 }
 
@@ -194,7 +194,7 @@ impl Solver {
     }
 
     fn solve_shown(&self, shown: &LegLengths) -> Result<FkSolutions, Error> {
-        self.solve_squared(&shown.plus(&self.offsets.map(|d| -d))?.squared())
+        self.solve_squared(&shown.without(&self.offsets)?.squared())
     }
 
     /// All finite poses at these squared distances of joints, those that a leg map gives for instance.
@@ -276,7 +276,7 @@ where
 pub struct Tracker {
     solver: NearSolver,
     pose: Pose,
-    /// What legs show more than the distances of their joints.
+    /// Each leg shows the distance of its joints and this.
     offsets: [f64; 6],
 }
 
@@ -300,7 +300,7 @@ impl Tracker {
     where
         Error: From<L::Error>,
     {
-        let distances = lengths.try_into()?.plus(&self.offsets.map(|d| -d))?;
+        let distances = lengths.try_into()?.without(&self.offsets)?;
         let outcome = self.solver.solve(&distances.squared(), &self.pose);
         if let NearOutcome::Tracked { pose, .. } = &outcome {
             self.pose = *pose;

@@ -237,7 +237,7 @@ impl NativeDesign {
         let offsets = self.design.leg_offsets();
         at_poses(py, entries, |pose| {
             let distances = pose.lengths_of(&legs).ok_or(Error::Overflow)?;
-            lengths.extend_from_slice(&distances.plus(&offsets).map_err(Error::from)?.get());
+            lengths.extend_from_slice(&distances.shown_with(&offsets).map_err(Error::from)?.get());
             Ok(())
         })?;
         Ok(Some(shaped([before, &[6]].concat(), lengths)?.into_pyarray(py)))

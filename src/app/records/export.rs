@@ -21,7 +21,7 @@ pub struct ExportAnswer {
     pub formats: Vec<FormatRecord>,
     /// The sizes that were chosen.
     pub sizes: Vec<SizeRecord>,
-    /// What the model of the simulator takes of masses and units because the file doesn't say it; empty where none was written.
+    /// Assumptions of the simulator's model about masses and units that the file leaves open; empty where no model was written.
     pub assumptions: Vec<String>,
 }
 
@@ -33,6 +33,7 @@ impl ExportAnswer {
         assessment: Option<AssessAnswer>,
         output: String,
         formats: Vec<FormatRecord>,
+        assumptions: Vec<String>,
     ) -> Self {
         Self {
             name: export.name.clone(),
@@ -41,7 +42,7 @@ impl ExportAnswer {
             design_unit: LengthUnitRecord { label: export.unit.label.into(), mm: export.unit.millimetres },
             formats,
             sizes: export.choices.iter().map(SizeRecord::from).collect(),
-            assumptions: Vec::new(),
+            assumptions,
         }
     }
 }

@@ -9,6 +9,7 @@ mod edit;
 mod fixtures;
 mod json_text;
 mod likeness;
+mod masses;
 mod model;
 mod outline;
 mod presets;

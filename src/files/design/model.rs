@@ -1,16 +1,14 @@
 //! The design: what a file holds once it is valid, with its requirements and what the optimiser may choose.
 
-use nalgebra::{DMatrix, Matrix3, Point3, Vector3};
+use nalgebra::{DMatrix, Point3, Vector3};
 use thiserror::Error;
 
 use super::construction::resolve::{Fault, Joints};
 use super::construction::{RealPoint, WrittenHome};
-use super::scale::micrometres;
 use super::{Constructions, CrankLimits, DesignExactness, ExactJoint, Workspace, Written};
 use crate::machine::requirements::{
-    CrankedLeg, Cranks, Envelopes, ForceUnit, GRAVITY, Grid, Hardware, KeepOut, Load, MassUnit, MovingBodies,
-    Payload, PlateBody, PlateMass, PlateSolid, Plates, PlatformSpeed, PlatformStiffness, Quantity,
-    Requirements, Reserves, Term, TermKind, VibratingMasses,
+    CrankedLeg, Cranks, Envelopes, ForceUnit, Grid, Hardware, KeepOut, Load, MassUnit, Payload, PlateSolid,
+    Plates, PlatformSpeed, PlatformStiffness, Quantity, Requirements, Reserves, Term, TermKind,
 };
 use crate::machine::requirements::{KeptSymmetry, Objective, VariableKind};
 use crate::machine::rotary::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform};
@@ -564,88 +562,10 @@ impl Design {
         })
     }
 
-    /// What vibrates: the payload with the legs, whose unit of length is one that is known; `None` where one of them is not said.
-    ///
-    /// Without names of units forces are newtons and masses kilograms.
-    #[must_use]
-    pub fn vibrating(&self) -> Option<VibratingMasses> {
-        let metres = micrometres(&self.units)? as f64 * 1e-6;
-        let newtons = self.force_units.unwrap_or(ForceUnit::Newton).newtons();
-        let bodies = self.moving_bodies(metres)?;
-        Some(VibratingMasses { bodies, leg: self.hardware.leg_stiffness? * newtons / metres })
-    }
-
-    /// What the length that each leg shows is longer than the distance of its joints, design units: the offsets of the calibration, zero without one.
+    /// Offsets of the calibration, design units, zero without one: each leg shows the distance of its joints and its offset.
     #[must_use]
     pub fn leg_offsets(&self) -> [f64; 6] {
         self.calibration.as_ref().map_or([0.0; 6], |table| table.offsets)
-    }
-
-    /// [What moves with the platform](Self::moving_payload) and the legs, where one design unit is so many metres: the masses of `motion`, of natural frequencies and of simulators.
-    /// `None` where nothing is known to move with the platform. [`mass_assumptions`](Self::mass_assumptions) says what is assumed.
-    #[must_use]
-    pub fn moving_bodies(&self, metres: f64) -> Option<MovingBodies> {
-        let unit = self.mass_units.unwrap_or(MassUnit::Kilogram);
-        Some(MovingBodies::new(&self.moving_payload()?, self.hardware.leg_masses.as_ref(), unit, metres))
-    }
-
-    /// Legs as the file has them, and a platform of a mass in kilograms whose centre is in the middle of its joints, with [the inertia of a ball](Self::moving_payload): for a file that
-    /// does not say what moves.
-    pub(crate) fn assumed_bodies(&self, mass: f64, metres: f64) -> MovingBodies {
-        let (center, inertia) = (self.platform_middle(), Some(self.ball(mass)));
-        let payload = Payload {
-            mass,
-            center,
-            inertia,
-            gravity: self.gravity(),
-            plate: PlateMass::Included,
-            shape: None,
-        };
-        let unit = self.mass_units.unwrap_or(MassUnit::Kilogram).kilograms();
-        let leg = self.hardware.leg_masses.map(|leg| leg.scaled(unit));
-        MovingBodies::new(&payload, leg.as_ref(), MassUnit::Kilogram, metres)
-    }
-
-    /// Gravity, base frame, m/s^2: that of the payload, else standard gravity along the third axis downwards.
-    pub(crate) fn gravity(&self) -> Vector3<f64> {
-        self.payload.map_or_else(|| Vector3::new(0.0, 0.0, -GRAVITY), |payload| payload.gravity)
-    }
-
-    /// Inertia of a ball whose radius of gyration is the root mean square distance of the platform joints from their middle.
-    fn ball(&self, mass: f64) -> Matrix3<f64> {
-        let joints = self.manipulator.platform_joints();
-        let middle = self.platform_middle();
-        let squares: f64 = joints.iter().map(|b| (b - middle).norm_squared()).sum();
-        Matrix3::identity() * (mass * squares / joints.len() as f64)
-    }
-
-    fn platform_middle(&self) -> Point3<f64> {
-        let joints = self.manipulator.platform_joints();
-        Point3::from(joints.iter().map(|b| b.coords).sum::<Vector3<f64>>() / joints.len() as f64)
-    }
-
-    /// What is assumed of masses and their units because the file doesn't say it, a sentence each.
-    #[must_use]
-    pub fn mass_assumptions(&self) -> Vec<String> {
-        if self.moving_payload().is_none() {
-            return vec!["The design has no [payload]: forces and powers are not computed.".to_owned()];
-        }
-        let mut out = Vec::new();
-        if self.payload.is_some_and(|payload| payload.inertia.is_none()) {
-            out.push("The payload has no inertia: that of a ball is taken whose radius of gyration is the root mean square distance of the platform joints from their middle.".to_owned());
-        }
-        if self.has_cranks() {
-            out.push("Cranks and rods are taken as massless.".into());
-        } else if self.hardware.leg_masses.is_none() {
-            out.push("The legs have no masses in [hardware]: they are taken as massless.".into());
-        }
-        if self.mass_units.is_none() {
-            out.push("The design names no unit of mass: masses are taken in kilograms.".into());
-        }
-        if self.force_units.is_none() {
-            out.push("The design names no unit of force: forces are taken in newtons.".into());
-        }
-        out
     }
 
     /// The plate of a body as a solid, where the file says something of it; the legs are on the side on which they are at home.
@@ -654,67 +574,6 @@ impl Design {
         let home = self.home_or_default();
         let solid = |plate| PlateSolid::of(plate, &self.manipulator, body, &self.hardware, &home);
         self.plates.of(body).map(solid)
-    }
-
-    /// The plate of a body as a rigid body; `None` where its density or the unit of length is not known.
-    pub(crate) fn rigid_plate(&self, body: Body) -> Option<PlateBody> {
-        let metres = micrometres(&self.units)? as f64 * 1e-6;
-        self.plate(body)?.rigid(self.plates.of(body)?, metres)
-    }
-
-    /// Mass of the plate of a body without its holes, kilograms; `None` where its density or the unit of length is not known.
-    #[must_use]
-    pub fn plate_mass(&self, body: Body) -> Option<f64> {
-        self.rigid_plate(body).map(|plate| plate.mass)
-    }
-
-    /// What moves with the platform: the payload as the file states it, with the plate of the platform where the file says that it comes on top; the plate alone where the file has no
-    /// payload and the mass of the plate is known.
-    ///
-    /// With masses `m` and `n`, centres `c` and `d`, inertias `I` and `J`: mass `m + n`, centre `(m c + n d) / (m + n)`, inertia `I + J` and `m n / (m + n) (e . e - e e^T)` with
-    /// `e = c - d`. A payload without inertia has that of a ball whose radius of gyration is the root mean square distance of the platform joints from their middle.
-    #[must_use]
-    pub fn moving_payload(&self) -> Option<Payload> {
-        let plate = || {
-            let plate = self.rigid_plate(Body::Platform)?;
-            let unit = self.mass_units.unwrap_or(MassUnit::Kilogram).kilograms();
-            Some((plate.mass / unit, plate.center, plate.inertia / unit))
-        };
-        let Some(own) = self.payload else {
-            let (mass, center, inertia) = plate()?;
-            let gravity = Vector3::new(0.0, 0.0, -GRAVITY);
-            let (inertia, plate) = (Some(inertia), PlateMass::Included);
-            return Some(Payload { mass, center, inertia, gravity, plate, shape: None });
-        };
-        let moments = own.inertia.unwrap_or_else(|| self.ball(own.mass));
-        let Some((mass, center, inertia)) = plate().filter(|_| own.plate == PlateMass::Added) else {
-            return Some(Payload { inertia: Some(moments), ..own });
-        };
-        let all = own.mass + mass;
-        let apart = own.center - center;
-        let spread = Matrix3::identity() * apart.norm_squared() - apart * apart.transpose();
-        Some(Payload {
-            mass: all,
-            center: center + apart * (own.mass / all),
-            inertia: Some(moments + inertia + spread * (own.mass * mass / all)),
-            ..own
-        })
-    }
-
-    /// The weight of [what moves with the platform](Self::moving_payload), where there is something, and the loads of the file.
-    ///
-    /// Without names of units forces are newtons and masses kilograms.
-    #[must_use]
-    pub fn all_loads(&self) -> Vec<Load> {
-        let weight = self.moving_payload().map(|p| {
-            let (mass, force) = (self.mass_units, self.force_units);
-            let mut load = p.weight(mass.unwrap_or(MassUnit::Kilogram), force.unwrap_or(ForceUnit::Newton));
-            if self.payload.is_none() {
-                "platform plate".clone_into(&mut load.name);
-            }
-            load
-        });
-        weight.into_iter().chain(self.loads.iter().cloned()).collect()
     }
 }
 

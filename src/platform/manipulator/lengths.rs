@@ -73,12 +73,20 @@ impl LegLengths {
         self.0
     }
 
-    /// Lengths that are greater by these numbers: what legs with offsets show where the joints have these distances, and the distances with the opposite numbers.
+    /// Lengths that legs with these offsets show where the joints are as far apart as this.
     ///
     /// # Errors
     /// The first sum that is no length.
-    pub fn plus(&self, more: &[f64; 6]) -> Result<Self, InvalidLengths> {
-        Self::try_new(std::array::from_fn(|i| self.0[i] + more[i]))
+    pub fn shown_with(&self, offsets: &[f64; 6]) -> Result<Self, InvalidLengths> {
+        Self::try_new(std::array::from_fn(|i| self.0[i] + offsets[i]))
+    }
+
+    /// Distances of the joints where legs with these offsets show these lengths.
+    ///
+    /// # Errors
+    /// The first difference that is no length.
+    pub fn without(&self, offsets: &[f64; 6]) -> Result<Self, InvalidLengths> {
+        Self::try_new(std::array::from_fn(|i| self.0[i] - offsets[i]))
     }
 
     /// `s_i = l_i^2`, exactly unless a square leaves the range in which two doubles hold it.

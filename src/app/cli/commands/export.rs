@@ -153,12 +153,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     } else {
         requirements::lead(&design.name, assessment.as_ref())
     };
-    let text = format!("{lead}\n{text}");
-    let mut text = text;
-    let mut record = ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats);
-    if simulated {
-        record.assumptions = simulator_assumptions(&design, &export);
-    }
+    let mut text = format!("{lead}\n{text}");
+    let assumptions = if simulated { simulator_assumptions(&design, &export) } else { Vec::new() };
+    let record =
+        ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats, assumptions);
     text.push_str("sizes\n");
     for c in &record.sizes {
         let Number(x) = c.value;
@@ -171,7 +169,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer::new(exit, record, text))
 }
 
-/// What the model of the simulator takes of masses because the design doesn't say it.
+/// Says which masses the simulator's model assumes where the design states none.
 fn simulator_assumptions(design: &Design, export: &Export) -> Vec<String> {
     let mut out = if design.moving_payload().is_some() {
         design.mass_assumptions()

@@ -105,7 +105,7 @@ fn leg(
 /// The whole model.
 pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Unsupported> {
     let masses = ModelMasses::of(export);
-    let scale = Scale::of(export).with_masses(&masses);
+    let scale = Scale::of(export, &masses);
     let angles = reals(cranks.home_angles, " ");
     let rods = reals(cranks.platform.rods().get().map(|l| l * scale.metres), " ");
     let mut text = format!(

@@ -12,12 +12,11 @@
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-use super::Scale;
 use crate::files::export::Export;
 use crate::files::export::text::{real, reals};
 use crate::machine::requirements::{LegMasses, LegPart};
 
-/// What moves along a leg, over the mass of the platform, that each rod has where the platform can spare it.
+/// Each rod has this share of the mass of the platform moving along it where the platform can spare it.
 const WANTED: f64 = 0.05;
 /// The same at which the time step is that of the size; with less it is shorter in proportion. `MuJoCo` followed a bench with this share,
 /// and lost it with a quarter of it.
@@ -76,6 +75,8 @@ pub(super) struct ModelMasses {
     share: f64,
     /// Whether the platform cannot spare it, so that it comes on top.
     added: bool,
+    /// The time step over that which the size allows.
+    pub(super) step: f64,
     size: f64,
 }
 
@@ -101,17 +102,11 @@ impl ModelMasses {
             .take_while(|share| *share >= LEAST * platform.mass)
             .find_map(|share| platform.without(share, &points).map(|rest| (share, rest)));
         let size = export.size * metres;
-        let enough = (ENOUGH * platform.mass - own).max(0.0);
-        match spared {
-            Some((share, rest)) => Self { platform: rest, leg, share, added: false, size },
-            None => Self { platform, leg, share: enough, added: enough > 0.0, size },
-        }
-    }
-
-    /// The time step over that which the size allows.
-    pub(super) fn step(&self) -> f64 {
-        let whole = self.platform.mass + if self.added { 0.0 } else { 6.0 * self.share };
-        ((self.share + self.leg.lengthwise()) / (ENOUGH * whole)).min(1.0)
+        let enough = ENOUGH * platform.mass;
+        let added = spared.is_none() && own < enough;
+        let (share, rest) = spared.unwrap_or(((enough - own).max(0.0), platform));
+        let step = ((share + own) / enough).min(1.0);
+        Self { platform: rest, leg, share, added, step, size }
     }
 
     /// Mass that moves along the leg in place of what turns in its drive.
@@ -191,13 +186,5 @@ impl Export {
     pub fn added_rod_mass(&self) -> Option<f64> {
         let masses = ModelMasses::of(self);
         masses.added.then_some(masses.share)
-    }
-}
-
-impl Scale {
-    /// The time step with these masses, seconds.
-    pub(super) fn with_masses(mut self, masses: &ModelMasses) -> Self {
-        self.step *= masses.step();
-        self
     }
 }

@@ -70,7 +70,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(export: &Export) -> Self {
+    fn of(export: &Export, masses: &ModelMasses) -> Self {
         let size = export.size * export.unit.metres;
         let omega = STIFFNESS / size.sqrt();
         let kp = export.moving.mass * omega * omega / 6.0;
@@ -80,7 +80,7 @@ impl Scale {
             kp,
             // 1.3 of critical damping; twice as much chatters at this time step
             kv: 2.6 * kp / omega,
-            step: STEP * size.sqrt(),
+            step: STEP * size.sqrt() * masses.step,
             gravity: if export.gravity_compensation { " gravcomp=\"1\"" } else { "" },
         }
     }
@@ -157,6 +157,7 @@ fn leg(
     export: &Export,
     leg: &ExportLeg,
 ) -> Result<(), Unsupported> {
+    // each hinge has a body of its own: Drake takes the axis of the first of several joints of a body in the frame of the parent
     let frame = leg_frame(leg)?;
     let (i, length) = (leg.number, leg.length());
     let (thick, thin) = leg.diameters;
@@ -363,7 +364,7 @@ fn calibration(out: &mut String, export: &Export) {
 
 fn model(export: &Export) -> Result<String, Unsupported> {
     let masses = ModelMasses::of(export);
-    let scale = Scale::of(export).with_masses(&masses);
+    let scale = Scale::of(export, &masses);
     let lengths = reals(export.legs.map(|l| l.length() * scale.metres), " ");
     let mut text = format!(
         "Slide leg N and its actuator hold the length minus the home length.\n  \

@@ -34,7 +34,7 @@ pub(crate) struct Args {
 
 const BAD_POSE: &str = "ik::bad_pose";
 
-/// Lengths are distances of joints with the offsets of a calibration: every pose has them. Where joints are not ideal the lengths of the drives stand beside the distances.
+/// Every pose has lengths: the distances of the joints with the offsets of a calibration, or the lengths of the drives beside the distances where joints are not ideal.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let (series, one) = match &args.poses {
@@ -50,7 +50,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let coupled = Context::coupled_of(&design)?;
     let known = design.machine_uncertainty();
     let record = |row: &SeriesRow<Pose>| {
-        let record = record(&design, &terms, row, from_table)?;
+        let distances = distances(&design, row)?.get();
+        let record = IkRecord {
+            line: from_table.then_some(row.line),
+            time: row.time,
+            ..IkRecord::new(&design, &terms, &row.value, distances)
+        };
         let Some(legs) = &coupled else {
             return Ok(match &known {
                 Some(known) => record.with_uncertainty(&design, known, &row.value),
@@ -61,7 +66,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             let message = format!("pose {}: the drives have no lengths: {why}", row.line);
             Failure::refused("ik::no_drive_length", message)
         })?;
-        let distances = distances(&design, row)?.get();
         Ok(record.with_drives(&design, &terms, &row.value, (&distances, &states)))
     };
     let mut records = series.rows.iter().map(record).collect::<Result<Vec<_>, _>>()?;
@@ -85,19 +89,6 @@ fn named(texts: &[String], design: &Design) -> Result<TimeSeries<Pose>, Failure>
         time_name: None,
         rows: all.into_iter().enumerate().map(row).collect(),
         guesses: Vec::new(),
-    })
-}
-
-fn record(
-    design: &Design,
-    terms: &Terms<'_>,
-    row: &SeriesRow<Pose>,
-    from_table: bool,
-) -> Result<IkRecord, Failure> {
-    Ok(IkRecord {
-        line: from_table.then_some(row.line),
-        time: row.time,
-        ..IkRecord::new(design, terms, &row.value, distances(design, row)?.get())
     })
 }
 

@@ -1,0 +1,153 @@
+//! Bodies of a design that move: the platform with its payload, its plate, and the legs; what is assumed of them, and the loads that follow.
+
+use nalgebra::{Matrix3, Point3, Vector3};
+
+use super::Design;
+use super::scale::micrometres;
+use crate::machine::requirements::{
+    ForceUnit, GRAVITY, Load, MassUnit, MovingBodies, Payload, PlateBody, PlateMass, VibratingMasses,
+};
+use crate::platform::manipulator::Body;
+
+impl Design {
+    /// What vibrates: the payload with the legs, whose unit of length is one that is known; `None` where one of them is not said.
+    ///
+    /// Without names of units forces are newtons and masses kilograms.
+    #[must_use]
+    pub fn vibrating(&self) -> Option<VibratingMasses> {
+        let metres = micrometres(&self.units)? as f64 * 1e-6;
+        let newtons = self.force_units.unwrap_or(ForceUnit::Newton).newtons();
+        let bodies = self.moving_bodies(metres)?;
+        Some(VibratingMasses { bodies, leg: self.hardware.leg_stiffness? * newtons / metres })
+    }
+
+    /// [What moves with the platform](Self::moving_payload) and the legs, where one design unit is so many metres: the masses of `motion`, of natural frequencies and of simulators.
+    /// `None` where nothing is known to move with the platform. [`mass_assumptions`](Self::mass_assumptions) says what is assumed.
+    #[must_use]
+    pub fn moving_bodies(&self, metres: f64) -> Option<MovingBodies> {
+        Some(self.bodies_with(&self.moving_payload()?, metres))
+    }
+
+    /// The bodies of a file that does not say what moves: a platform of so many kilograms with its centre in the middle of its joints and
+    /// [the inertia of a ball](Self::moving_payload), and the legs as the file has them.
+    pub(crate) fn assumed_bodies(&self, kilograms: f64, metres: f64) -> MovingBodies {
+        let mass = kilograms / self.mass_unit().kilograms();
+        self.bodies_with(&self.unshaped(mass, self.platform_middle(), self.ball(mass)), metres)
+    }
+
+    /// The legs with what moves with the platform.
+    fn bodies_with(&self, payload: &Payload, metres: f64) -> MovingBodies {
+        MovingBodies::new(payload, self.hardware.leg_masses.as_ref(), self.mass_unit(), metres)
+    }
+
+    /// The unit of all masses: kilograms where the file names none.
+    fn mass_unit(&self) -> MassUnit {
+        self.mass_units.unwrap_or(MassUnit::Kilogram)
+    }
+
+    /// A body without a room of its own.
+    fn unshaped(&self, mass: f64, center: Point3<f64>, inertia: Matrix3<f64>) -> Payload {
+        let (inertia, gravity, plate) = (Some(inertia), self.gravity(), PlateMass::Included);
+        Payload { mass, center, inertia, gravity, plate, shape: None }
+    }
+
+    /// Gravity, base frame, m/s^2: that of the payload, else standard gravity along the third axis downwards.
+    pub(crate) fn gravity(&self) -> Vector3<f64> {
+        self.payload.map_or_else(|| Vector3::new(0.0, 0.0, -GRAVITY), |payload| payload.gravity)
+    }
+
+    /// Inertia of a ball whose radius of gyration is the root mean square distance of the platform joints from their middle.
+    fn ball(&self, mass: f64) -> Matrix3<f64> {
+        let joints = self.manipulator.platform_joints();
+        let middle = self.platform_middle();
+        let squares: f64 = joints.iter().map(|b| (b - middle).norm_squared()).sum();
+        Matrix3::identity() * (mass * squares / joints.len() as f64)
+    }
+
+    fn platform_middle(&self) -> Point3<f64> {
+        let joints = self.manipulator.platform_joints();
+        Point3::from(joints.iter().map(|b| b.coords).sum::<Vector3<f64>>() / joints.len() as f64)
+    }
+
+    /// Lists what is assumed of masses and their units where the file is silent, a sentence each.
+    #[must_use]
+    pub fn mass_assumptions(&self) -> Vec<String> {
+        if self.moving_payload().is_none() {
+            return vec!["The design has no [payload]: forces and powers are not computed.".to_owned()];
+        }
+        let mut out = Vec::new();
+        if self.payload.is_some_and(|payload| payload.inertia.is_none()) {
+            out.push("The payload has no inertia: that of a ball is taken whose radius of gyration is the root mean square distance of the platform joints from their middle.".to_owned());
+        }
+        if self.has_cranks() {
+            out.push("Cranks and rods are taken as massless.".into());
+        } else if self.hardware.leg_masses.is_none() {
+            out.push("The legs have no masses in [hardware]: they are taken as massless.".into());
+        }
+        if self.mass_units.is_none() {
+            out.push("The design names no unit of mass: masses are taken in kilograms.".into());
+        }
+        if self.force_units.is_none() {
+            out.push("The design names no unit of force: forces are taken in newtons.".into());
+        }
+        out
+    }
+
+    /// The plate of a body as a rigid body; `None` where its density or the unit of length is not known.
+    pub(crate) fn rigid_plate(&self, body: Body) -> Option<PlateBody> {
+        let metres = micrometres(&self.units)? as f64 * 1e-6;
+        self.plate(body)?.rigid(self.plates.of(body)?, metres)
+    }
+
+    /// Mass of the plate of a body without its holes, kilograms; `None` where its density or the unit of length is not known.
+    #[must_use]
+    pub fn plate_mass(&self, body: Body) -> Option<f64> {
+        self.rigid_plate(body).map(|plate| plate.mass)
+    }
+
+    /// What moves with the platform: the payload as the file states it, with the plate of the platform where the file says that it comes on top; the plate alone where the file has no
+    /// payload and the mass of the plate is known.
+    ///
+    /// With masses `m` and `n`, centres `c` and `d`, inertias `I` and `J`: mass `m + n`, centre `(m c + n d) / (m + n)`, inertia `I + J` and `m n / (m + n) (e . e - e e^T)` with
+    /// `e = c - d`. A payload without inertia has that of a ball whose radius of gyration is the root mean square distance of the platform joints from their middle.
+    #[must_use]
+    pub fn moving_payload(&self) -> Option<Payload> {
+        let plate = || {
+            let plate = self.rigid_plate(Body::Platform)?;
+            let unit = self.mass_unit().kilograms();
+            Some((plate.mass / unit, plate.center, plate.inertia / unit))
+        };
+        let Some(own) = self.payload else {
+            let (mass, center, inertia) = plate()?;
+            return Some(self.unshaped(mass, center, inertia));
+        };
+        let moments = own.inertia.unwrap_or_else(|| self.ball(own.mass));
+        let Some((mass, center, inertia)) = plate().filter(|_| own.plate == PlateMass::Added) else {
+            return Some(Payload { inertia: Some(moments), ..own });
+        };
+        let all = own.mass + mass;
+        let apart = own.center - center;
+        let spread = Matrix3::identity() * apart.norm_squared() - apart * apart.transpose();
+        Some(Payload {
+            mass: all,
+            center: center + apart * (own.mass / all),
+            inertia: Some(moments + inertia + spread * (own.mass * mass / all)),
+            ..own
+        })
+    }
+
+    /// The weight of [what moves with the platform](Self::moving_payload), where there is something, and the loads of the file.
+    ///
+    /// Without names of units forces are newtons and masses kilograms.
+    #[must_use]
+    pub fn all_loads(&self) -> Vec<Load> {
+        let weight = self.moving_payload().map(|p| {
+            let mut load = p.weight(self.mass_unit(), self.force_units.unwrap_or(ForceUnit::Newton));
+            if self.payload.is_none() {
+                "platform plate".clone_into(&mut load.name);
+            }
+            load
+        });
+        weight.into_iter().chain(self.loads.iter().cloned()).collect()
+    }
+}
