@@ -5,9 +5,7 @@ use std::cmp::Ordering;
 use super::judging::{ASSESS_CELLS, BRIEF_CELLS, PATIENT_CELLS, deciding};
 use super::{AssessReport, MotionMasses, MotionReport, PlatformMotion};
 use crate::files::design::{Design, DesignUnits, Drive};
-use crate::machine::requirements::{
-    ForceUnit, MarginProof, MassUnit, Requirements, least_conditioning, prove,
-};
+use crate::machine::requirements::{MarginProof, Requirements, least_conditioning, prove};
 use crate::synthesis::singularity::regular_workspace;
 
 /// A drive with what it makes of a design.
@@ -76,11 +74,7 @@ pub(crate) struct LightestDrive<'t> {
 impl Design {
     /// What a table of drives has to be read into.
     pub(crate) fn drive_units(&self) -> DesignUnits<'_> {
-        DesignUnits {
-            length: &self.units,
-            force: self.force_units.unwrap_or(ForceUnit::Newton),
-            mass: self.mass_units.unwrap_or(MassUnit::Kilogram),
-        }
+        DesignUnits { length: &self.units, force: self.force_unit(), mass: self.mass_unit() }
     }
 
     /// The design with a drive in each leg: its lengths, and what is known of its force, speed and stiffness, become those of `[hardware]`. Where both the drive and the legs of

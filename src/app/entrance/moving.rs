@@ -9,7 +9,7 @@ use crate::machine::dynamics::{
     LeastStiffness, LegExtremes, LegInstant, LegMotion, Manoeuvre, MotionState, MovingBodies, PosePath,
     Vibration, drive_forces, least_stiffness, leg_motions, mass_matrix, stiffness_matrix, vibration,
 };
-use crate::machine::requirements::{ForceUnit, Load, Margin, Term, TermKind, Terms};
+use crate::machine::requirements::{Load, Margin, Term, TermKind, Terms};
 use crate::machine::rotary::{CrankMotion, RotaryPlatform};
 use crate::platform::geom::Pose;
 use crate::platform::manipulator::{Manipulator, leg_determinant};
@@ -172,7 +172,7 @@ pub(crate) struct MotionMasses {
 impl Design {
     /// What forces are computed from: [what moves with the platform](Self::moving_payload) and the masses of the legs, where one design unit is so many metres. `None` where nothing is known to.
     pub(crate) fn motion_masses(&self, metres: f64, load: Option<Load>) -> Option<MotionMasses> {
-        let newtons = self.force_units.unwrap_or(ForceUnit::Newton).newtons();
+        let newtons = self.force_unit().newtons();
         let bodies = self.moving_bodies(metres)?;
         Some(MotionMasses { bodies, newtons, load })
     }

@@ -10,13 +10,13 @@ use crate::machine::requirements::{
 use crate::platform::manipulator::Body;
 
 impl Design {
-    /// What vibrates: the payload with the legs, whose unit of length is one that is known; `None` where one of them is not said.
+    /// The payload and the legs vibrate; `None` where the file states nothing that moves, no stiffness of legs or no known unit of length.
     ///
     /// Without names of units forces are newtons and masses kilograms.
     #[must_use]
     pub fn vibrating(&self) -> Option<VibratingMasses> {
         let metres = micrometres(&self.units)? as f64 * 1e-6;
-        let newtons = self.force_units.unwrap_or(ForceUnit::Newton).newtons();
+        let newtons = self.force_unit().newtons();
         let bodies = self.moving_bodies(metres)?;
         Some(VibratingMasses { bodies, leg: self.hardware.leg_stiffness? * newtons / metres })
     }
@@ -41,8 +41,13 @@ impl Design {
     }
 
     /// The unit of all masses: kilograms where the file names none.
-    fn mass_unit(&self) -> MassUnit {
+    pub(crate) fn mass_unit(&self) -> MassUnit {
         self.mass_units.unwrap_or(MassUnit::Kilogram)
+    }
+
+    /// The unit of all forces: newtons where the file names none.
+    pub(crate) fn force_unit(&self) -> ForceUnit {
+        self.force_units.unwrap_or(ForceUnit::Newton)
     }
 
     /// A body without a room of its own.
@@ -105,7 +110,7 @@ impl Design {
         self.rigid_plate(body).map(|plate| plate.mass)
     }
 
-    /// What moves with the platform: the payload as the file states it, with the plate of the platform where the file says that it comes on top; the plate alone where the file has no
+    /// The payload moves with the platform: as the file states it, with the plate of the platform where the file says that it comes on top; the plate alone where the file has no
     /// payload and the mass of the plate is known.
     ///
     /// With masses `m` and `n`, centres `c` and `d`, inertias `I` and `J`: mass `m + n`, centre `(m c + n d) / (m + n)`, inertia `I + J` and `m n / (m + n) (e . e - e e^T)` with
@@ -142,7 +147,7 @@ impl Design {
     #[must_use]
     pub fn all_loads(&self) -> Vec<Load> {
         let weight = self.moving_payload().map(|p| {
-            let mut load = p.weight(self.mass_unit(), self.force_units.unwrap_or(ForceUnit::Newton));
+            let mut load = p.weight(self.mass_unit(), self.force_unit());
             if self.payload.is_none() {
                 "platform plate".clone_into(&mut load.name);
             }

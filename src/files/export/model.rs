@@ -9,7 +9,7 @@ use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
 use crate::files::design::{CalibratedNumber, Design};
 use crate::machine::coupled::CoupledLegs;
-use crate::machine::requirements::{ForceUnit, Hardware, KeepOutShape, MovingBodies, plate_normal};
+use crate::machine::requirements::{Hardware, KeepOutShape, MovingBodies, plate_normal};
 use crate::machine::rotary::RotaryPlatform;
 use crate::platform::geom::Pose;
 use crate::platform::manipulator::{Body, Manipulator};
@@ -276,7 +276,7 @@ impl Export {
         };
         let base = joints(design.base_names(), m.base_joints());
         let platform = joints(design.platform_names(), m.platform_joints());
-        let newtons = design.force_units.unwrap_or(ForceUnit::Newton).newtons();
+        let newtons = design.force_unit().newtons();
         let cranks = ExportCranks::of(design, &home, newtons * unit.metres)?;
         let coupled = hardware.is_coupled().then(|| CoupledLegs::new(m, hardware, &home)).transpose();
         let coupled = coupled.map_err(|why| NoExport::Joints(format!("at home {why}")))?;

@@ -441,8 +441,8 @@ fn status(fit: &Fit, spectrum: &Spectrum, chi: &ChiSquare, unknowns: usize) -> C
     }
 }
 
-/// Measurements that are farther than all right ones together are with a probability of 99 %. Where more than half of the poses are, or of the lengths where these are doubted, none
-/// is an outlier: the noise or the model is wrong.
+/// An outlier is farther off than all right measurements together are with a probability of 99 %. None is called so where it would be more than half of the poses, or of the lengths
+/// where single lengths are doubted: the noise or the model is wrong then.
 fn outliers(problem: &FitProblem<'_>, fit: &Fit) -> Vec<Outlier> {
     if fit.source == NoiseSource::Assumed {
         return Vec::new();

@@ -21,7 +21,6 @@ use crate::files::export::LengthUnit;
 use crate::files::plot::thumbnail;
 use crate::machine::dynamics::Manoeuvre;
 use crate::machine::manufacture::ErrorBound;
-use crate::machine::requirements::ForceUnit;
 use crate::platform::geom::Pose;
 use crate::platform::manipulator::Manipulator;
 
@@ -119,7 +118,7 @@ fn asked(args: &Args, context: &Context) -> Result<Asked, Failure> {
 }
 
 fn force_unit(design: &Design) -> &'static str {
-    design.force_units.unwrap_or(ForceUnit::Newton).label()
+    design.force_unit().label()
 }
 
 /// The figures and pictures of all designs.

@@ -7,7 +7,7 @@ use crate::files::design::tree::{Entry, find};
 use crate::files::design::violation::Findings;
 use crate::files::design::{Code, Design};
 use crate::machine::requirements::{
-    BoltPattern, BoltsFrom, Hardware, MATERIALS, MassUnit, PlateDesign, PlateMass, Plates,
+    BoltPattern, BoltsFrom, Hardware, MATERIALS, PlateDesign, PlateMass, Plates,
 };
 use crate::platform::manipulator::Body;
 
@@ -183,7 +183,7 @@ fn bolts(report: &mut Findings<'_>, entry: &Entry) -> Option<BoltPattern> {
 pub(super) fn check_masses(report: &mut Findings<'_>, top: &[Entry], design: &Design) {
     let (Some(payload), Some(entry)) = (design.payload, find(top, "payload")) else { return };
     let plate = design.plate_mass(Body::Platform);
-    let unit = design.mass_units.unwrap_or(MassUnit::Kilogram);
+    let unit = design.mass_unit();
     match (payload.plate, plate) {
         (PlateMass::Included, Some(plate)) if plate > payload.mass * unit.kilograms() => {
             let message = format!(

@@ -158,7 +158,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 }
 
 fn force_unit(design: &Design) -> ForceUnit {
-    design.force_units.unwrap_or(ForceUnit::Newton)
+    design.force_unit()
 }
 
 fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Result<(), Failure> {
