@@ -32,7 +32,7 @@
 //!
 //! # An equivalent platform without shared joints
 //!
-//! [`Design::equivalents`] has all platforms of the class, [`Design::optimize`] the best one under the requirements of the design. [`verify`] compares any two
+//! [`Design::equivalents`] has all platforms of the class, [`Design::optimize`] the best one under the requirements of the design. [`verify()`] compares any two
 //! designs: by the leg map, and by forward kinematics that knows nothing of it.
 //!
 //! ```
@@ -115,16 +115,6 @@
 mod app;
 #[cfg(feature = "files")]
 mod files;
-mod fk;
-mod machine;
-mod num;
-#[cfg(feature = "optimize")]
-mod optimize;
-mod platform;
-#[cfg(feature = "synthesis")]
-mod synthesis;
-#[cfg(feature = "synthesis")]
-mod verify;
 
 #[cfg(feature = "cli")]
 pub use app::cli;
@@ -139,30 +129,30 @@ pub use prelude::*;
 /// Everything on the front page, for `use equipod::prelude::*`.
 pub mod prelude {
     #[doc(inline)]
-    pub use crate::app::entrance::{Batch, Error, Solver, Tracker};
+    pub use crate::app::entrance::{Batch, Error, Kinematics, Solver, Tracker};
     #[doc(inline)]
-    pub use crate::fk::{
+    pub use ::fk::{
         Completeness, FkOptions, FkRoot, FkSolutions, Method, NearOutcome, PoseCounting, Reality,
         SolutionSet, Threads,
     };
     #[doc(inline)]
-    pub use crate::num::Cancel;
+    pub use ::num::Cancel;
     #[doc(inline)]
-    pub use crate::platform::geom::{Angles, ComplexPose, Pose};
+    pub use ::platform::geom::{Angles, ComplexPose, Pose};
     #[doc(inline)]
-    pub use crate::platform::manipulator::{
+    pub use ::platform::manipulator::{
         Body, Leg, LegIndex, LegLengths, Manipulator, Octahedral, SquaredLegLengths,
     };
     #[cfg(feature = "synthesis")]
     #[doc(inline)]
-    pub use crate::synthesis::{AffineLegMap, Family, LegMapOutcome, Pattern, Relation};
+    pub use ::synthesis::{AffineLegMap, Family, LegMapOutcome, Pattern, Relation};
 
-    #[cfg(all(feature = "files", feature = "synthesis"))]
+    #[cfg(feature = "files")]
     #[doc(inline)]
     pub use crate::app::entrance::{
         AssessReport, CheckReport, SingularHome, VerifyOptions, leg_map, verify, verify_with,
     };
-    #[cfg(all(feature = "files", feature = "synthesis"))]
+    #[cfg(feature = "files")]
     #[doc(inline)]
     pub use crate::app::equivalents::Equivalents;
     #[cfg(feature = "files")]
@@ -173,10 +163,10 @@ pub mod prelude {
     pub use crate::files::export::{ExportFormat, ExportOptions, ExportedFile, LengthUnit};
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use crate::machine::requirements::AssessOptions;
-    #[cfg(all(feature = "files", feature = "synthesis"))]
+    pub use ::machine::requirements::AssessOptions;
+    #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use crate::verify::{Sample, Verdict, Verification};
+    pub use ::verify::{Sample, Verdict, Verification};
 
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[doc(inline)]
@@ -198,7 +188,7 @@ pub mod methods {
     /// Joint centres and leg offsets of a machine from measured poses and lengths.
     #[cfg(feature = "synthesis")]
     pub mod calibration {
-        pub use crate::machine::calibration::*;
+        pub use ::machine::calibration::*;
     }
     /// Design files: text in, values out, and back to text.
     #[cfg(feature = "files")]
@@ -208,26 +198,26 @@ pub mod methods {
     /// The best platform that meets its requirements: offsets, triangles, height, joint axes.
     #[cfg(feature = "optimize")]
     pub mod dimensional {
-        pub use crate::optimize::dimensional::*;
+        pub use ::optimize::dimensional::*;
     }
     /// Machines whose joints are not ideal: universal joints whose axes do not meet, screws that couple the turn of a leg to its length.
-    #[cfg(any(feature = "files", feature = "synthesis"))]
+    #[cfg(feature = "synthesis")]
     pub mod coupled {
-        pub use crate::machine::coupled::*;
+        pub use ::machine::coupled::*;
     }
     /// Poses from distances alone: Cayley-Menger determinants, trilateration, closure conditions.
     pub mod distance {
-        pub use crate::fk::distance::*;
+        pub use ::fk::distance::*;
     }
     /// How the legs move and what their drives push when the platform moves: inverse dynamics, stiffness, natural frequencies.
-    #[cfg(any(feature = "files", feature = "synthesis"))]
+    #[cfg(feature = "synthesis")]
     pub mod dynamics {
-        pub use crate::machine::dynamics::*;
+        pub use ::machine::dynamics::*;
     }
     /// Whether two platforms are equivalent: the leg map and forward kinematics, compared.
     #[cfg(feature = "synthesis")]
     pub mod equivalence {
-        pub use crate::verify::*;
+        pub use ::verify::*;
     }
     /// Files for other programs: a design in, texts out.
     #[cfg(feature = "files")]
@@ -236,29 +226,29 @@ pub mod methods {
     }
     /// Forward kinematics: all finite complex poses for given leg lengths, by every method.
     pub mod fk {
-        pub use crate::fk::*;
+        pub use ::fk::*;
     }
     /// Poses, quaternions, distances.
     pub mod geom {
-        pub use crate::platform::geom::*;
+        pub use ::platform::geom::*;
     }
     /// Joints, legs, lengths, inverse kinematics, Jacobian.
     pub mod manipulator {
-        pub use crate::platform::manipulator::*;
+        pub use ::platform::manipulator::*;
     }
     /// Tolerances of the joints, the correction a controller runs, joints on a grid of holes.
     #[cfg(feature = "synthesis")]
     pub mod manufacture {
-        pub use crate::machine::manufacture::*;
+        pub use ::machine::manufacture::*;
     }
     /// Seeded random numbers, double-double, interval and exact arithmetic, dense linear algebra, conic programs.
     pub mod num {
-        pub use crate::num::*;
+        pub use ::num::*;
     }
     /// The best platform without shared joints in the class of an octahedral one.
     #[cfg(feature = "optimize")]
     pub mod offsets {
-        pub use crate::optimize::offsets::*;
+        pub use ::optimize::offsets::*;
     }
     /// One HTML page of a design, and the answers it gets from the core.
     #[cfg(feature = "page")]
@@ -272,12 +262,12 @@ pub mod methods {
     }
     /// Polynomials in one unknown.
     pub mod poly {
-        pub use crate::num::poly::*;
+        pub use ::num::poly::*;
     }
     /// How far the platform may move from a pose before a requirement binds, and the allowed pose nearest to one asked for.
-    #[cfg(any(feature = "files", feature = "synthesis"))]
+    #[cfg(feature = "synthesis")]
     pub mod reach {
-        pub use crate::machine::reach::*;
+        pub use ::machine::reach::*;
     }
     /// A folder of results as one HTML page: files in, HTML text out.
     #[cfg(feature = "page")]
@@ -285,31 +275,32 @@ pub mod methods {
         pub use crate::app::report::*;
     }
     /// What a platform has to satisfy, evaluated from the definitions.
-    #[cfg(any(feature = "files", feature = "synthesis"))]
+    #[cfg(feature = "synthesis")]
     pub mod requirements {
-        pub use crate::machine::requirements::*;
+        pub use ::machine::requirements::*;
     }
     /// Platforms on rods of constant length whose cranks turn: angles of poses, poses of angles, speeds, torques.
+    #[cfg(feature = "synthesis")]
     pub mod rotary {
-        pub use crate::machine::rotary::*;
+        pub use ::machine::rotary::*;
     }
     /// Designs that no pose can hold, singular poses, self-motions.
     #[cfg(feature = "synthesis")]
     pub mod singularity {
-        pub use crate::synthesis::singularity::*;
+        pub use ::synthesis::singularity::*;
     }
     /// The leg equations over the complex numbers, and certificates of their roots.
     pub mod solve {
-        pub use crate::fk::solve::*;
+        pub use ::fk::solve::*;
     }
     /// Leg maps, and the class of equivalent platforms.
     #[cfg(feature = "synthesis")]
     pub mod synthesis {
-        pub use crate::synthesis::*;
+        pub use ::synthesis::*;
     }
     /// Which legs share which joints, and the catalogue of all ways to share them.
     pub mod topology {
-        pub use crate::platform::topology::*;
+        pub use ::platform::topology::*;
     }
 }
 

@@ -3,9 +3,9 @@
 use std::sync::OnceLock;
 
 use crate::files::design::{Design, Origin};
-use crate::platform::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
-use crate::synthesis::singularity::GriffisDuffy;
-use crate::synthesis::{
+use platform::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
+use synthesis::singularity::GriffisDuffy;
+use synthesis::{
     AffineLegMap, Family, HexagonPoint, InstantiateError, JointLabel, LegEnd, LegMapOutcome,
     LegMapTolerances, NearestOctahedral, NearestOptions, Offset, Pattern, Relation, corner, edge, leg_map,
     nearest_octahedral,

@@ -15,7 +15,7 @@ mod capi;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub(crate) mod entrance;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub(crate) mod equivalents;
 #[cfg(feature = "page")]
 pub(crate) mod page;

@@ -4,7 +4,7 @@
 //!
 //! * [`Design`](design::Design): what a design file holds once it is valid.
 //! * [`Export`](export::Export): a design with all sizes that a file for other programs needs.
-//! * [`Plot`](plot::Plot): a picture, written as SVG.
+//! * [`ModesFigure`](plot::ModesFigure): what a picture shows, as every kind of picture has it; a function writes it as SVG.
 //!
 //! A text is read into a table with places, checked key by key, and becomes a design; a design becomes an export, and each format writes its texts from that.
 

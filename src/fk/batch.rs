@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// How many threads a batch may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -46,6 +46,7 @@ pub type BatchResult = Result<FkSolutions, FkError>;
 /// Solves one design, [prepared](ForwardKinematics::prepare) where there are several leg lengths; result `i` belongs to `lengths[i]`. A problem that fails leaves the others as they are.
 ///
 /// ```
+/// # mod equipod { pub use equipod_fk::*; pub mod methods { pub use equipod_fk as fk; pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
 /// use equipod::methods::fk::{Automatic, FkOptions, Threads, solve_batch};
 /// use equipod::methods::manipulator::{LegLengths, Manipulator};
 /// use nalgebra::Point3;
@@ -90,7 +91,7 @@ pub fn solve_problems(
 }
 
 /// `job(0), .., job(count - 1)`, in this order whatever the threads.
-pub(crate) fn in_order<T: Send>(count: usize, threads: Threads, job: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+pub fn in_order<T: Send>(count: usize, threads: Threads, job: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
     let workers = threads.count(count);
     if workers == 1 {
         return (0..count).map(job).collect();
@@ -122,11 +123,11 @@ pub(crate) fn in_order<T: Send>(count: usize, threads: Threads, job: &(dyn Fn(us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::{Automatic, Homotopy, Method, NearSolver, Octic, OcticSolver, Sylvester, Template};
-    use crate::num::Rng;
-    use crate::platform::geom::{Pose, random_rotation};
-    use crate::platform::manipulator::Leg;
+    use crate::{Automatic, Homotopy, Method, NearSolver, Octic, OcticSolver, Sylvester, Template};
     use nalgebra::{Point3, Vector3};
+    use num::Rng;
+    use platform::geom::{Pose, random_rotation};
+    use platform::manipulator::Leg;
 
     fn threads(n: usize) -> Threads {
         Threads::Count(NonZeroUsize::new(n).unwrap())
@@ -156,11 +157,11 @@ mod tests {
         shared::<Template>();
         shared::<OcticSolver>();
         shared::<NearSolver>();
-        shared::<crate::fk::solve::certify::Certifier>();
-        shared::<crate::fk::solve::certify::octahedral::OctahedralCertifier>();
+        shared::<crate::solve::certify::Certifier>();
+        shared::<crate::solve::certify::octahedral::OctahedralCertifier>();
         shared::<FkSolutions>();
         shared::<Box<dyn ForwardKinematics>>();
-        shared::<Box<dyn crate::fk::PreparedDesign>>();
+        shared::<Box<dyn crate::PreparedDesign>>();
     }
 
     #[test]

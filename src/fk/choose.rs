@@ -9,7 +9,7 @@ use super::{
 };
 #[cfg(feature = "lab")]
 use super::{Sylvester, Template};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// The solver for a method by name, or for `None` the automatic choice.
 #[must_use]

@@ -3,10 +3,10 @@
 use thiserror::Error;
 
 use super::{Completeness, FkSolutions, SolutionSet};
-use crate::fk::distance::{
+use crate::distance::{
     ClosureDegrees, ClosureError, ClosurePolynomial, NoPlan, closure_degrees, closure_polynomial, plans,
 };
-use crate::platform::manipulator::{JointKnowledge, Manipulator, SquaredLegLengths};
+use platform::manipulator::{JointKnowledge, Manipulator, SquaredLegLengths};
 
 /// Sequences tried until one tells the number of real poses.
 const ATTEMPTS: usize = 4;
@@ -81,14 +81,14 @@ pub fn closure(m: &Manipulator, s: &SquaredLegLengths, found: &FkSolutions) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::{FkOptions, ForwardKinematics, Homotopy, Reality};
-    use crate::num::Rng;
-    use crate::num::poly::complex_roots;
-    use crate::platform::geom::Pose;
-    use crate::platform::geom::random_rotation;
-    use crate::platform::manipulator::Leg;
-    use crate::platform::topology::catalogue;
+    use crate::{FkOptions, ForwardKinematics, Homotopy, Reality};
     use nalgebra::{Point3, Vector3};
+    use num::Rng;
+    use num::poly::complex_roots;
+    use platform::geom::Pose;
+    use platform::geom::random_rotation;
+    use platform::manipulator::Leg;
+    use platform::topology::catalogue;
 
     /// The number of real poses by the polynomial is that of the certificates, which know nothing of each other.
     #[test]

@@ -3,11 +3,11 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 use num_complex::Complex64;
 
-use crate::fk::distance::{closure_polynomial, plans};
-use crate::num::poly::complex_roots;
-use crate::platform::geom::{ComplexPose, trilaterate};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
-use crate::platform::topology::{JointIndex, Sequence};
+use crate::distance::{closure_polynomial, plans};
+use num::poly::complex_roots;
+use platform::geom::{ComplexPose, trilaterate};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::topology::{JointIndex, Sequence};
 
 /// Bits to which roots are enclosed before they are rounded.
 const BITS: u64 = 60;
@@ -89,8 +89,8 @@ fn pose(m: &Manipulator, placed: &[(JointIndex, Vector3<Complex64>)]) -> Option<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::{FkOptions, ForwardKinematics, Homotopy};
-    use crate::platform::topology::catalogue;
+    use crate::{FkOptions, ForwardKinematics, Homotopy};
+    use platform::topology::catalogue;
 
     #[test]
     fn candidates_from_exact_roots_are_the_poses() {

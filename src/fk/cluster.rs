@@ -4,9 +4,9 @@ use num_complex::Complex64;
 
 use super::collect::PoseCandidate;
 use super::newton::beside;
-use crate::fk::solve::certify::{Certificate, Certifier, RootRelation, relation};
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::certify::{Certificate, Certifier, RootRelation, relation};
+use platform::geom::ComplexPose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Ends as singular as this may belong to a cluster.
 const SINGULAR: f64 = 1e4;

@@ -8,8 +8,8 @@ use num_complex::Complex64;
 
 use super::newton::refine_to;
 use super::{FkRoot, FkTolerances, Reality, Rejected, RejectionReason};
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::geom::ComplexPose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// A pose some method believes to be a solution.
 #[derive(Debug, Clone, Copy)]

@@ -19,7 +19,7 @@
 
 use std::fmt;
 
-use crate::fk::solve::pose_count::CountedLengths;
+use crate::solve::pose_count::CountedLengths;
 
 /// Whether the set of roots is known to be all of them.
 #[derive(Debug, Clone, PartialEq)]

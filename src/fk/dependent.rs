@@ -8,12 +8,12 @@ use super::{
     Completeness, FkError, FkOptions, FkRoot, FkSolutions, Method, Reality, Reason, Rejected,
     RejectionReason, SolutionSet, Theorem,
 };
-use crate::fk::solve::ScaledFrames;
-use crate::fk::solve::homotopy::{EndKind, HomotopyPath, StartKind, solve_sections};
-use crate::fk::solve::pose_count::{CountedLengths, PoseSet};
-use crate::num::Purpose;
-use crate::platform::geom::{ComplexPose, Pose};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::ScaledFrames;
+use crate::solve::homotopy::{EndKind, HomotopyPath, StartKind, solve_sections};
+use crate::solve::pose_count::{CountedLengths, PoseSet};
+use num::Purpose;
+use platform::geom::{ComplexPose, Pose};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Leg equations count as dependent below this sine when curves are looked for.
 const RANK: f64 = 1e-9;

@@ -6,8 +6,8 @@ use super::{
     Completeness, FkError, FkOptions, FkSolutions, Method, Reason, Rejected, RejectionReason, SolutionSet,
     Theorem,
 };
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::geom::ComplexPose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Candidates so far; `None` where an eigenvector or root gives no finite pose.
 #[derive(Debug, Clone, Default)]
@@ -79,11 +79,11 @@ impl Candidates {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::FkTolerances;
-    use crate::num::Rng;
-    use crate::platform::geom::Pose;
-    use crate::platform::manipulator::Leg;
+    use crate::FkTolerances;
     use nalgebra::{Point3, Rotation3, Vector3};
+    use num::Rng;
+    use platform::geom::Pose;
+    use platform::manipulator::Leg;
 
     /// Certification finds that candidates repeat a root; the counts of the elimination are told beside that, not in its place.
     #[test]

@@ -6,12 +6,12 @@ use super::bounds::{class_bound, special_bound};
 use super::{
     Completeness, FkError, FkRoot, FkSolutions, Reality, Reason, Rejected, RejectionReason, Theorem,
 };
-use crate::fk::solve::certify::{
+use crate::solve::certify::{
     Certificate, CertifiedPose, Certifier, ClusterCertificate, Distinctness, NewtonStart, PoseEnclosure,
     ProvedCluster, ProvedReality, RootCertificate, RootRelation, distinct, is_of, relation,
 };
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::geom::ComplexPose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Candidates closer than this, in design sizes and rotation entries, may be of one cluster.
 const NEARBY: f64 = 1e-3;

@@ -7,12 +7,12 @@ use super::collect::{Collected, PoseCandidate, SortKey, Sourced, collect_with, s
 use super::evidence::{KnownCertificates, proved};
 use super::homotopy::pose_of;
 use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
-use crate::fk::solve::certify::{
+use crate::solve::certify::{
     CertifiedPose, Certifier, MIRROR, NewtonStart, ProvedReality, RootRelation, overlapping_pairs, relation,
 };
-use crate::num::octuple::ComplexOctuple;
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use num::octuple::ComplexOctuple;
+use platform::geom::ComplexPose;
+use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 
 /// Regular ends with a larger condition number may belong to a cluster.
 const NEARLY_SINGULAR: f64 = 1e4;
@@ -383,10 +383,10 @@ fn drop_repeated(proofs: &mut Vec<CertifiedRoot>, overlapping: &[(usize, usize)]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::{FkOptions, ForwardKinematics, Homotopy};
-    use crate::num::Rng;
-    use crate::platform::geom::Pose;
+    use crate::{FkOptions, ForwardKinematics, Homotopy};
     use nalgebra::{Point3, Rotation3, Vector3};
+    use num::Rng;
+    use platform::geom::Pose;
 
     /// Certificates taken over from mirror images and conjugates are those that their own poses get.
     #[test]

@@ -4,8 +4,8 @@ use super::bounds::class_bound;
 use super::harvest::End;
 use super::trilateration::{ends_at, judged};
 use super::{FkError, FkOptions, FkSolutions, Theorem, Tried};
-use crate::fk::distance::HiddenLengths;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use crate::distance::HiddenLengths;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Ways tried while the poses are not proved to be all, by number of virtual legs: with three each takes as long as a hundred with two.
 const WAYS: [(usize, usize); 2] = [(2, 6), (3, 6)];

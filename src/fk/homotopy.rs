@@ -12,15 +12,13 @@ use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
     PathsEnded, PoseCounting, PreparedDesign, Reason, SolutionSet, Theorem,
 };
-use crate::fk::solve::homotopy::{
+use crate::solve::homotopy::{
     EndKind, GENERIC_COUNT, HomotopyPath, StartError, StartKind, TailEnd, follow_finely, solve_sections,
 };
-use crate::fk::solve::pose_count::PoseCount;
-use crate::fk::solve::{
-    LegDependence, ScaledFrames, Sections, dependence, mirror, quaternion_product, split,
-};
-use crate::platform::geom::{ComplexPose, rotation_from_quaternion};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::pose_count::PoseCount;
+use crate::solve::{LegDependence, ScaledFrames, Sections, dependence, mirror, quaternion_product, split};
+use platform::geom::{ComplexPose, rotation_from_quaternion};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 use prepared::PreparedHomotopy;
 
 /// Times the whole problem is tracked again with another gamma when paths fail.

@@ -6,13 +6,11 @@
 
 use super::evidence::{all_distinct, cluster_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
-use crate::fk::solve::certify::{
-    Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs,
-};
-use crate::fk::solve::pose_count::{
+use crate::solve::certify::{Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs};
+use crate::solve::pose_count::{
     CountOptions, CountedLengths, PoseCount, PoseSet, count_generic_poses, count_poses, exact_squares,
 };
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// What the number says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,10 +148,10 @@ pub(super) fn compared_with_count(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::{ForwardKinematics, Homotopy, SolutionSet};
-    use crate::num::double_double::DoubleDouble;
-    use crate::platform::manipulator::LegLengths;
+    use crate::{ForwardKinematics, Homotopy, SolutionSet};
     use nalgebra::Point3;
+    use num::double_double::DoubleDouble;
+    use platform::manipulator::LegLengths;
 
     /// Sixteen certified poses of lengths known within radii, of which nothing is known yet.
     fn sixteen() -> (Manipulator, SquaredLegLengths, FkSolutions) {

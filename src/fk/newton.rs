@@ -3,9 +3,9 @@
 use nalgebra::{SMatrix, SVector, Vector3};
 use num_complex::Complex64;
 
-use crate::num::small::{bounded_svd, singular_values};
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use num::small::{bounded_svd, singular_values};
+use platform::geom::ComplexPose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Singular values below this fraction of the largest count as zero on a curve of poses.
 const RANK: f64 = 1e-6;

@@ -5,10 +5,10 @@
 
 use nalgebra::{Matrix6, Rotation3, SVector, Vector3, Vector6};
 
-use crate::num::small::bounded_svd;
-use crate::num::{Purpose, Rng};
-use crate::platform::geom::{Pose, nearest_rotation, random_rotation, turn_between};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use num::small::bounded_svd;
+use num::{Purpose, Rng};
+use platform::geom::{Pose, nearest_rotation, random_rotation, turn_between};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Random poses from which zeros are looked for.
 const STARTS: u64 = 24;
@@ -153,10 +153,10 @@ impl Equations<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::{Leg, LegLengths};
     use nalgebra::Point3;
+    use platform::manipulator::{Leg, LegLengths};
 
-    use crate::platform::geom::rotation_vector;
+    use platform::geom::rotation_vector;
 
     fn bodies(seed: u64) -> [[Point3<f64>; 6]; 2] {
         let mut rng = Rng::new(seed);

@@ -3,16 +3,16 @@
 use num_complex::Complex64;
 
 use super::Completeness;
-use crate::fk::solve::certify::RootCertificate;
-use crate::fk::solve::pose_count::{CountedLengths, PoseCount};
-use crate::num::names::{UnknownName, named};
-use crate::platform::geom::{ComplexPose, Pose};
+use crate::solve::certify::RootCertificate;
+use crate::solve::pose_count::{CountedLengths, PoseCount};
+use num::names::{UnknownName, named};
+use platform::geom::{ComplexPose, Pose};
 
 /// A forward-kinematics method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -147,7 +147,6 @@ impl SolutionSet {
 
 /// One root with its evidence.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub struct FkRoot {
     /// The pose.
     pub pose: ComplexPose,
@@ -184,7 +183,7 @@ impl FkRoot {
 /// Where a homotopy path ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -194,7 +193,7 @@ pub enum PathEnd {
     /// `e -> 0`: the position grows without bound.
     AtInfinity,
     /// `e.e -> 0` with `e != 0`: no rotation.
-    #[cfg_attr(feature = "files", serde(rename = "isotropic"))]
+    #[cfg_attr(feature = "serde", serde(rename = "isotropic"))]
     IsotropicRotation,
     /// Not tracked to an end; roots may be missing.
     Failed,
@@ -241,7 +240,7 @@ pub struct PathReport {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -267,7 +266,6 @@ pub struct Rejected {
 
 /// All roots of one problem.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub struct FkSolutions {
     /// The method that found them.
     pub method: Method,

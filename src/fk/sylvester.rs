@@ -3,10 +3,10 @@
 use super::elimination::Candidates;
 use super::judge::compared_with_count;
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
-use crate::fk::solve::generic_frame::GenericProblem;
-use crate::fk::solve::sylvester::Eliminant;
-use crate::num::Purpose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::generic_frame::GenericProblem;
+use crate::solve::sylvester::Eliminant;
+use num::Purpose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Times the elimination is made anew, in other frames, while fewer than 40 poses are proved.
 const ATTEMPTS: u64 = 2;

@@ -3,10 +3,10 @@
 use super::elimination::Candidates;
 use super::judge::compared_with_count;
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
-use crate::fk::solve::generic_frame::GenericProblem;
-use crate::fk::solve::template::TemplateLayout;
-use crate::num::Purpose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::generic_frame::GenericProblem;
+use crate::solve::template::TemplateLayout;
+use num::Purpose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Times the elimination is made anew, in other frames, while fewer than 40 poses are proved.
 const ATTEMPTS: u64 = 3;
@@ -69,9 +69,9 @@ fn solve_with(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::manipulator::Leg;
     use nalgebra::{Point3, Vector3};
+    use num::Rng;
+    use platform::manipulator::Leg;
 
     #[test]
     #[ignore = "evidence"]

@@ -14,11 +14,11 @@ use super::{
     Completeness, FkError, FkOptions, FkRoot, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
     Rejected, RejectionReason, SolutionSet, Theorem, Tried, hidden,
 };
-use crate::fk::distance::{Evaluator, GenericDegrees, NoPlan, fit};
-use crate::fk::solve::certify::dual_quaternion;
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
-use crate::platform::topology::{JointIndex, Nesting, Sequence, sequences};
+use crate::distance::{Evaluator, GenericDegrees, NoPlan, fit};
+use crate::solve::certify::dual_quaternion;
+use platform::geom::ComplexPose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::topology::{JointIndex, Nesting, Sequence, sequences};
 
 /// Sequences kept for the legs of a design.
 const KEPT: usize = 6;

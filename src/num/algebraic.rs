@@ -13,7 +13,7 @@ use super::surd::Surd;
 
 /// A number of the field of square roots of a design.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Algebraic {
+pub enum Algebraic {
     /// A fraction.
     Rational(Rational),
     /// A sum of square roots that is no fraction.
@@ -22,7 +22,7 @@ pub(crate) enum Algebraic {
 
 impl Algebraic {
     /// The numbers, in their order; `None` when they have too many independent square roots.
-    pub(crate) fn all(numbers: &[&Surd]) -> Option<Vec<Self>> {
+    pub fn all(numbers: &[&Surd]) -> Option<Vec<Self>> {
         degree_of(numbers.iter().copied())?;
         Some(numbers.iter().map(|x| Self::of((*x).clone())).collect())
     }
@@ -32,17 +32,17 @@ impl Algebraic {
     }
 
     /// A small integer.
-    pub(crate) fn integer(x: i64) -> Self {
+    pub fn integer(x: i64) -> Self {
         Self::Rational(Rational::from_integer(x.into()))
     }
 
     /// Whether it is zero.
-    pub(crate) fn is_zero(&self) -> bool {
+    pub fn is_zero(&self) -> bool {
         matches!(self, Self::Rational(x) if x.is_zero())
     }
 
     /// The number when it is a fraction.
-    pub(crate) fn as_rational(&self) -> Option<&Rational> {
+    pub fn as_rational(&self) -> Option<&Rational> {
         match self {
             Self::Rational(x) => Some(x),
             Self::Irrational(_) => None,
@@ -50,7 +50,7 @@ impl Algebraic {
     }
 
     /// The number as a sum of square roots.
-    pub(crate) fn surd(&self) -> Surd {
+    pub fn surd(&self) -> Surd {
         match self {
             Self::Rational(x) => Surd::long_rational(x),
             Self::Irrational(x) => x.clone(),
@@ -58,7 +58,7 @@ impl Algebraic {
     }
 
     /// The value as a double, within one unit in the last place.
-    pub(crate) fn approximate(&self) -> f64 {
+    pub fn approximate(&self) -> f64 {
         match self {
             Self::Rational(x) => exact::approximate(x),
             Self::Irrational(x) => x.nearest(),
@@ -66,7 +66,7 @@ impl Algebraic {
     }
 
     /// Bits of the longest of its integers: numerators and the denominator.
-    pub(crate) fn bits(&self) -> u64 {
+    pub fn bits(&self) -> u64 {
         match self {
             Self::Rational(x) => x.numer().bits().max(x.denom().bits()),
             Self::Irrational(x) => x.terms().map(|(_, c)| c.bits()).fold(x.denominator().bits(), u64::max),

@@ -22,9 +22,9 @@ use super::double_double::{ComplexDoubleDouble, DoubleDouble};
 use super::interval::Interval;
 
 /// Factor that turns a computed sum of non-negative terms into an upper bound: `1 + 2^-40`.
-pub(crate) const UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
+pub const UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 /// More than what underflow can add up to in a computation with numbers below `2^100`: `2^-900`.
-pub(crate) const TINY: f64 = f64::from_bits((1023 - 900) << 52);
+pub const TINY: f64 = f64::from_bits((1023 - 900) << 52);
 const U: f64 = f64::EPSILON / 2.0;
 
 /// A number that balls are about, and what rounding costs in its arithmetic.
@@ -137,11 +137,11 @@ pub struct Ball<C> {
 }
 
 /// A real number with an error radius.
-pub(crate) type Real = Ball<f64>;
+pub type Real = Ball<f64>;
 /// A disc of complex numbers about a centre in double.
 pub type Disc = Ball<Complex64>;
 /// A disc of complex numbers about a centre in double-double.
-pub(crate) type WideDisc = Ball<ComplexDoubleDouble>;
+pub type WideDisc = Ball<ComplexDoubleDouble>;
 
 impl<C: BallCentre> Ball<C> {
     /// The single number `z`.
@@ -236,7 +236,7 @@ impl Disc {
 impl WideDisc {
     /// All `z` with `|z - hi - low| <= radius`.
     #[inline]
-    pub(crate) fn about(hi: Complex64, low: Complex64, radius: f64) -> Self {
+    pub fn about(hi: Complex64, low: Complex64, radius: f64) -> Self {
         let centre = ComplexDoubleDouble {
             re: DoubleDouble::from_sum(hi.re, low.re),
             im: DoubleDouble::from_sum(hi.im, low.im),
@@ -246,7 +246,7 @@ impl WideDisc {
 
     /// A disc about a double that holds this one.
     #[inline]
-    pub(crate) fn rounded(&self) -> Disc {
+    pub fn rounded(&self) -> Disc {
         Disc { centre: self.centre.hi(), radius: (self.radius + self.centre.lo().size()) * UP }
     }
 }
@@ -290,7 +290,7 @@ impl<C: BallCentre> Mul for Ball<C> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
     use num_rational::BigRational;
 
     /// Real and imaginary part.

@@ -5,25 +5,30 @@
 use num_complex::Complex64;
 
 /// Lanes.
-pub(crate) const LANES: usize = 8;
+pub const LANES: usize = 8;
 
 /// Eight complex numbers, real and imaginary parts apart.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct ComplexBatch {
-    pub(crate) re: [f64; LANES],
-    pub(crate) im: [f64; LANES],
+pub struct ComplexBatch {
+    /// Real parts.
+    pub re: [f64; LANES],
+    /// Imaginary parts.
+    pub im: [f64; LANES],
 }
 
 impl ComplexBatch {
-    pub(crate) const ZERO: Self = Self { re: [0.0; LANES], im: [0.0; LANES] };
+    /// All zero.
+    pub const ZERO: Self = Self { re: [0.0; LANES], im: [0.0; LANES] };
 
+    /// The same real number in every lane.
     #[inline(always)]
-    pub(crate) fn real(x: f64) -> Self {
+    pub fn real(x: f64) -> Self {
         Self { re: [x; LANES], im: [0.0; LANES] }
     }
 
+    /// The number in lane `k`.
     #[inline(always)]
-    pub(crate) fn lane(&self, k: usize) -> Complex64 {
+    pub fn lane(&self, k: usize) -> Complex64 {
         Complex64::new(self.re[k], self.im[k])
     }
 
@@ -47,19 +52,19 @@ impl ComplexBatch {
 
     /// `z + c` for a real `c`.
     #[inline(always)]
-    pub(crate) fn plus(self, c: f64) -> Self {
+    pub fn plus(self, c: f64) -> Self {
         self.map(|re, im| (re + c, im))
     }
 
     /// `c z` for a real `c`.
     #[inline(always)]
-    pub(crate) fn times(self, c: f64) -> Self {
+    pub fn times(self, c: f64) -> Self {
         self.map(|re, im| (re * c, im * c))
     }
 
     /// The imaginary unit times each.
     #[inline(always)]
-    pub(crate) fn times_i(self) -> Self {
+    pub fn times_i(self) -> Self {
         let mut re = self.im;
         for x in &mut re {
             *x = -*x;
@@ -69,7 +74,7 @@ impl ComplexBatch {
 
     /// `1 / z`; not a number where `z = 0`.
     #[inline(always)]
-    pub(crate) fn reciprocal(self) -> Self {
+    pub fn reciprocal(self) -> Self {
         self.map(|re, im| {
             let n = 1.0 / (re * re + im * im);
             (re * n, -im * n)
@@ -78,7 +83,7 @@ impl ComplexBatch {
 
     /// Squared moduli.
     #[inline(always)]
-    pub(crate) fn norm_sqr(self) -> [f64; LANES] {
+    pub fn norm_sqr(self) -> [f64; LANES] {
         let mut out = [0.0; LANES];
         for k in 0..LANES {
             out[k] = self.re[k] * self.re[k] + self.im[k] * self.im[k];
@@ -88,7 +93,7 @@ impl ComplexBatch {
 
     /// A square root of each, with the real part not negative.
     #[inline(always)]
-    pub(crate) fn sqrt(self) -> Self {
+    pub fn sqrt(self) -> Self {
         self.map(|re, im| {
             let modulus = (re * re + im * im).sqrt();
             let large = (0.5 * (modulus + re.abs())).sqrt();
@@ -100,7 +105,7 @@ impl ComplexBatch {
 
     /// Lane by lane, from `self` where `choose`, else from `other`.
     #[inline(always)]
-    pub(crate) fn select(self, other: Self, choose: [bool; LANES]) -> Self {
+    pub fn select(self, other: Self, choose: [bool; LANES]) -> Self {
         let mut out = other;
         for k in 0..LANES {
             if choose[k] {
@@ -146,7 +151,7 @@ impl std::ops::Neg for ComplexBatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
 
     #[test]
     fn agrees_with_scalar_complex_numbers() {

@@ -86,7 +86,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
 
     #[test]
     fn arithmetic_is_that_of_num_complex() {

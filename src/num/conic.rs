@@ -12,14 +12,16 @@ use clarabel::solver::{
 
 /// `rhs - sum coefficients x`, which must be in the cone of its block.
 #[derive(Debug, Clone)]
-pub(crate) struct ConicRow {
-    pub(crate) coefficients: Vec<(usize, f64)>,
-    pub(crate) rhs: f64,
+pub struct ConicRow {
+    /// Pairs of variable and coefficient.
+    pub coefficients: Vec<(usize, f64)>,
+    /// The constant.
+    pub rhs: f64,
 }
 
 /// A block of consecutive rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Cone {
+pub enum Cone {
     /// Every entry at least 0.
     NonNegative(usize),
     /// First entry at least the norm of the others.
@@ -28,27 +30,33 @@ pub(crate) enum Cone {
 
 /// A conic program with a convex quadratic objective.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct ConicProgram {
-    pub(crate) variables: usize,
+pub struct ConicProgram {
+    /// Number of variables.
+    pub variables: usize,
     /// Upper triangle of `P`: (row, column, value), row at most column.
-    pub(crate) quadratic: Vec<(usize, usize, f64)>,
-    pub(crate) linear: Vec<f64>,
-    pub(crate) rows: Vec<ConicRow>,
-    pub(crate) cones: Vec<Cone>,
+    pub quadratic: Vec<(usize, usize, f64)>,
+    /// Linear part of the objective.
+    pub linear: Vec<f64>,
+    /// The constraints, block after block.
+    pub rows: Vec<ConicRow>,
+    /// The blocks.
+    pub cones: Vec<Cone>,
 }
 
 /// A point with its multipliers; `residual` is the largest violation found by plain arithmetic.
 #[derive(Debug, Clone)]
-pub(crate) struct ConicPoint {
-    pub(crate) x: Vec<f64>,
+pub struct ConicPoint {
+    /// The variables.
+    pub x: Vec<f64>,
     /// One multiplier a row, in the dual cone.
-    pub(crate) dual: Vec<f64>,
-    pub(crate) residual: f64,
+    pub dual: Vec<f64>,
+    /// Largest violation.
+    pub residual: f64,
 }
 
 /// Answer of the conic solver.
 #[derive(Debug, Clone)]
-pub(crate) enum ConicAnswer {
+pub enum ConicAnswer {
     /// A point; accept it by its residual.
     Point(ConicPoint),
     /// Claimed infeasible, with a dual ray that is still to be checked.
@@ -87,7 +95,7 @@ impl std::fmt::Display for SolverFailure {
 
 impl ConicProgram {
     /// Appends one linear inequality `rhs - coefficients . x >= 0`.
-    pub(crate) fn at_least_zero(&mut self, coefficients: Vec<(usize, f64)>, rhs: f64) {
+    pub fn at_least_zero(&mut self, coefficients: Vec<(usize, f64)>, rhs: f64) {
         self.rows.push(ConicRow { coefficients, rhs });
         match self.cones.last_mut() {
             Some(Cone::NonNegative(n)) => *n += 1,
@@ -96,7 +104,7 @@ impl ConicProgram {
     }
 
     /// Appends `rows[0] >= |rows[1..]|`.
-    pub(crate) fn second_order(&mut self, rows: Vec<ConicRow>) {
+    pub fn second_order(&mut self, rows: Vec<ConicRow>) {
         self.cones.push(Cone::SecondOrder(rows.len()));
         self.rows.extend(rows);
     }
@@ -107,7 +115,7 @@ impl ConicProgram {
     }
 
     /// Largest cone violation of `b - A x` (0 when inside all cones).
-    pub(crate) fn violation(&self, x: &[f64]) -> f64 {
+    pub fn violation(&self, x: &[f64]) -> f64 {
         cone_violation(&self.cones, &self.slacks(x))
     }
 
@@ -130,7 +138,7 @@ impl ConicProgram {
     }
 
     /// Solves the program, sequentially and without output.
-    pub(crate) fn solve(&self) -> ConicAnswer {
+    pub fn solve(&self) -> ConicAnswer {
         let settings =
             DefaultSettings::<f64> { verbose: false, max_iter: 80, max_threads: 1, ..Default::default() };
         let cones: Vec<SupportedConeT<f64>> = self
@@ -227,8 +235,8 @@ mod tests {
 
     #[test]
     fn the_ray_of_an_infeasible_program_refutes_it_and_not_its_feasible_neighbour() {
-        use crate::num::farkas::{EnclosedRow, refuted};
-        use crate::num::interval::Interval;
+        use crate::farkas::{EnclosedRow, refuted};
+        use crate::interval::Interval;
         let mut p = disc();
         p.at_least_zero(vec![(0, -1.0)], -2.0); // x >= 2
         let ConicAnswer::Infeasible(ray) = p.solve() else { panic!("not infeasible") };

@@ -25,7 +25,7 @@ const GUARD: u64 = 16;
 ///
 /// `i` is 1, 2, 3, 5, 6 or 7 and then `r` is odd; `j` is 1 or 3 and then 5 does not divide `r`; `k` is 1 or 2.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct FieldRoot {
+pub struct FieldRoot {
     radicand: u64,
     cosines: [u8; 3],
 }

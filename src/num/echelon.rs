@@ -42,7 +42,7 @@ impl Wide {
 
 /// The span of rows, in echelon form: leading entries are one, in different columns.
 #[derive(Debug, Clone)]
-pub(crate) struct Echelon {
+pub struct Echelon {
     field: Field,
     wide: Wide,
     /// Row with its leading entry in a column.
@@ -53,7 +53,7 @@ pub(crate) struct Echelon {
 
 impl Echelon {
     /// No rows yet, `width` columns; the prime is between `2^60` and `2^61`.
-    pub(crate) fn new(field: Field, width: usize) -> Self {
+    pub fn new(field: Field, width: usize) -> Self {
         Self {
             field,
             wide: Wide::new(field),
@@ -65,12 +65,12 @@ impl Echelon {
 
     /// Number of independent rows.
     #[cfg(test)]
-    pub(crate) fn rank(&self) -> usize {
+    pub fn rank(&self) -> usize {
         self.rows.len()
     }
 
     /// Adds a row of residues; the column of its leading entry after elimination, `None` when it depends on the rows before.
-    pub(crate) fn insert(&mut self, row: &[u64]) -> Option<usize> {
+    pub fn insert(&mut self, row: &[u64]) -> Option<usize> {
         let Self { wide, work, .. } = self;
         for (w, x) in work.iter_mut().zip(row) {
             *w = u128::from(*x);
@@ -100,7 +100,7 @@ impl Echelon {
     }
 
     /// Clears the leading columns in all other rows.
-    pub(crate) fn reduce_fully(&mut self) {
+    pub fn reduce_fully(&mut self) {
         let width = self.of_column.len();
         let leading: Vec<usize> = (0..width).filter(|c| self.of_column[*c].is_some()).collect();
         let free: Vec<usize> = (0..width).filter(|c| self.of_column[*c].is_none()).collect();
@@ -126,7 +126,7 @@ impl Echelon {
     }
 
     /// The row that leads in a column.
-    pub(crate) fn leading_in(&self, column: usize) -> Option<&[u64]> {
+    pub fn leading_in(&self, column: usize) -> Option<&[u64]> {
         self.of_column[column].map(|r| self.rows[r].as_slice())
     }
 }
@@ -134,7 +134,7 @@ impl Echelon {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
 
     #[test]
     fn remainders_are_those_of_division() {

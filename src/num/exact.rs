@@ -10,10 +10,10 @@ use num_rational::BigRational;
 use super::modular::Field;
 
 /// A rational number of any size.
-pub(crate) type Rational = BigRational;
+pub type Rational = BigRational;
 
 /// Numbers of a field that knows the linear relations between its rows.
-pub(crate) trait ExactNumber: Clone {
+pub trait ExactNumber: Clone {
     /// The product of two.
     fn product(&self, other: &Self) -> Self;
 
@@ -32,10 +32,10 @@ impl ExactNumber for Rational {
 }
 
 /// A vector of rational numbers.
-pub(crate) type ExactVector = Vec<Rational>;
+pub type ExactVector = Vec<Rational>;
 
 /// The value of a double; `None` for NaN and infinities.
-pub(crate) fn rational(x: f64) -> Option<Rational> {
+pub fn rational(x: f64) -> Option<Rational> {
     Rational::from_float(x)
 }
 
@@ -44,7 +44,7 @@ fn zero() -> Rational {
 }
 
 /// A basis of the linear relations between the rows: vectors `c` with `sum_i c_i row_i = 0`, exactly.
-pub(crate) fn relations<N: ExactNumber>(rows: &[Vec<N>]) -> Vec<Vec<N>> {
+pub fn relations<N: ExactNumber>(rows: &[Vec<N>]) -> Vec<Vec<N>> {
     N::relations(rows)
 }
 
@@ -94,12 +94,12 @@ fn relations_of_fractions(rows: &[ExactVector]) -> Vec<ExactVector> {
 }
 
 /// Rank of a list of rows.
-pub(crate) fn rank<N: ExactNumber>(rows: &[Vec<N>]) -> usize {
+pub fn rank<N: ExactNumber>(rows: &[Vec<N>]) -> usize {
     rows.len() - relations(rows).len()
 }
 
 /// `a (x) b`, entry by entry.
-pub(crate) fn product<N: ExactNumber>(a: &[N], b: &[N]) -> Vec<N> {
+pub fn product<N: ExactNumber>(a: &[N], b: &[N]) -> Vec<N> {
     a.iter().flat_map(|x| b.iter().map(move |y| x.product(y))).collect()
 }
 
@@ -128,7 +128,7 @@ fn full_rank_modulo(field: Field, rows: &[Vec<BigInt>]) -> bool {
 }
 
 /// The multiple of a list that consists of integers without a common factor, the first that is not zero positive; zeros stay zeros.
-pub(crate) fn primitive(list: &[Rational]) -> Vec<Rational> {
+pub fn primitive(list: &[Rational]) -> Vec<Rational> {
     let Some(first) = list.iter().find(|x| **x != zero()) else { return list.to_vec() };
     let denominator =
         list.iter().fold(Rational::from_integer(1.into()).numer().clone(), |l, x| l.lcm(x.denom()));
@@ -139,8 +139,7 @@ pub(crate) fn primitive(list: &[Rational]) -> Vec<Rational> {
 }
 
 /// `digits * 10^exponent`; `None` for other texts than digits, and exponents of more than a thousand.
-#[cfg(feature = "files")]
-pub(crate) fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
+pub fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
     let digits: BigInt = digits.parse().ok()?;
     let power = u32::try_from(exponent.unsigned_abs()).ok().filter(|n| *n <= 1000)?;
     let power = BigInt::from(10).pow(power);
@@ -148,11 +147,7 @@ pub(crate) fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
 }
 
 /// The nearest double, halves to even; overflow gives an infinity, and what is below the smallest normal double may be rounded twice.
-#[cfg_attr(
-    not(feature = "files"),
-    allow(dead_code, reason = "without design files exact numbers are doubles")
-)]
-pub(crate) fn nearest(x: &Rational) -> f64 {
+pub fn nearest(x: &Rational) -> f64 {
     let (n, d) = (x.numer(), x.denom());
     // 64 or 65 leading bits of the quotient, and one that says whether anything is left
     let shift = 64 + d.bits().cast_signed() - n.bits().cast_signed();
@@ -168,7 +163,7 @@ pub(crate) fn nearest(x: &Rational) -> f64 {
 }
 
 /// An upper bound of how far a double is from the numbers between `low` and `high`; zero where they are the double.
-pub(crate) fn farthest(double: f64, low: &Rational, high: &Rational) -> f64 {
+pub fn farthest(double: f64, low: &Rational, high: &Rational) -> f64 {
     let Some(double) = rational(double) else { return f64::INFINITY };
     let modulus = |x: Rational| if x < zero() { -x } else { x };
     let far = modulus(&double - low).max(modulus(high - &double));
@@ -177,7 +172,7 @@ pub(crate) fn farthest(double: f64, low: &Rational, high: &Rational) -> f64 {
 }
 
 /// The value as a double, within one unit in the last place; overflow gives an infinity, underflow zero.
-pub(crate) fn approximate(x: &Rational) -> f64 {
+pub fn approximate(x: &Rational) -> f64 {
     let (n, d) = (x.numer(), x.denom());
     // 64 or 65 leading bits of the quotient
     let shift = 64 + d.bits().cast_signed() - n.bits().cast_signed();
@@ -209,7 +204,6 @@ mod tests {
         assert!(approximate(&(&huge * &huge)).is_infinite());
     }
 
-    #[cfg(feature = "files")]
     #[test]
     fn nearest_doubles_are_those_that_decimals_are_read_to() {
         let ten = |n: u32| BigInt::from(10).pow(n);

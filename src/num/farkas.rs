@@ -9,13 +9,15 @@ use super::interval::Interval;
 
 /// `rhs - sum coefficients x` with data that lie in intervals.
 #[derive(Debug, Clone)]
-pub(crate) struct EnclosedRow {
-    pub(crate) coefficients: Vec<(usize, Interval)>,
-    pub(crate) rhs: Interval,
+pub struct EnclosedRow {
+    /// Pairs of variable and coefficient.
+    pub coefficients: Vec<(usize, Interval)>,
+    /// The constant.
+    pub rhs: Interval,
 }
 
 /// How far below 0 the combination of the rows stays on the box, for `|y|_1 = 1`; `None` when it does not: then nothing is proved.
-pub(crate) fn refuted(rows: &[EnclosedRow], cones: &[Cone], ray: &[f64], ranges: &[Interval]) -> Option<f64> {
+pub fn refuted(rows: &[EnclosedRow], cones: &[Cone], ray: &[f64], ranges: &[Interval]) -> Option<f64> {
     let weights = in_dual_cone(cones, ray)?;
     if rows.len() != weights.len() {
         return None;

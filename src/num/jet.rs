@@ -11,9 +11,9 @@ const PAIRS: usize = 21;
 
 /// A function over a box of variables.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Jet {
+pub struct Jet {
     /// Its values.
-    pub(crate) value: Interval,
+    pub value: Interval,
     slope: [Interval; 6],
     curve: [Interval; PAIRS],
     /// Number of variables.
@@ -29,59 +29,59 @@ fn place(i: usize, j: usize) -> usize {
 
 impl Jet {
     /// A constant.
-    pub(crate) fn constant(value: Interval, variables: usize, second: bool) -> Self {
+    pub fn constant(value: Interval, variables: usize, second: bool) -> Self {
         Self { value, slope: [Interval::ZERO; 6], curve: [Interval::ZERO; PAIRS], variables, second }
     }
 
     /// A function with these values and constant slopes.
-    pub(crate) fn linear(value: Interval, slope: [Interval; 6], variables: usize, second: bool) -> Self {
+    pub fn linear(value: Interval, slope: [Interval; 6], variables: usize, second: bool) -> Self {
         Self { slope, ..Self::constant(value, variables, second) }
     }
 
     /// A constant in the same variables.
-    pub(crate) fn alike(&self, value: Interval) -> Self {
+    pub fn alike(&self, value: Interval) -> Self {
         Self::constant(value, self.variables, self.second)
     }
 
     /// A function of which nothing is known, in the same variables.
-    pub(crate) fn unknown(&self) -> Self {
+    pub fn unknown(&self) -> Self {
         Self { value: Interval::WHOLE, slope: [Interval::WHOLE; 6], curve: [Interval::WHOLE; PAIRS], ..*self }
     }
 
     /// Without its second derivatives: what is computed from it costs no more than its slopes.
-    pub(crate) fn first_order(mut self) -> Self {
+    pub fn first_order(mut self) -> Self {
         self.second = false;
         self.curve = [Interval::ZERO; PAIRS];
         self
     }
 
     /// Whether second derivatives are kept.
-    pub(crate) fn is_second_order(&self) -> bool {
+    pub fn is_second_order(&self) -> bool {
         self.second
     }
 
     /// First derivatives.
-    pub(crate) fn slope(&self, k: usize) -> Interval {
+    pub fn slope(&self, k: usize) -> Interval {
         self.slope[k]
     }
 
     /// Second derivatives; zero where they are not kept.
-    pub(crate) fn curve(&self, i: usize, j: usize) -> Interval {
+    pub fn curve(&self, i: usize, j: usize) -> Interval {
         self.curve[place(i.min(j), i.max(j))]
     }
 
     /// Sets the second derivative by two variables.
-    pub(crate) fn set_curve(&mut self, i: usize, j: usize, curve: Interval) {
+    pub fn set_curve(&mut self, i: usize, j: usize, curve: Interval) {
         self.curve[place(i.min(j), i.max(j))] = curve;
     }
 
     /// With other values and the same derivatives.
-    pub(crate) fn with_value(self, value: Interval) -> Self {
+    pub fn with_value(self, value: Interval) -> Self {
         Self { value, ..self }
     }
 
     /// The lengths of the derivatives of a vector, of first or of second order, rounded up, at their places.
-    pub(crate) fn sizes(v: &JetVector, order: usize) -> [Interval; PAIRS] {
+    pub fn sizes(v: &JetVector, order: usize) -> [Interval; PAIRS] {
         std::array::from_fn(|k| {
             let part = |x: &Self| match order {
                 1 => x.slope.get(k).copied().unwrap_or(Interval::ZERO),
@@ -93,7 +93,7 @@ impl Jet {
     }
 
     /// With derivatives of first or of second order that may differ by as much, at their places, and no others of that order or above.
-    pub(crate) fn widened(mut self, order: usize, widths: &[Interval; PAIRS]) -> Self {
+    pub fn widened(mut self, order: usize, widths: &[Interval; PAIRS]) -> Self {
         let wide = |x: Interval, width: Interval| x + Interval::about_zero(width.hi());
         if order == 1 {
             for (x, width) in self.slope.iter_mut().zip(widths).take(self.variables) {
@@ -111,7 +111,7 @@ impl Jet {
     }
 
     /// `f` of it, from values of `f`, `f'` and `f''` over its values.
-    pub(crate) fn composed(&self, f: [Interval; 3]) -> Self {
+    pub fn composed(&self, f: [Interval; 3]) -> Self {
         let mut out = Self::constant(f[0], self.variables, self.second);
         for i in 0..self.variables {
             out.slope[i] = f[1] * self.slope[i];
@@ -126,13 +126,13 @@ impl Jet {
     }
 
     /// Its square.
-    pub(crate) fn square(&self) -> Self {
+    pub fn square(&self) -> Self {
         let two = Interval::from(2.0);
         self.composed([self.value.square(), two * self.value, two])
     }
 
     /// `1 / sqrt(x)`, `None` unless it is positive.
-    pub(crate) fn inverse_root(&self) -> Option<Self> {
+    pub fn inverse_root(&self) -> Option<Self> {
         let root = Some(self.value).filter(|v| v.lo() > 0.0)?.sqrt()?;
         let one = Interval::from(1.0);
         let f0 = one.checked_div(root)?;
@@ -142,14 +142,14 @@ impl Jet {
     }
 
     /// `1 / x`, `None` where it may be zero.
-    pub(crate) fn inverse(&self) -> Option<Self> {
+    pub fn inverse(&self) -> Option<Self> {
         let f0 = Interval::from(1.0).checked_div(self.value)?;
         let square = f0.square();
         Some(self.composed([f0, -square, Interval::from(2.0) * f0 * square]))
     }
 
     /// `sqrt(x)`, `None` unless it is positive.
-    pub(crate) fn root(&self) -> Option<Self> {
+    pub fn root(&self) -> Option<Self> {
         let root = Some(self.value).filter(|v| v.lo() > 0.0)?.sqrt()?;
         let f1 = Interval::from(0.5).checked_div(root)?;
         let f2 = -f1.checked_div(self.value * Interval::from(2.0))?;
@@ -157,7 +157,7 @@ impl Jet {
     }
 
     /// A multiple.
-    pub(crate) fn times(&self, factor: Interval) -> Self {
+    pub fn times(&self, factor: Interval) -> Self {
         let mut out = Self::constant(factor * self.value, self.variables, self.second);
         for k in 0..self.variables {
             out.slope[k] = factor * self.slope[k];
@@ -248,24 +248,27 @@ impl Mul for Jet {
 }
 
 /// Three coordinates.
-pub(crate) type JetVector = [Jet; 3];
+pub type JetVector = [Jet; 3];
 
-pub(crate) fn dot(a: &JetVector, b: &JetVector) -> Jet {
+/// `a . b`.
+pub fn dot(a: &JetVector, b: &JetVector) -> Jet {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(crate) fn norm_squared(a: &JetVector) -> Jet {
+/// `a . a`.
+pub fn norm_squared(a: &JetVector) -> Jet {
     a[0].square() + a[1].square() + a[2].square()
 }
 
-pub(crate) fn cross(a: &JetVector, b: &JetVector) -> JetVector {
+/// `a x b`.
+pub fn cross(a: &JetVector, b: &JetVector) -> JetVector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
 
     /// `sqrt(1 + x y) (x - z^2) / sqrt(2 + y)` with every operation, and its values in doubles.
     fn formula(x: &[Jet; 3]) -> Jet {

@@ -90,7 +90,7 @@ fn reflected(m: &DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
 
     #[test]
     fn svd_rebuilds_the_matrix_and_eigenvalues_of_a_companion() {

@@ -7,34 +7,32 @@ use super::Rng;
 
 /// The field of integers modulo a prime below `2^61`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Field(u64);
+pub struct Field(u64);
 
 /// Bits by which every prime of [`fields`] can be counted: all are above `2^60`.
-pub(crate) const PRIME_BITS: u32 = 60;
+pub const PRIME_BITS: u32 = 60;
 
 /// Prime fields below `2^61`, largest first, without end for all practical purposes; the first is [`Field::MERSENNE`].
 pub(crate) fn all_fields() -> impl Iterator<Item = Field> {
     (1u64..).map(|k| (1u64 << 61) + 1 - 2 * k).filter(|n| is_prime(*n)).map(Field)
 }
 
-/// The `count` first of [`all_fields`].
-#[cfg(test)]
-pub(crate) fn fields(count: usize) -> Vec<Field> {
+/// The `count` first of `all_fields`.
+pub fn fields(count: usize) -> Vec<Field> {
     all_fields().take(count).collect()
 }
 
 impl Field {
     /// The field of the Mersenne prime `2^61 - 1`.
-    pub(crate) const MERSENNE: Self = Self((1 << 61) - 1);
+    pub const MERSENNE: Self = Self((1 << 61) - 1);
 
     /// The field of another prime.
-    #[cfg(test)]
-    pub(crate) fn of_prime(p: u64) -> Self {
+    pub fn of_prime(p: u64) -> Self {
         Self(p)
     }
 
     /// The field of a prime drawn uniformly from those between `2^60` and `2^61`.
-    pub(crate) fn drawn(rng: &mut Rng) -> Self {
+    pub fn drawn(rng: &mut Rng) -> Self {
         loop {
             let n = (1 << 60) | (rng.next_u64() >> 4) | 1;
             if is_prime(n) {
@@ -44,18 +42,18 @@ impl Field {
     }
 
     /// The prime.
-    pub(crate) fn prime(self) -> u64 {
+    pub fn prime(self) -> u64 {
         self.0
     }
 
     /// The residue of an integer.
-    pub(crate) fn integer(self, x: i64) -> u64 {
+    pub fn integer(self, x: i64) -> u64 {
         let r = x.unsigned_abs() % self.0;
         if x < 0 { self.sub(0, r) } else { r }
     }
 
     /// The residue of `x 2^shift` for a finite double; also where that is not an integer (2 has an inverse).
-    pub(crate) fn scaled(self, x: f64, shift: i32) -> u64 {
+    pub fn scaled(self, x: f64, shift: i32) -> u64 {
         let (mantissa, exponent) = mantissa_and_exponent(x);
         self.mul(self.integer(mantissa), self.power_of_two(exponent + shift))
     }
@@ -66,16 +64,19 @@ impl Field {
         self.pow(base, u64::from(exponent.unsigned_abs()))
     }
 
-    pub(crate) fn add(self, x: u64, y: u64) -> u64 {
+    /// `x + y`.
+    pub fn add(self, x: u64, y: u64) -> u64 {
         let sum = x + y;
         if sum >= self.0 { sum - self.0 } else { sum }
     }
 
-    pub(crate) fn sub(self, x: u64, y: u64) -> u64 {
+    /// `x - y`.
+    pub fn sub(self, x: u64, y: u64) -> u64 {
         if x >= y { x - y } else { x + self.0 - y }
     }
 
-    pub(crate) fn mul(self, x: u64, y: u64) -> u64 {
+    /// `x y`.
+    pub fn mul(self, x: u64, y: u64) -> u64 {
         let product = u128::from(x) * u128::from(y);
         let short = (1u64 << 61).wrapping_sub(self.0);
         if short >= 1 << 30 {
@@ -88,7 +89,8 @@ impl Field {
         if rest >= self.0 { rest - self.0 } else { rest }
     }
 
-    pub(crate) fn pow(self, mut base: u64, mut exponent: u64) -> u64 {
+    /// `base` to the power `exponent`.
+    pub fn pow(self, mut base: u64, mut exponent: u64) -> u64 {
         let mut result = 1;
         while exponent > 0 {
             if exponent & 1 == 1 {
@@ -101,7 +103,7 @@ impl Field {
     }
 
     /// The inverse of a number that is not zero.
-    pub(crate) fn inverse(self, x: u64) -> u64 {
+    pub fn inverse(self, x: u64) -> u64 {
         self.pow(x, self.0 - 2)
     }
 
@@ -149,8 +151,7 @@ impl Field {
     }
 
     /// Determinant by expansion along the first row: for tests, nothing in common with [`rank`](Self::rank).
-    #[cfg(test)]
-    pub(crate) fn determinant<const N: usize>(self, rows: &[[u64; N]]) -> u64 {
+    pub fn determinant<const N: usize>(self, rows: &[[u64; N]]) -> u64 {
         fn expand<const N: usize>(field: Field, rows: &[[u64; N]], columns: &[usize]) -> u64 {
             let Some((head, rest)) = rows.split_first() else { return 1 };
             (0..columns.len()).fold(0, |sum, k| {
@@ -163,7 +164,7 @@ impl Field {
     }
 
     /// Rank of the rows, by elimination with cross-multiplication (no inverses).
-    pub(crate) fn rank<R: AsRef<[u64]> + AsMut<[u64]>>(self, mut rows: Vec<R>) -> usize {
+    pub fn rank<R: AsRef<[u64]> + AsMut<[u64]>>(self, mut rows: Vec<R>) -> usize {
         let mut rank = 0;
         for column in 0..rows.first().map_or(0, |row| row.as_ref().len()) {
             let Some(pivot) = (rank..rows.len()).find(|r| rows[*r].as_ref()[column] != 0) else { continue };
@@ -186,7 +187,7 @@ impl Field {
 }
 
 /// `x = m 2^e` with an odd integer `m`, `|m| < 2^53`; zero is `(0, 0)`.
-pub(crate) fn mantissa_and_exponent(x: f64) -> (i64, i32) {
+pub fn mantissa_and_exponent(x: f64) -> (i64, i32) {
     let bits = x.to_bits();
     let field = ((bits >> 52) & 0x7ff) as i32;
     let fraction = (bits & ((1 << 52) - 1)).cast_signed();

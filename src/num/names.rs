@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// Whether a character changes the direction of the text after it: embeddings, overrides and isolates. A program then reads another text than the one shown (Boucher and Anderson 2021).
-pub(crate) fn changes_direction(c: char) -> bool {
+pub fn changes_direction(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
@@ -21,7 +21,10 @@ pub struct UnknownName {
 }
 
 /// The choice of this name, upper and lower case and blanks around it apart.
-pub(crate) fn named<T: Copy>(
+///
+/// # Errors
+/// A name that is none of the list, with the one that it is nearest to.
+pub fn named<T: Copy>(
     what: &'static str,
     given: &str,
     all: &[T],

@@ -14,22 +14,25 @@ const BITS: i64 = 256;
 
 /// `(-1)^negative 2^exponent m`, `m` in `[1/2, 1)` the fraction with the given limbs, least significant first; zero has no bit set.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Octuple {
+pub struct Octuple {
     negative: bool,
     exponent: i32,
     limbs: [u64; LIMBS],
 }
 
 impl Octuple {
-    pub(crate) const ZERO: Self = Self { negative: false, exponent: 0, limbs: [0; LIMBS] };
-    pub(crate) const ONE: Self = Self { negative: false, exponent: 1, limbs: [0, 0, 0, 1 << 63] };
+    /// Zero.
+    pub const ZERO: Self = Self { negative: false, exponent: 0, limbs: [0; LIMBS] };
+    /// One.
+    pub const ONE: Self = Self { negative: false, exponent: 1, limbs: [0, 0, 0, 1 << 63] };
 
-    pub(crate) fn is_zero(&self) -> bool {
+    /// Whether it is exactly zero.
+    pub fn is_zero(&self) -> bool {
         self.limbs[LIMBS - 1] == 0
     }
 
     /// The nearest double but for truncation; numbers beyond the range of doubles become infinite or zero.
-    pub(crate) fn rounded(self) -> f64 {
+    pub fn rounded(self) -> f64 {
         if self.is_zero() {
             return 0.0;
         }
@@ -41,12 +44,12 @@ impl Octuple {
     }
 
     /// The exponent `k` of `2^(k-1) <= |x| < 2^k`; that of zero is far below all others.
-    pub(crate) fn exponent(&self) -> i32 {
+    pub fn exponent(&self) -> i32 {
         if self.is_zero() { i32::MIN / 4 } else { self.exponent }
     }
 
     /// Product with `2^k`, exact.
-    pub(crate) fn scaled(self, k: i32) -> Self {
+    pub fn scaled(self, k: i32) -> Self {
         if self.is_zero() { self } else { Self { exponent: self.exponent + k, ..self } }
     }
 
@@ -99,7 +102,7 @@ impl Octuple {
     }
 
     /// The square root of a number that is not negative: Newton's method for its reciprocal.
-    pub(crate) fn sqrt(self) -> Self {
+    pub fn sqrt(self) -> Self {
         if self.is_zero() || self.negative {
             return Self::ZERO;
         }
@@ -237,35 +240,36 @@ impl Div for Octuple {
 }
 
 /// A complex number with such parts.
-pub(crate) type ComplexOctuple = Complex<Octuple>;
+pub type ComplexOctuple = Complex<Octuple>;
 
 impl ComplexOctuple {
-    pub(crate) const ZERO: Self = Self { re: Octuple::ZERO, im: Octuple::ZERO };
+    /// Zero.
+    pub const ZERO: Self = Self { re: Octuple::ZERO, im: Octuple::ZERO };
 
     /// See [`Octuple::rounded`].
-    pub(crate) fn rounded(self) -> Complex64 {
+    pub fn rounded(self) -> Complex64 {
         Complex64::new(self.re.rounded(), self.im.rounded())
     }
 
     /// Product with `2^k`, exact.
-    pub(crate) fn scaled(self, k: i32) -> Self {
+    pub fn scaled(self, k: i32) -> Self {
         Self { re: self.re.scaled(k), im: self.im.scaled(k) }
     }
 
     /// The larger exponent of the parts.
-    pub(crate) fn exponent(&self) -> i32 {
+    pub fn exponent(&self) -> i32 {
         self.re.exponent().max(self.im.exponent())
     }
 
     /// One over the number; zero for zero.
-    pub(crate) fn recip(self) -> Self {
+    pub fn recip(self) -> Self {
         self.conj().times(Octuple::ONE / self.norm_sqr())
     }
 }
 
 /// Factors of a square matrix with row exchanges.
 #[derive(Debug, Clone)]
-pub(crate) struct OctupleLu<const N: usize> {
+pub struct OctupleLu<const N: usize> {
     /// Below the diagonal the multipliers, on it the inverse pivots.
     factors: [[ComplexOctuple; N]; N],
     order: [usize; N],
@@ -273,7 +277,7 @@ pub(crate) struct OctupleLu<const N: usize> {
 
 impl<const N: usize> OctupleLu<N> {
     /// Factorises `a`; `None` when a column has no pivot. Pivots are the largest to a factor of two: digits there are enough.
-    pub(crate) fn factorise(mut a: [[ComplexOctuple; N]; N]) -> Option<Self> {
+    pub fn factorise(mut a: [[ComplexOctuple; N]; N]) -> Option<Self> {
         let mut order: [usize; N] = std::array::from_fn(|k| k);
         for k in 0..N {
             let best = (k..N).max_by_key(|i| a[*i][k].exponent())?;
@@ -297,7 +301,7 @@ impl<const N: usize> OctupleLu<N> {
     }
 
     /// Solves `A x = b`.
-    pub(crate) fn solve(&self, b: &[ComplexOctuple; N]) -> [ComplexOctuple; N] {
+    pub fn solve(&self, b: &[ComplexOctuple; N]) -> [ComplexOctuple; N] {
         let mut x: [ComplexOctuple; N] = std::array::from_fn(|k| b[self.order[k]]);
         for i in 1..N {
             for j in 0..i {
@@ -314,7 +318,7 @@ impl<const N: usize> OctupleLu<N> {
     }
 
     /// Smallest over largest pivot modulus, a crude inverse condition number.
-    pub(crate) fn pivot_ratio(&self) -> f64 {
+    pub fn pivot_ratio(&self) -> f64 {
         let logs = (0..N).map(|k| self.factors[k][k].exponent());
         let (least, most) = logs.fold((i32::MAX, i32::MIN), |(l, m), x| (l.min(x), m.max(x)));
         2f64.powi(least - most)
@@ -324,8 +328,8 @@ impl<const N: usize> OctupleLu<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::num::exact::{Rational, rational};
+    use crate::Rng;
+    use crate::exact::{Rational, rational};
 
     /// Bound of the relative errors.
     const UNIT: f64 = f64::EPSILON * f64::EPSILON * f64::EPSILON * f64::EPSILON / (1u64 << 45) as f64;

@@ -5,7 +5,7 @@ use std::sync::mpsc;
 
 /// `f` on every index below `total`, on `threads` threads; the results are in index order, so they do not
 /// depend on the number of threads. `tick` sees how many are done and the last of them.
-pub(crate) fn parallel<T: Send>(
+pub fn parallel<T: Send>(
     total: usize,
     threads: usize,
     f: impl Fn(usize) -> T + Sync,

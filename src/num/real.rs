@@ -14,7 +14,7 @@ const BITS: u64 = 192;
 
 /// A real number.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum RealNumber {
+pub enum RealNumber {
     /// It is this number.
     Exact(Surd),
     /// It is one of these numbers.
@@ -23,22 +23,27 @@ pub(crate) enum RealNumber {
 
 /// The numbers from `low` to `high`.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Enclosure {
+pub struct Enclosure {
     low: Rational,
     high: Rational,
 }
 
 /// Why an operation has no result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub(crate) enum NoReal {
+pub enum NoReal {
+    /// The divisor is zero.
     #[error("division by zero")]
     DivisionByZero,
+    /// The radicand is negative.
     #[error("square root of a negative number")]
     NegativeRoot,
+    /// The divisor is an enclosure that holds zero.
     #[error("division by a number that cannot be told from zero")]
     DivisorNearZero,
+    /// The radicand is an enclosure that holds negative numbers.
     #[error("square root of a number that may be negative")]
     RootNearZero,
+    /// The exact result is too long to go on with.
     #[error("the result has thousands of digits")]
     TooLong,
 }
@@ -50,7 +55,7 @@ impl Enclosure {
     }
 
     /// The ends.
-    pub(crate) fn ends(&self) -> (&Rational, &Rational) {
+    pub fn ends(&self) -> (&Rational, &Rational) {
         (&self.low, &self.high)
     }
 
@@ -78,22 +83,29 @@ fn rounded(x: &Rational, up: bool) -> Result<Rational, NoReal> {
 }
 
 impl RealNumber {
-    pub(crate) fn integer(x: i64) -> Self {
+    /// A whole number.
+    pub fn integer(x: i64) -> Self {
         Self::Exact(Surd::integer(x))
     }
 
     /// A fraction; between two shorter ones when it is very long.
-    pub(crate) fn rational(x: &Rational) -> Result<Self, NoReal> {
+    ///
+    /// # Errors
+    /// [`NoReal`] says which.
+    pub fn rational(x: &Rational) -> Result<Self, NoReal> {
         Surd::rational(x).map_or_else(|| Ok(Self::Within(Enclosure::outward(x, x)?)), |x| Ok(Self::Exact(x)))
     }
 
     /// The number when it is known exactly.
-    pub(crate) fn exact(&self) -> Option<&Surd> {
+    pub fn exact(&self) -> Option<&Surd> {
         if let Self::Exact(x) = self { Some(x) } else { None }
     }
 
     /// It lies between these.
-    pub(crate) fn enclosure(&self) -> Result<Enclosure, NoReal> {
+    ///
+    /// # Errors
+    /// [`NoReal`] says which.
+    pub fn enclosure(&self) -> Result<Enclosure, NoReal> {
         match self {
             Self::Within(e) => Ok(e.clone()),
             Self::Exact(x) => {
@@ -104,7 +116,7 @@ impl RealNumber {
     }
 
     /// The nearest double; that of the middle when only an enclosure is known.
-    pub(crate) fn nearest(&self) -> f64 {
+    pub fn nearest(&self) -> f64 {
         match self {
             Self::Exact(x) => x.nearest(),
             Self::Within(e) => nearest(&((&e.low + &e.high) / Rational::from_integer(2.into()))),
@@ -112,7 +124,7 @@ impl RealNumber {
     }
 
     /// An upper bound of how far it is from a finite double; zero where it is the double.
-    pub(crate) fn distance_from(&self, double: f64) -> f64 {
+    pub fn distance_from(&self, double: f64) -> f64 {
         match self {
             Self::Exact(x) => x.distance_from(double),
             Self::Within(e) => farthest(double, &e.low, &e.high),
@@ -144,15 +156,27 @@ impl RealNumber {
         Ok(Self::Within(Enclosure::outward(low, high)?))
     }
 
-    pub(crate) fn plus(&self, other: &Self) -> Result<Self, NoReal> {
+    /// The sum.
+    ///
+    /// # Errors
+    /// [`NoReal`] says which.
+    pub fn plus(&self, other: &Self) -> Result<Self, NoReal> {
         self.combined(other, Surd::plus, |x, y| x + y)
     }
 
-    pub(crate) fn minus(&self, other: &Self) -> Result<Self, NoReal> {
+    /// The difference.
+    ///
+    /// # Errors
+    /// [`NoReal`] says which.
+    pub fn minus(&self, other: &Self) -> Result<Self, NoReal> {
         self.combined(other, Surd::minus, |x, y| x - y)
     }
 
-    pub(crate) fn times(&self, other: &Self) -> Result<Self, NoReal> {
+    /// The product.
+    ///
+    /// # Errors
+    /// [`NoReal`] says which.
+    pub fn times(&self, other: &Self) -> Result<Self, NoReal> {
         // zero times anything is zero, however little is known of it
         if [self, other].iter().any(|x| x.exact().is_some_and(Surd::is_zero)) {
             return Ok(Self::integer(0));
@@ -161,14 +185,18 @@ impl RealNumber {
     }
 
     /// Whether it is zero, or cannot be told from zero.
-    pub(crate) fn may_be_zero(&self) -> bool {
+    pub fn may_be_zero(&self) -> bool {
         match self {
             Self::Exact(x) => x.is_zero(),
             Self::Within(e) => e.holds_zero(),
         }
     }
 
-    pub(crate) fn over(&self, divisor: &Self) -> Result<Self, NoReal> {
+    /// The quotient.
+    ///
+    /// # Errors
+    /// [`NoReal`] says which.
+    pub fn over(&self, divisor: &Self) -> Result<Self, NoReal> {
         if divisor.exact().is_some_and(Surd::is_zero) {
             return Err(NoReal::DivisionByZero);
         }
@@ -178,7 +206,8 @@ impl RealNumber {
         self.combined(divisor, |x, y| x.times(&y.inverse()?), |x, y| x / y)
     }
 
-    pub(crate) fn negated(&self) -> Self {
+    /// `-x`.
+    pub fn negated(&self) -> Self {
         match self {
             Self::Exact(x) => Self::Exact(x.negated()),
             Self::Within(e) => Self::Within(Enclosure { low: -&e.high, high: -&e.low }),
@@ -186,7 +215,10 @@ impl RealNumber {
     }
 
     /// `x^n`.
-    pub(crate) fn power(&self, n: i32) -> Result<Self, NoReal> {
+    ///
+    /// # Errors
+    /// [`NoReal`] says which.
+    pub fn power(&self, n: i32) -> Result<Self, NoReal> {
         let (mut result, mut square, mut left) = (Self::integer(1), self.clone(), n.unsigned_abs());
         while left > 0 {
             if left % 2 == 1 {
@@ -200,7 +232,11 @@ impl RealNumber {
         if n < 0 { Self::integer(1).over(&result) } else { Ok(result) }
     }
 
-    pub(crate) fn sqrt(&self) -> Result<Self, NoReal> {
+    /// The square root.
+    ///
+    /// # Errors
+    /// [`NoReal`] says which.
+    pub fn sqrt(&self) -> Result<Self, NoReal> {
         if let Self::Exact(x) = self {
             if x.sign() == Ordering::Less {
                 return Err(NoReal::NegativeRoot);
@@ -220,7 +256,10 @@ impl RealNumber {
     }
 
     /// `cos` and `sin` of as many degrees, exactly where [`Surd::turn`] has them.
-    pub(crate) fn turn(&self) -> Result<(Self, Self), NoReal> {
+    ///
+    /// # Errors
+    /// [`NoReal`] says which.
+    pub fn turn(&self) -> Result<(Self, Self), NoReal> {
         let (angle, slack) = if let Some(angle) = self.exact().and_then(Surd::as_rational) {
             if let Some((c, s)) = Surd::turn(&angle) {
                 return Ok((Self::Exact(c), Self::Exact(s)));

@@ -55,91 +55,90 @@ impl Rng {
 /// This is the whole list. Only two others draw: the problems of `bench`, whose streams are named by their class, and searches that have a seed for
 /// themselves and begin with [`Rng::new`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Purpose {
+pub struct Purpose {
     /// Tells families apart that are numbered from zero.
     family: u64,
     /// The stream, or the first one of the family.
     first: u64,
 }
 
-#[cfg_attr(not(feature = "cli"), allow(dead_code, reason = "purposes of capabilities that are left out"))]
 impl Purpose {
     /// Poses at which two platforms are compared; one stream a pose.
-    pub(crate) const COMPARED_POSES: Self = Self::single(0);
+    pub const COMPARED_POSES: Self = Self::single(0);
     /// Frames in which a problem is generic, for eliminations and for real slices of curves; one stream an attempt.
-    pub(crate) const GENERIC_FRAMES: Self = Self::single(0);
+    pub const GENERIC_FRAMES: Self = Self::single(0);
     /// Real slices of sets of positive dimension; one stream a slice.
-    pub(crate) const SLICES: Self = Self::single(1000);
+    pub const SLICES: Self = Self::single(1000);
     /// The constant `gamma` of a homotopy.
-    pub(crate) const GAMMA: Self = Self::single(0);
+    pub const GAMMA: Self = Self::single(0);
     /// Starts of the search for real points; one stream a start.
-    pub(crate) const REAL_POINTS: Self = Self::family(0x7ea1);
+    pub const REAL_POINTS: Self = Self::family(0x7ea1);
     /// Integers with which poses are counted modulo primes.
-    pub(crate) const POSE_COUNT: Self = Self::single(0x9c);
+    pub const POSE_COUNT: Self = Self::single(0x9c);
     /// Squared lengths at which a design is solved to be prepared for others.
-    pub(crate) const START_LENGTHS: Self = Self::single(0x51e6);
+    pub const START_LENGTHS: Self = Self::single(0x51e6);
     /// Complex designs of a topology, the same for every seed; one stream a design.
-    pub(crate) const GENERIC_DESIGNS: Self = Self::single(0);
+    pub const GENERIC_DESIGNS: Self = Self::single(0);
     /// Poses and joint errors of trials; one stream a trial.
-    pub(crate) const TRIALS: Self = Self::family(0x7472);
+    pub const TRIALS: Self = Self::family(0x7472);
     /// Poses at which tolerances are computed.
-    pub(crate) const TOLERANCE_POSES: Self = Self::single(0x706f);
+    pub const TOLERANCE_POSES: Self = Self::single(0x706f);
     /// Poses at which errors of joints on holes are solved for; one stream a pose.
-    pub(crate) const ROUNDED_POSES: Self = Self::family(0x6772);
+    pub const ROUNDED_POSES: Self = Self::family(0x6772);
     /// Poses at which requirements are assessed.
-    pub(crate) const ASSESSED_POSES: Self = Self::single(0x6d61);
+    pub const ASSESSED_POSES: Self = Self::single(0x6d61);
     /// Allowed poses from which a search for the one nearest to a pose begins.
-    pub(crate) const NEAREST_POSES: Self = Self::single(0x6e70);
+    pub const NEAREST_POSES: Self = Self::single(0x6e70);
     /// Poses with which the bounds of requirements begin.
-    pub(crate) const BOUNDED_POSES: Self = Self::single(0x626e);
+    pub const BOUNDED_POSES: Self = Self::single(0x626e);
     /// Steps of the local searches that go on from cells of the bounds of requirements; one stream a search.
-    pub(crate) const CELL_SEARCHES: Self = Self::family(0x626f);
+    pub const CELL_SEARCHES: Self = Self::family(0x626f);
     /// Offsets of a cell of the search for the best offsets; one stream a cell.
-    pub(crate) const OFFSETS_OF_CELL: Self = Self::single(0);
+    pub const OFFSETS_OF_CELL: Self = Self::single(0);
     /// Further offsets of a cell to climb from; one stream a cell.
-    pub(crate) const FURTHER_OFFSETS: Self = Self::family(0x5eed);
+    pub const FURTHER_OFFSETS: Self = Self::family(0x5eed);
     /// Offsets that tell which poses matter.
-    pub(crate) const CRITICAL_POSES: Self = Self::single(1 << 40);
+    pub const CRITICAL_POSES: Self = Self::single(1 << 40);
     /// Directions of the last search from the best offsets.
-    pub(crate) const LAST_DIRECTIONS: Self = Self::single(u64::MAX);
+    pub const LAST_DIRECTIONS: Self = Self::single(u64::MAX);
     /// Poses at which a look for worse ones begins.
-    pub(crate) const WORSE_POSES: Self = Self::single(7);
+    pub const WORSE_POSES: Self = Self::single(7);
     /// Directions in which a look for worse poses goes down.
-    pub(crate) const DESCENT: Self = Self::single(8);
+    pub const DESCENT: Self = Self::single(8);
     /// Mixtures of the ends of climbs.
-    pub(crate) const MIXTURES: Self = Self::single(0x4d65);
+    pub const MIXTURES: Self = Self::single(0x4d65);
     /// The evolution of populations; one stream a population.
-    pub(crate) const POPULATIONS: Self = Self::single(0x5347);
+    pub const POPULATIONS: Self = Self::single(0x5347);
     /// Poses among which the next ones to be measured are chosen.
-    pub(crate) const MEASURED_POSES: Self = Self::single(0x6d65);
+    pub const MEASURED_POSES: Self = Self::single(0x6d65);
     /// Poses over which a finished platform is evaluated.
-    pub(crate) const EVALUATED_POSES: Self = Self::single(0x6576);
+    pub const EVALUATED_POSES: Self = Self::single(0x6576);
     /// Coefficients at which the search for the nearest singular design begins; one stream a start.
-    pub(crate) const NEAREST_STARTS: Self = Self::single(0);
+    pub const NEAREST_STARTS: Self = Self::single(0);
     /// Constants of the critical points of a self-motion.
-    pub(crate) const CRITICAL_POINTS: Self = Self::single(0xc7);
+    pub const CRITICAL_POINTS: Self = Self::single(0xc7);
     /// Changes of joints that tell how sensitive invariants are; one stream a change.
-    pub(crate) const SHIFTS: Self = Self::single(0);
+    pub const SHIFTS: Self = Self::single(0);
     /// Members of topologies and planes from which rearrangements are worked out; one stream a member.
-    pub(crate) const REARRANGED_MEMBERS: Self = Self::single(0);
+    pub const REARRANGED_MEMBERS: Self = Self::single(0);
     /// Ends of legs that span a family.
-    pub(crate) const FAMILY_ENDS: Self = Self::single(0xbe);
+    pub const FAMILY_ENDS: Self = Self::single(0xbe);
     /// Legs sampled from components; one stream a component.
-    pub(crate) const SAMPLED_LEGS: Self = Self::single(0);
+    pub const SAMPLED_LEGS: Self = Self::single(0);
     /// Points marked on the curves of a figure.
-    pub(crate) const FIGURE_MARKS: Self = Self::single(0xc0);
+    pub const FIGURE_MARKS: Self = Self::single(0xc0);
     /// Joints off their circle in the representative of a topology; one stream a topology.
-    pub(crate) const REPRESENTATIVES: Self = Self::single(0);
+    pub const REPRESENTATIVES: Self = Self::single(0);
     /// Values of the candidates of a sweep; one stream a candidate of a block.
-    pub(crate) const SWEPT_VALUES: Self = Self::family(0x5357);
+    pub const SWEPT_VALUES: Self = Self::family(0x5357);
     /// Permutations and scramblings of the points of a sweep; one stream a dimension of a block.
-    pub(crate) const SWEPT_ORDERS: Self = Self::family(0x5358);
+    pub const SWEPT_ORDERS: Self = Self::family(0x5358);
     /// Candidates of a sweep that are computed again, or first to tell how long it takes.
-    pub(crate) const SWEPT_AGAIN: Self = Self::single(0x5359);
+    pub const SWEPT_AGAIN: Self = Self::single(0x5359);
     /// Cells of a column of a sweep that are looked at to tell whether its numbers repeat.
-    pub(crate) const SWEPT_CELLS: Self = Self::single(0x535a);
+    pub const SWEPT_CELLS: Self = Self::single(0x535a);
     /// Matrices of the times of reference.
-    pub(crate) const REFERENCE_MATRICES: Self = Self::single(69);
+    pub const REFERENCE_MATRICES: Self = Self::single(69);
 
     const fn single(first: u64) -> Self {
         Self { family: 0, first }
@@ -150,12 +149,12 @@ impl Purpose {
     }
 
     /// The generator for this purpose.
-    pub(crate) fn rng(self, seed: u64) -> Rng {
+    pub fn rng(self, seed: u64) -> Rng {
         self.item(seed, 0)
     }
 
     /// The generator for item `k` of this purpose.
-    pub(crate) fn item(self, seed: u64, k: u64) -> Rng {
+    pub fn item(self, seed: u64, k: u64) -> Rng {
         Rng::stream(seed ^ self.family, self.first.wrapping_add(k))
     }
 }

@@ -30,7 +30,7 @@ where
 }
 
 /// Singular value decomposition with both bases, largest value first; `None` for entries that are not finite.
-pub(crate) fn bounded_svd<T, R, C>(m: &OMatrix<T, R, C>) -> Option<SVD<T, R, C>>
+pub fn bounded_svd<T, R, C>(m: &OMatrix<T, R, C>) -> Option<SVD<T, R, C>>
 where
     T: ComplexField<RealField = f64> + Copy,
     R: DimMin<C>,
@@ -64,7 +64,7 @@ where
 }
 
 /// Singular values, largest first; `None` for entries that are not finite.
-pub(crate) fn singular_values<T, R, C>(m: &OMatrix<T, R, C>) -> Option<OVector<f64, DimMinimum<R, C>>>
+pub fn singular_values<T, R, C>(m: &OMatrix<T, R, C>) -> Option<OVector<f64, DimMinimum<R, C>>>
 where
     T: ComplexField<RealField = f64> + Copy,
     R: DimMin<C>,
@@ -253,7 +253,7 @@ pub(super) fn complete<T: ComplexField<RealField = f64> + Copy>(before: &[T], co
 }
 
 /// Eigenvalues, in no order, and eigenvectors, as columns, of a symmetric matrix. Of one with entries that are not finite: zeros, and the axes.
-pub(crate) fn symmetric_eigen3(m: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+pub fn symmetric_eigen3(m: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let none = (Vector3::zeros(), Matrix3::identity());
     if m.iter().any(|x| !x.is_finite()) {
         return none;
@@ -264,7 +264,7 @@ pub(crate) fn symmetric_eigen3(m: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
     use nalgebra::{DMatrix, Matrix6};
     use num_complex::Complex64;
 

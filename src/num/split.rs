@@ -21,7 +21,7 @@ const MOST_ROOTS: usize = 8;
 
 /// The field of a prime, with square roots of some numbers and roots of unity.
 #[derive(Debug, Clone)]
-pub(crate) struct SplitField {
+pub struct SplitField {
     field: Field,
     /// Orders with an element of this order each.
     turns: Vec<(u32, u64)>,
@@ -33,7 +33,7 @@ impl SplitField {
     /// A field with square roots of all radicands and the cosines of the numbers, of a prime drawn uniformly from
     /// those between `2^60` and `2^61` that have them; `None`
     /// when none is found.
-    pub(crate) fn drawn<'a>(rng: &mut Rng, numbers: impl IntoIterator<Item = &'a Surd>) -> Option<Self> {
+    pub fn drawn<'a>(rng: &mut Rng, numbers: impl IntoIterator<Item = &'a Surd>) -> Option<Self> {
         let mut split = Self::over(numbers)?;
         (0..split.patience()).find_map(|_| {
             split.field = Field::drawn(rng);
@@ -42,7 +42,7 @@ impl SplitField {
     }
 
     /// The fields of primes below `2^61` that have the square roots and cosines of the numbers, largest prime first; `None` where [`degree_of`] is.
-    pub(crate) fn all<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> Option<impl Iterator<Item = Self>> {
+    pub fn all<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> Option<impl Iterator<Item = Self>> {
         let split = Self::over(numbers).filter(Self::radicands_fit)?;
         Some(all_fields().filter_map(move |field| {
             let mut split = Self { field, ..split.clone() };
@@ -107,12 +107,12 @@ impl SplitField {
     }
 
     /// The field.
-    pub(crate) fn field(&self) -> Field {
+    pub fn field(&self) -> Field {
         self.field
     }
 
     /// Degree of the field that the square roots and cosines generate, at most.
-    pub(crate) fn degree(&self) -> usize {
+    pub fn degree(&self) -> usize {
         let cosines: u32 = self.turns.iter().map(|(n, _)| units(*n) / 2).product();
         cosines as usize * (1 << self.independent_roots())
     }
@@ -122,13 +122,13 @@ impl SplitField {
     ///
     /// 1 for fractions: the first prime is taken. Nothing needs to be known of the number of primes that have the
     /// square roots and cosines.
-    pub(crate) fn chances(&self) -> f64 {
+    pub fn chances(&self) -> f64 {
         if self.degree() == 1 { 1.0 } else { self.patience() as f64 * self.degree() as f64 }
     }
 
     /// The residue of a number whose square roots and cosines were given; `None` when the prime divides its
     /// denominator.
-    pub(crate) fn residue(&self, x: &Surd) -> Option<u64> {
+    pub fn residue(&self, x: &Surd) -> Option<u64> {
         let field = self.field;
         let denominator = self.integer(x.denominator());
         if denominator == 0 {
@@ -159,7 +159,7 @@ impl SplitField {
 }
 
 /// Bits of a common denominator of the numbers, and a power of two that none of their conjugates exceeds, as its exponent.
-pub(crate) fn common_bits<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> [i64; 2] {
+pub fn common_bits<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> [i64; 2] {
     let (mut common, mut magnitude) = (BigInt::from(1), 0_i64);
     for x in numbers {
         common = common.lcm(x.denominator());
@@ -190,7 +190,7 @@ fn units(n: u32) -> u32 {
 }
 
 /// Degree of a field with the numbers and all their products in it; `None` for too many square roots, and where a radicand of a product may exceed 63 bits.
-pub(crate) fn degree_of<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> Option<usize> {
+pub fn degree_of<'a>(numbers: impl IntoIterator<Item = &'a Surd>) -> Option<usize> {
     SplitField::over(numbers).filter(SplitField::radicands_fit).map(|split| split.degree())
 }
 
@@ -219,7 +219,7 @@ fn coprime_base(numbers: &BTreeSet<u64>) -> Vec<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::exact::Rational;
+    use crate::exact::Rational;
 
     fn root(n: i64) -> Surd {
         Surd::integer(n).sqrt().unwrap()

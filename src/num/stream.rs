@@ -9,6 +9,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 /// Ends a long computation from outside: clones are one switch. What is under way at the time is finished, nothing new begins.
 ///
 /// ```
+/// # mod equipod { pub use equipod_num::Cancel; pub mod methods { pub use equipod_num::poly; } }
 /// let cancel = equipod::Cancel::new();
 /// let from_another_thread = cancel.clone();
 /// from_another_thread.cancel();
@@ -90,7 +91,8 @@ impl<I> Shared<I> {
 }
 
 /// The results of `job` for all inputs, in the order of the inputs. Ends early when it is cancelled; dropping it cancels it.
-pub(crate) struct Stream<I, T> {
+#[allow(missing_debug_implementations, reason = "a job is a function")]
+pub struct Stream<I, T> {
     shared: Arc<Shared<I>>,
     job: Job<I, T>,
     /// `None` where the thread that asks does the work.
@@ -101,7 +103,7 @@ pub(crate) struct Stream<I, T> {
 
 impl<I: Send + 'static, T: Send + 'static> Stream<I, T> {
     /// Starts `workers` threads; with one the work is done when a result is asked for, on the thread that asks.
-    pub(crate) fn new(
+    pub fn new(
         inputs: impl Iterator<Item = I> + Send + 'static,
         workers: usize,
         cancel: Cancel,

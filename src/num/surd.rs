@@ -33,23 +33,25 @@ const MAX_NESTING: usize = 4;
 /// `sum_r c_r r / d` over some of the [`FieldRoot`]s, `d > 0`, integers `c_r` that are not zero and share no factor
 /// with `d`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Surd {
+pub struct Surd {
     terms: BTreeMap<FieldRoot, BigInt>,
     denominator: BigInt,
 }
 
 impl Surd {
-    pub(crate) fn zero() -> Self {
+    /// Zero.
+    pub fn zero() -> Self {
         Self { terms: BTreeMap::new(), denominator: BigInt::one() }
     }
 
-    pub(crate) fn integer(x: i64) -> Self {
+    /// A whole number.
+    pub fn integer(x: i64) -> Self {
         Self::lowest(BTreeMap::from([(FieldRoot::ONE, BigInt::from(x))]), BigInt::one())
             .unwrap_or_else(Self::zero)
     }
 
     /// `None` for a fraction that is too long.
-    pub(crate) fn rational(x: &Rational) -> Option<Self> {
+    pub fn rational(x: &Rational) -> Option<Self> {
         Self::lowest(BTreeMap::from([(FieldRoot::ONE, x.numer().clone())]), x.denom().clone())
     }
 
@@ -90,12 +92,13 @@ impl Surd {
         Self::reduced(BTreeMap::from([(FieldRoot::ONE, x.numer().clone())]), x.denom().clone())
     }
 
-    pub(crate) fn is_zero(&self) -> bool {
+    /// Whether it is zero.
+    pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
 
     /// The number when it is rational.
-    pub(crate) fn as_rational(&self) -> Option<Rational> {
+    pub fn as_rational(&self) -> Option<Rational> {
         match self.terms.iter().next() {
             None => Some(Rational::zero()),
             Some((&FieldRoot::ONE, c)) if self.terms.len() == 1 => {
@@ -106,31 +109,33 @@ impl Surd {
     }
 
     /// The radicands of its square roots, without 1.
-    pub(crate) fn radicands(&self) -> impl Iterator<Item = u64> + '_ {
+    pub fn radicands(&self) -> impl Iterator<Item = u64> + '_ {
         self.terms.keys().map(|r| r.radicand()).filter(|r| *r > 1)
     }
 
     /// Numbers `n` such that the field of its cosines has `cos(360 / n)` degrees: 16, 32, 20 or 9.
-    pub(crate) fn divisions(&self) -> impl Iterator<Item = u32> + '_ {
+    pub fn divisions(&self) -> impl Iterator<Item = u32> + '_ {
         self.terms.keys().flat_map(|r| r.cosines()).map(|(n, _)| n)
     }
 
     /// What is summed up, with the numerators that belong to it.
-    pub(crate) fn terms(&self) -> impl Iterator<Item = (FieldRoot, &BigInt)> {
+    pub fn terms(&self) -> impl Iterator<Item = (FieldRoot, &BigInt)> {
         self.terms.iter().map(|(r, c)| (*r, c))
     }
 
     /// The common denominator, positive.
-    pub(crate) fn denominator(&self) -> &BigInt {
+    pub fn denominator(&self) -> &BigInt {
         &self.denominator
     }
 
-    pub(crate) fn negated(&self) -> Self {
+    /// `-x`.
+    pub fn negated(&self) -> Self {
         let terms = self.terms.iter().map(|(r, c)| (*r, -c)).collect();
         Self { terms, denominator: self.denominator.clone() }
     }
 
-    pub(crate) fn plus(&self, other: &Self) -> Option<Self> {
+    /// The sum; `None` when the field of both is too large.
+    pub fn plus(&self, other: &Self) -> Option<Self> {
         self.sum(other).short()
     }
 
@@ -145,11 +150,13 @@ impl Surd {
         Self::reduced(terms, common)
     }
 
-    pub(crate) fn minus(&self, other: &Self) -> Option<Self> {
+    /// The difference; `None` when the field of both is too large.
+    pub fn minus(&self, other: &Self) -> Option<Self> {
         self.plus(&other.negated())
     }
 
-    pub(crate) fn times(&self, other: &Self) -> Option<Self> {
+    /// The product; `None` when the field of both is too large.
+    pub fn times(&self, other: &Self) -> Option<Self> {
         self.product(other)?.short()
     }
 
@@ -186,7 +193,7 @@ impl Surd {
     }
 
     /// `1 / x`; `None` for zero and when the result is too long.
-    pub(crate) fn inverse(&self) -> Option<Self> {
+    pub fn inverse(&self) -> Option<Self> {
         self.reciprocal()?.short()
     }
 
@@ -207,7 +214,7 @@ impl Surd {
     }
 
     /// The square root that is not negative; `None` for negative numbers and when it is not found among these sums.
-    pub(crate) fn sqrt(&self) -> Option<Self> {
+    pub fn sqrt(&self) -> Option<Self> {
         if let Some(root) = self.root(MAX_NESTING) {
             return Some(root);
         }
@@ -261,7 +268,7 @@ impl Surd {
 
     /// Cosine and sine of `degrees`, where they are in the field: at multiples of a quarter of a degree whose cosine
     /// has a degree of 16 at most.
-    pub(crate) fn turn(degrees: &Rational) -> Option<(Self, Self)> {
+    pub fn turn(degrees: &Rational) -> Option<(Self, Self)> {
         let quarters = degrees * Rational::from_integer(4.into());
         if !quarters.is_integer() {
             return None;
@@ -287,7 +294,7 @@ impl Surd {
     }
 
     /// Rationals below and above it (both the number when it is rational), closer together than `2^-bits` of its magnitude.
-    pub(crate) fn between(&self, bits: u64) -> (Rational, Rational) {
+    pub fn between(&self, bits: u64) -> (Rational, Rational) {
         if let Some(x) = self.as_rational() {
             return (x.clone(), x);
         }
@@ -304,13 +311,13 @@ impl Surd {
     }
 
     /// An upper bound of how far it is from a finite double; zero where it is the double.
-    pub(crate) fn distance_from(&self, double: f64) -> f64 {
+    pub fn distance_from(&self, double: f64) -> f64 {
         let (low, high) = self.between(160);
         farthest(double, &low, &high)
     }
 
     /// All conjugates are below two to this power.
-    pub(crate) fn magnitude_bits(&self) -> i64 {
+    pub fn magnitude_bits(&self) -> i64 {
         let bits = |(r, c): (&FieldRoot, &BigInt)| c.bits() + r.magnitude_bits();
         let largest = self.terms.iter().map(bits).max().unwrap_or(0);
         let terms = self.terms.len().next_power_of_two().trailing_zeros();
@@ -318,7 +325,7 @@ impl Surd {
     }
 
     /// Compared with zero.
-    pub(crate) fn sign(&self) -> Ordering {
+    pub fn sign(&self) -> Ordering {
         if self.is_zero() {
             return Ordering::Equal;
         }
@@ -327,7 +334,7 @@ impl Surd {
     }
 
     /// The nearest double.
-    pub(crate) fn nearest(&self) -> f64 {
+    pub fn nearest(&self) -> f64 {
         let mut bits = 80;
         loop {
             let (low, high) = self.between(bits);
@@ -342,12 +349,12 @@ impl Surd {
 }
 
 /// The sum of products; `None` when it becomes too long.
-pub(crate) fn combination(weights: &[Surd], values: &[Surd]) -> Option<Surd> {
+pub fn combination(weights: &[Surd], values: &[Surd]) -> Option<Surd> {
     weights.iter().zip(values).try_fold(Surd::zero(), |sum, (w, x)| sum.plus(&w.times(x)?))
 }
 
 /// Brings the first `width` columns to the identity above zeros as far as they go; the rank. `None` when numbers become too long.
-pub(crate) fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
+pub fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
     let mut rank = 0;
     for column in 0..width {
         let Some(pivot) = (rank..rows.len()).find(|i| !rows[*i][column].is_zero()) else { continue };
@@ -459,8 +466,7 @@ impl fmt::Display for Surd {
 /// Integers whose square roots generate the same field as those of squarefree integers in ascending order, beside the
 /// cosines of these divisions: a root that is a
 /// fraction times a product of two or three before it is left out, and so is a cosine whose double is there.
-#[cfg(feature = "files")]
-pub(crate) fn generators(radicands: &[u64], divisions: &mut Vec<u32>) -> Vec<u64> {
+pub fn generators(radicands: &[u64], divisions: &mut Vec<u32>) -> Vec<u64> {
     if divisions.contains(&32) {
         divisions.retain(|n| *n != 16);
     }

@@ -7,7 +7,7 @@ use pulp::WithSimd;
 /// WebAssembly has no way to ask, and its vectors of two doubles gain nothing over single ones (measured: equal times within 3 %), so that the page carries
 /// each loop once.
 #[inline]
-pub(crate) fn on_vector_unit<Op: WithSimd>(op: Op) -> Op::Output {
+pub fn on_vector_unit<Op: WithSimd>(op: Op) -> Op::Output {
     #[cfg(not(target_arch = "wasm32"))]
     return pulp::Arch::new().dispatch(op);
     #[cfg(target_arch = "wasm32")]

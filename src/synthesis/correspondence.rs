@@ -1,6 +1,6 @@
 //! Which leg of one design is which leg of another.
 
-use crate::platform::manipulator::{LegIndex, Manipulator};
+use platform::manipulator::{LegIndex, Manipulator};
 
 /// Legs closer than this, relative to the size, are the same leg.
 const SAME: f64 = 1e-9;
@@ -52,8 +52,8 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::manipulator::Leg;
+    use num::Rng;
+    use platform::manipulator::Leg;
 
     #[test]
     fn an_order_is_found_and_a_moved_joint_is_told() {

@@ -8,7 +8,7 @@ use super::hexagon::{HexagonPoint, Offset};
 
 /// `(prod (1 - t), prod t)` over offsets, in any numbers (floating point, exact, intervals): with one offset on each side of the hexagon
 /// their difference is `det A`, with some left out the minors of `A`.
-pub(crate) fn offset_products<T>(one: &T, t: impl IntoIterator<Item = T>) -> (T, T)
+pub fn offset_products<T>(one: &T, t: impl IntoIterator<Item = T>) -> (T, T)
 where
     T: Clone + Mul<Output = T> + Sub<Output = T>,
 {
@@ -43,7 +43,7 @@ fn products_without(t: &[f64; 6], left_out: &[usize]) -> (f64, f64) {
 }
 
 /// Gradient of [`offset_determinant`]; products without the own factor, so zeros do no harm.
-pub(crate) fn determinant_gradient(t: &[f64; 6]) -> [f64; 6] {
+pub fn determinant_gradient(t: &[f64; 6]) -> [f64; 6] {
     std::array::from_fn(|j| {
         let (rest, own) = products_without(t, &[j]);
         -rest - own
@@ -51,7 +51,7 @@ pub(crate) fn determinant_gradient(t: &[f64; 6]) -> [f64; 6] {
 }
 
 /// Hessian of [`offset_determinant`]: zero diagonal, since every product is affine in each offset.
-pub(crate) fn determinant_hessian(t: &[f64; 6]) -> Matrix6<f64> {
+pub fn determinant_hessian(t: &[f64; 6]) -> Matrix6<f64> {
     Matrix6::from_fn(|j, k| {
         let (rest, own) = products_without(t, &[j, k]);
         if j == k { 0.0 } else { rest - own }
@@ -73,7 +73,7 @@ pub enum Factor {
 
 impl Factor {
     /// The value, with `at` giving the offsets.
-    pub(crate) fn value(self, at: impl Fn(Offset) -> f64) -> f64 {
+    pub fn value(self, at: impl Fn(Offset) -> f64) -> f64 {
         match self {
             Self::OneMinus(o) => 1.0 - at(o),
             Self::Plain(o) => at(o),
@@ -111,8 +111,8 @@ impl std::fmt::Display for Factor {
 
 /// Rows in the order that puts every leg in the place of one it is made of, and the factors of `det A`.
 pub(crate) struct Expansion {
-    pub(crate) slots: [HexagonPoint; 6],
-    pub(crate) factors: Vec<Factor>,
+    pub slots: [HexagonPoint; 6],
+    pub factors: Vec<Factor>,
 }
 
 /// The factor contributed by the entry of `point` in column `vertex`; `None` stands for 1.
@@ -195,8 +195,8 @@ fn close_cycles(open: &[HexagonPoint], slots: &mut [Option<HexagonPoint>; 6]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthesis::hexagon::tests::example;
-    use crate::synthesis::joint_free;
+    use crate::hexagon::tests::example;
+    use crate::joint_free;
 
     const T: [f64; 6] = [0.3, -0.4, 0.2, 1.3, 0.6, 0.8];
 

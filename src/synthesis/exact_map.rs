@@ -6,19 +6,19 @@
 
 use std::fmt::Write as _;
 
-use crate::num::algebraic::Algebraic;
-use crate::num::exact::{rank, relations};
-use crate::platform::manipulator::{AlgebraicVector, ExactLegs};
+use num::algebraic::Algebraic;
+use num::exact::{rank, relations};
+use platform::manipulator::{AlgebraicVector, ExactLegs};
 
 /// `s(TO) = A s(FROM) + c` with exact numbers and `det A` not zero.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ExactMap {
     /// `A`, by rows.
-    pub(crate) a: Vec<AlgebraicVector>,
+    pub a: Vec<AlgebraicVector>,
     /// `c`.
-    pub(crate) c: AlgebraicVector,
+    pub c: AlgebraicVector,
     /// `det A`.
-    pub(crate) determinant: Algebraic,
+    pub determinant: Algebraic,
 }
 
 /// What two platforms have to do with each other, decided without rounding.
@@ -185,8 +185,8 @@ fn determinant(a: &[AlgebraicVector]) -> Algebraic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::surd::Surd;
-    use crate::platform::manipulator::{ExactEnds, Manipulator};
+    use num::surd::Surd;
+    use platform::manipulator::{ExactEnds, Manipulator};
 
     /// The relation of platforms by their exact ends.
     fn relation(from: &[ExactEnds; 6], to: &[ExactEnds; 6]) -> ExactRelation {

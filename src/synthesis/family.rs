@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::enumerate::{enumerate, representative};
 use super::moves::{moves, reachable};
 use super::pattern::Pattern;
-use crate::platform::topology::Topology;
+use platform::topology::Topology;
 
 /// A pattern and where it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,6 +61,7 @@ pub struct FamilyCounts {
 /// Every platform equivalent to an octahedral one, up to the values of the offsets.
 ///
 /// ```
+/// # mod equipod { pub mod methods { pub use equipod_synthesis as synthesis; pub use platform::manipulator; } }
 /// let family = equipod::methods::synthesis::Family::octahedral();
 /// assert_eq!(family.counts().patterns, 3usize.pow(6) - 1);
 /// ```
@@ -99,7 +100,7 @@ impl Family {
         let mut of_class: Vec<Topology> = Vec::new();
         for (k, p) in patterns.iter().enumerate() {
             if class[k] == of_class.len() {
-                of_class.push(Topology::of(p));
+                of_class.push(p.topology());
             }
         }
         let graphs: Vec<Topology> = class.iter().map(|c| of_class[*c]).collect();

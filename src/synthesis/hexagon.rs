@@ -7,7 +7,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::platform::manipulator::{Body, Leg, Octahedral};
+use platform::manipulator::{Body, Leg, Octahedral};
 
 /// The place of an inner point on a side: `t` runs from 0 at leg `side` to 1 at leg `side + 1`.
 ///
@@ -84,7 +84,7 @@ pub fn sliding_body(side: usize) -> Body {
 
 /// The corner of `body` (0, 1, 2 base; 3, 4, 5 platform) at which leg `i` of the cycle ends:
 /// `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`.
-pub(crate) fn corner(body: Body, i: usize) -> usize {
+pub fn corner(body: Body, i: usize) -> usize {
     match body {
         Body::Base => i.div_ceil(2) % 3,
         Body::Platform => 3 + i / 2,
@@ -92,7 +92,7 @@ pub(crate) fn corner(body: Body, i: usize) -> usize {
 }
 
 /// The two corners between which the legs of a side slide, those of leg `side` and of leg `side + 1`.
-pub(crate) fn edge(side: usize) -> [usize; 2] {
+pub fn edge(side: usize) -> [usize; 2] {
     let body = sliding_body(side);
     [corner(body, side), corner(body, (side + 1) % 6)]
 }
@@ -104,18 +104,22 @@ pub(crate) fn corner_point(o: &Octahedral, i: usize) -> Point3<f64> {
 
 /// A side of the hexagon in place: the leg at offset `t` joins `fixed` to `start + t (end - start)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct HexagonSide {
-    pub(crate) sliding: Body,
-    pub(crate) fixed: Point3<f64>,
-    pub(crate) start: Point3<f64>,
-    pub(crate) end: Point3<f64>,
+pub struct HexagonSide {
+    /// The body whose joint slides along the edge.
+    pub sliding: Body,
+    /// The end of the leg on the other body.
+    pub fixed: Point3<f64>,
+    /// The joint at offset 0.
+    pub start: Point3<f64>,
+    /// The joint at offset 1.
+    pub end: Point3<f64>,
     /// The vertex of the sliding triangle that is not on the edge.
-    pub(crate) opposite: Point3<f64>,
+    pub opposite: Point3<f64>,
 }
 
 impl HexagonSide {
     /// Side `k` of the hexagon of `o`.
-    pub(crate) fn of(o: &Octahedral, k: usize) -> Self {
+    pub fn of(o: &Octahedral, k: usize) -> Self {
         let sliding = sliding_body(k);
         let own = |i: usize| corner_point(o, corner(sliding, (k + i) % 6));
         Self {
@@ -133,20 +137,23 @@ impl HexagonSide {
         Self { sliding: self.sliding, fixed, start, end, opposite: shrink(self.opposite) }
     }
 
-    pub(crate) fn edge(&self) -> Vector3<f64> {
+    /// `end - start`.
+    pub fn edge(&self) -> Vector3<f64> {
         self.end - self.start
     }
 
-    pub(crate) fn edge_length(&self) -> f64 {
+    /// Length of the edge.
+    pub fn edge_length(&self) -> f64 {
         self.edge().norm()
     }
 
     /// The sliding joint at offset `t`.
-    pub(crate) fn joint(&self, t: f64) -> Point3<f64> {
+    pub fn joint(&self, t: f64) -> Point3<f64> {
         self.start + self.edge() * t
     }
 
-    pub(crate) fn leg(&self, t: f64) -> Leg {
+    /// The leg at offset `t`.
+    pub fn leg(&self, t: f64) -> Leg {
         let (slid, fixed) = (self.joint(t), self.fixed);
         let (base, platform) = self.sliding.of(((slid, fixed), (fixed, slid)));
         Leg { base, platform }
@@ -154,7 +161,7 @@ impl HexagonSide {
 }
 
 /// The six sides in cyclic order, lengths divided by `scale`.
-pub(crate) fn sides(o: &Octahedral, scale: f64) -> [HexagonSide; 6] {
+pub fn sides(o: &Octahedral, scale: f64) -> [HexagonSide; 6] {
     std::array::from_fn(|k| HexagonSide::of(o, k).shrunk(scale))
 }
 
@@ -178,12 +185,12 @@ pub fn offsets_from_distances(o: &Octahedral, base: f64, platform: f64) -> [f64;
 pub(super) mod tests {
 
     use super::*;
-    use crate::platform::geom::Pose;
-    use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
-    use crate::synthesis::joint_free;
+    use crate::joint_free;
     use nalgebra::Rotation3;
+    use platform::geom::Pose;
+    use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-    pub(in crate::synthesis) fn example() -> Octahedral {
+    pub(crate) fn example() -> Octahedral {
         let triangle = |edge: f64| {
             [(0.0, 0.0), (1.0, 0.0), (0.5, 0.75f64.sqrt())]
                 .map(|(x, y)| Point3::new(edge * x, edge * y, 0.0))

@@ -7,9 +7,9 @@ use thiserror::Error;
 
 use super::exact_map::{ExactMap, ExactRelation};
 use super::{LegSpan, Normalisation};
-use crate::num::double_double::DoubleDouble;
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::{
+use num::double_double::DoubleDouble;
+use num::linalg::LinalgError;
+use platform::manipulator::{
     ExactLegs, Leg, LegIndex, Level, Manipulator, SquaredLegLengths, inverse_condition,
 };
 
@@ -119,7 +119,7 @@ impl AffineLegMap {
 /// What two platforms have to do with each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -136,7 +136,7 @@ pub enum Relation {
 
 impl Relation {
     /// The relation where it is decided.
-    pub(crate) fn decided(self) -> Option<Self> {
+    pub fn decided(self) -> Option<Self> {
         Some(self).filter(|r| *r != Self::Undecided)
     }
 
@@ -251,13 +251,13 @@ impl LegMapOutcome {
     }
 
     /// The same where the leg lines of one of the two are dependent at every pose, proved at `level`.
-    pub(crate) fn with_dependent_lines(mut self, level: Level) -> Self {
+    pub fn with_dependent_lines(mut self, level: Level) -> Self {
         (self.relation, self.level) = (Relation::Singular, level);
         self
     }
 
     /// The same where a singular platform is within rounding of one of the two, at this distance.
-    pub(crate) fn near_singular(mut self, distance: f64) -> Self {
+    pub fn near_singular(mut self, distance: f64) -> Self {
         (self.relation, self.level) = (Relation::Undecided, Level::WithinRounding);
         self.near_singular = Some(distance);
         self
@@ -410,6 +410,7 @@ const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
 /// joints are known between bounds only, and never for a relation.
 ///
 /// ```
+/// # mod equipod { pub mod methods { pub use equipod_synthesis as synthesis; pub use platform::manipulator; } }
 /// use equipod::methods::manipulator::{Leg, Manipulator};
 /// use equipod::methods::synthesis::{LegMapTolerances, Relation, leg_map};
 /// use nalgebra::Point3;

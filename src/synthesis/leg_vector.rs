@@ -13,8 +13,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::num::linalg::{LinalgError, svd};
-use crate::platform::manipulator::{Leg, Manipulator};
+use num::linalg::{LinalgError, svd};
+use platform::manipulator::{Leg, Manipulator};
 
 /// `v(a, b) = (1, a) (x) (1, b)`: entry `4 i + j` is `(1, a)_i (1, b)_j`.
 #[must_use]
@@ -167,8 +167,8 @@ impl LegSpan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::{Pose, random_rotation};
+    use num::Rng;
+    use platform::geom::{Pose, random_rotation};
 
     fn point(rng: &mut Rng) -> Point3<f64> {
         Point3::new(rng.normal(), rng.normal(), rng.normal())

@@ -18,9 +18,9 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::AffineLegMap;
-use crate::num::ball::{Real, UP};
-use crate::platform::geom::SamplePlan;
-use crate::platform::manipulator::{Leg, Manipulator};
+use num::ball::{Real, UP};
+use platform::geom::SamplePlan;
+use platform::manipulator::{Leg, Manipulator};
 
 /// Sums over the legs of FROM taken from a leg of TO.
 struct LegDeviation {
@@ -106,10 +106,10 @@ impl AffineLegMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::{Pose, random_rotation};
-    use crate::synthesis::{LegMapTolerances, leg_map};
+    use crate::{LegMapTolerances, leg_map};
     use nalgebra::Point3;
+    use num::Rng;
+    use platform::geom::{Pose, random_rotation};
 
     #[test]
     fn no_pose_of_the_box_is_further_from_the_map_and_the_bound_is_of_the_right_size() {

@@ -19,8 +19,8 @@ use nalgebra::{Point3, SMatrix, SVector, Vector3};
 
 use super::hexagon::{corner, edge, sliding_body};
 use super::offset_determinant;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, InvalidManipulator, Leg, LegIndex, Manipulator, is_collinear};
+use platform::geom::Pose;
+use platform::manipulator::{Body, InvalidManipulator, Leg, LegIndex, Manipulator, is_collinear};
 
 /// Steps of a fit before it counts as not settled.
 const STEPS: usize = 300;
@@ -390,9 +390,9 @@ mod tests {
     use nalgebra::Rotation3;
 
     use super::*;
-    use crate::num::Rng;
-    use crate::synthesis::hexagon::tests::example;
-    use crate::synthesis::{LegMapTolerances, joint_free, leg_map};
+    use crate::hexagon::tests::example;
+    use crate::{LegMapTolerances, joint_free, leg_map};
+    use num::Rng;
 
     const OPTIONS: NearestOptions = NearestOptions { extension: 1.0, min_abs_det: 0.05 };
 
@@ -417,7 +417,7 @@ mod tests {
             let m = m.reordered(turned).unwrap();
             let found = nearest_octahedral(&m, &OPTIONS).unwrap();
             assert!(found.largest_displacement() < 1e-9 && found.settled, "{found:?}");
-            let det = crate::synthesis::offset_determinant(&t);
+            let det = crate::offset_determinant(&t);
             assert!((found.determinant.abs() - det.abs()).abs() < 1e-8, "{} {det}", found.determinant);
         }
         // the octahedral platform itself: every leg at a corner

@@ -6,8 +6,9 @@ use thiserror::Error;
 use super::AffineLegMap;
 use super::determinant::{Factor, expand};
 use super::hexagon::{HexagonPoint, JointLabel, Offset, corner_point, edge, edge_lengths};
-use crate::platform::manipulator::{Body, InvalidManipulator, LegIndex, Manipulator, Octahedral};
-use crate::synthesis::HexagonSide;
+use crate::HexagonSide;
+use platform::manipulator::{Body, InvalidManipulator, LegIndex, Manipulator, Octahedral};
+use platform::topology::Topology;
 
 /// Six points of the hexagon that are linearly independent for generic offsets.
 ///
@@ -133,6 +134,18 @@ impl Pattern {
             list.dedup();
             list
         })
+    }
+
+    /// Which legs share which joints; base and platform are kept apart.
+    ///
+    /// Two legs share a joint when their ends coincide by construction, for all offsets.
+    #[must_use]
+    pub fn topology(&self) -> Topology {
+        let joints = self.joints();
+        let ends = |body: usize| {
+            self.legs().map(|p| joints[body].iter().position(|j| *j == p.joints()[body]).unwrap_or(0))
+        };
+        Topology::of_legs(ends(0), ends(1))
     }
 
     /// Joints that carry two or more legs, with those legs (cyclic numbers).

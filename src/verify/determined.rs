@@ -1,7 +1,7 @@
 //! Poses so far out that coordinates in double precision do not determine them.
 
-use crate::fk::FkRoot;
-use crate::platform::geom::ComplexPose;
+use fk::FkRoot;
+use platform::geom::ComplexPose;
 
 /// Relative error to expect of joints that were computed and rounded to doubles.
 pub(super) const ROUNDED: f64 = 64.0 * f64::EPSILON;
@@ -26,7 +26,7 @@ pub(super) fn is_beyond_precision(root: &FkRoot, size: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::Reality;
+    use fk::Reality;
     use nalgebra::{Matrix3, Vector3};
     use num_complex::Complex64;
 

@@ -1,9 +1,9 @@
 //! The one judgement on two platforms: every command that asks whether they are equivalent asks it.
 
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::{Level, Manipulator};
-use crate::synthesis::singularity::{Architecture, rounded_singular};
-use crate::synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
+use num::linalg::LinalgError;
+use platform::manipulator::{Level, Manipulator};
+use synthesis::singularity::{Architecture, rounded_singular};
+use synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
 
 /// Seed of the search for a singular design within rounding.
 const SEED: u64 = 1;

@@ -1,7 +1,7 @@
 //! Matches two sets of complex poses.
 
 use super::determined::magnitude;
-use crate::platform::geom::ComplexPose;
+use platform::geom::ComplexPose;
 
 /// A pairing of two sets of poses.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,9 +74,9 @@ pub fn match_poses(a: &[ComplexPose], b: &[ComplexPose], size: f64, tolerance: f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::{Pose, random_rotation};
     use nalgebra::Vector3;
+    use num::Rng;
+    use platform::geom::{Pose, random_rotation};
 
     fn poses(n: u64) -> Vec<ComplexPose> {
         let mut rng = Rng::new(8);

@@ -1,8 +1,8 @@
 //! One comparison of two platforms, at the leg lengths of one pose.
 
-use crate::fk::FkSolutions;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::SquaredLegLengths;
+use fk::FkSolutions;
+use platform::geom::Pose;
+use platform::manipulator::SquaredLegLengths;
 
 use super::matching::PoseMatching;
 

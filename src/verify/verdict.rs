@@ -9,16 +9,14 @@ use super::determined::is_beyond_precision;
 use super::judgement::judge;
 use super::matching::{PoseMatching, match_poses};
 use super::sample::Sample;
-use crate::fk::solve::certify::RootCertificate;
-use crate::fk::{
-    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, Threads, solver,
-};
-use crate::num::Cancel;
-use crate::num::linalg::LinalgError;
-use crate::num::stream::Stream;
-use crate::platform::geom::{ComplexPose, SamplePlan};
-use crate::platform::manipulator::{LegIndex, Manipulator};
-use crate::synthesis::{LegMapOutcome, NotRealizable, Relation};
+use fk::solve::certify::RootCertificate;
+use fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, Threads, solver};
+use num::Cancel;
+use num::linalg::LinalgError;
+use num::stream::Stream;
+use platform::geom::{ComplexPose, SamplePlan};
+use platform::manipulator::{LegIndex, Manipulator};
+use synthesis::{LegMapOutcome, NotRealizable, Relation};
 
 /// Two poses are the same when they are closer than this (relative to the size and to their own numbers).
 ///
@@ -32,7 +30,6 @@ const CLEAR_MISS: f64 = 1e3;
 
 /// Why platforms could not be compared at all.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
 pub enum VerifyError {
     /// The leg map could not be computed.
     #[error("the leg map could not be computed: {0}")]
@@ -472,7 +469,7 @@ fn take_sample(
     };
     let failed = |platform| move |error| VerifyError::ForwardKinematics { platform, error };
     // the two sets are compared with each other: poses that joints in double precision do not determine are set aside there, not counted
-    let options = &FkOptions { pose_count: PoseCounting::Never, ..*options };
+    let options = &options.pose_count(PoseCounting::Never);
     let solutions_a = solver(None).solve(a, &squares_a, options).map_err(failed("A"))?;
     let solutions_b = Homotopy.solve(b, &squares_b, options).map_err(failed("B"))?;
     let matching = matched(&solutions_a, &solutions_b, a.size().max(b.size()));
@@ -522,10 +519,10 @@ fn counterexample(a: &Manipulator, b: &Manipulator, sample: usize, s: &Sample) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::geom::Pose;
-    use crate::platform::manipulator::{Leg, Octahedral};
-    use crate::synthesis::joint_free;
     use nalgebra::{Point3, Rotation3, Vector3};
+    use platform::geom::Pose;
+    use platform::manipulator::{Leg, Octahedral};
+    use synthesis::joint_free;
 
     fn octahedral() -> Manipulator {
         let joint = |r: f64, turn: f64, k: u32| {

@@ -6,7 +6,7 @@ use equipod::methods::geom::{Pose, random_rotation};
 use equipod::methods::manipulator::{LegLengths, Manipulator, Octahedral};
 use equipod::methods::num::Rng;
 use equipod::methods::synthesis::{
-    Family, HexagonPoint, InstantiateError, LegMapTolerances, Offset, Pattern, Relation, Symmetry, Topology,
+    Family, HexagonPoint, InstantiateError, LegMapTolerances, Offset, Pattern, Relation, Symmetry,
     edge_lengths, enumerate, joint_free, leg_map, moves, offsets_from_distances, reachable, representative,
 };
 use nalgebra::{Matrix6, Point3};
@@ -171,7 +171,7 @@ fn moves_change_the_topology_exactly_when_they_split_a_joint() {
         for step in moves(p) {
             let joints = |q: &Pattern| q.joints().iter().map(Vec::len).sum::<usize>();
             assert_eq!(joints(&step.to), joints(p) + usize::from(step.splits));
-            assert_eq!(Topology::of(&step.to) != Topology::of(p), step.splits, "{p} to {}", step.to);
+            assert_eq!(step.to.topology() != p.topology(), step.splits, "{p} to {}", step.to);
         }
     }
     // both legs of a pair, one after the other

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::platform::topology::{NamedTopology, catalogue};
+use platform::topology::{NamedTopology, catalogue};
 
 /// Which bodies have their joints in a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -7,7 +7,7 @@
 use num_complex::Complex64;
 
 use super::newton::{LegEquations, Point, solve};
-use crate::num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
+use num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
 
 /// Corrections that no longer shrink below this, relative to the largest of `e`, `g`, are rounding.
 const SETTLED: f64 = 1e-17;

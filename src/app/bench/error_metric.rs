@@ -2,8 +2,8 @@
 
 use num_complex::Complex64;
 
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use platform::geom::ComplexPose;
+use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 
 const QUADRATICS: usize = 10;
 /// Quadratic monomials times `1, t_1, t_2, t_3`, then squares of `e` times squares of `t`.

@@ -2,9 +2,9 @@
 //!
 //! Numbers drawn are multiples of `2^-12`, which keeps those that follow short: but for the thirds of a turn of hexapods they are doubles.
 
-use crate::num::Rng;
-use crate::num::surd::Surd;
-use crate::platform::manipulator::ExactEnds;
+use num::Rng;
+use num::surd::Surd;
+use platform::manipulator::ExactEnds;
 
 type Coordinates = [Surd; 3];
 

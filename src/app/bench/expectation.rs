@@ -6,7 +6,7 @@ use super::Class;
 use super::generator::{LengthsFrom, problem};
 use super::run::claims_of;
 use super::validator::validate;
-use crate::fk::{FkOptions, ForwardKinematics, PoseCounting};
+use fk::{FkOptions, ForwardKinematics, PoseCounting};
 
 /// Members solved to learn the count.
 const MEMBERS: u64 = 7;
@@ -25,11 +25,8 @@ pub(super) fn expected_count(
     for k in 0..MEMBERS {
         let Ok(member) = problem(class, lengths, seed ^ APART, k) else { continue };
         let counts = [1, 2].map(|start| {
-            let options = FkOptions {
-                seed: seed.wrapping_add(1_000 + start),
-                pose_count: PoseCounting::Never,
-                ..FkOptions::default()
-            };
+            let options =
+                FkOptions::new().seed(seed.wrapping_add(1_000 + start)).pose_count(PoseCounting::Never);
             let found = reference.solve(&member.manipulator, &member.squares, &options).ok()?;
             let claims = claims_of(&member, &found).0;
             Some(validate(&member, &claims, &[]).counted)

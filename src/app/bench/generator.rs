@@ -6,10 +6,10 @@ use thiserror::Error;
 use super::exact_members::{self, ExactMember};
 use super::singular::{close_pair, double_root};
 use super::{Class, Planar};
-use crate::num::Rng;
-use crate::platform::geom::{Pose, any_pose};
-use crate::platform::manipulator::{InvalidManipulator, Leg, Manipulator, SquaredLegLengths};
-use crate::platform::topology::NamedTopology;
+use num::Rng;
+use platform::geom::{Pose, any_pose};
+use platform::manipulator::{InvalidManipulator, Leg, Manipulator, SquaredLegLengths};
+use platform::topology::NamedTopology;
 
 /// Where leg lengths come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

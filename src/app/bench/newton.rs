@@ -8,9 +8,9 @@ use std::ops::{Div, Mul, Sub};
 use num_complex::Complex64;
 
 use super::dual::refine_dual;
-use crate::num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Body, Manipulator, SquaredLegLengths};
+use num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
+use platform::geom::ComplexPose;
+use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 
 const N: usize = 12;
 

@@ -6,10 +6,10 @@ use super::Class;
 use super::generator::{LengthsFrom, NotDrawn, problem};
 use super::run::RunError;
 use super::statistics::quantile;
-use crate::fk::{FkOptions, FkSolutions, ForwardKinematics, PoseCounting, Reality, Threads, in_order};
-use crate::num::Rng;
-use crate::platform::geom::{Pose, turn_between};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use fk::{FkOptions, FkSolutions, ForwardKinematics, PoseCounting, Reality, Threads, in_order};
+use num::Rng;
+use platform::geom::{Pose, turn_between};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Standard deviations of the relative error of a leg length that are looked at by default; the published figure ends at `8e-4`.
 pub const NOISE_LEVELS: [f64; 16] =
@@ -97,7 +97,7 @@ fn disturbed(s: &SquaredLegLengths, sigma: f64, n: &[f64; 6]) -> Option<SquaredL
 fn one(plan: &NoisePlan, solver: &dyn ForwardKinematics, k: u64) -> Result<Vec<Errors>, NotDrawn> {
     let (m, truth, n) = draw(plan.class, plan.seed, k)?;
     let exact = truth.squared_lengths(&m).ok_or(NotDrawn::Lengths)?;
-    let options = FkOptions { seed: plan.seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
+    let options = FkOptions::new().seed(plan.seed).pose_count(PoseCounting::Never);
     let at = |sigma: &f64| {
         let s = disturbed(&exact, *sigma, &n)?;
         errors(&solver.solve(&m, &s, &options).ok()?, &truth)
@@ -146,7 +146,7 @@ pub fn noise(plan: &NoisePlan, solver: &dyn ForwardKinematics) -> Result<Vec<Noi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::Homotopy;
+    use fk::Homotopy;
 
     #[test]
     fn angles_of_vectors_keep_their_digits_near_zero() {

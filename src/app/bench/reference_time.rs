@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use crate::num::dense::{eigenvalues, generalized_eigenpairs};
-use crate::num::linalg::LinalgError;
-use crate::num::{Purpose, Rng};
+use num::dense::{eigenvalues, generalized_eigenpairs};
+use num::linalg::LinalgError;
+use num::{Purpose, Rng};
 
 const RUNS: usize = 12;
 

@@ -11,9 +11,9 @@ use super::expectation::expected_count;
 use super::generator::{LengthsFrom, NotDrawn, Problem, problem};
 use super::statistics::{BenchReport, summarise};
 use super::validator::{Claim, Validation, validate};
-use crate::fk::solve::certify::Certifier;
-use crate::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, PoseCounting};
-use crate::platform::geom::ComplexPose;
+use fk::solve::certify::Certifier;
+use fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, PoseCounting};
+use platform::geom::ComplexPose;
 
 /// What to run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,11 +107,7 @@ pub(super) fn claims_of(problem: &Problem, found: &FkSolutions) -> (Vec<Claim>, 
 }
 
 fn starts(seed: u64) -> [FkOptions; 2] {
-    [1, 2].map(|k: u64| FkOptions {
-        seed: seed.wrapping_add(k * 7_919),
-        pose_count: PoseCounting::Never,
-        ..FkOptions::default()
-    })
+    [1, 2].map(|k: u64| FkOptions::new().seed(seed.wrapping_add(k * 7_919)).pose_count(PoseCounting::Never))
 }
 
 fn one(
@@ -122,11 +118,11 @@ fn one(
     reference: &dyn ForwardKinematics,
 ) -> Result<Outcome, NotDrawn> {
     let problem = problem(plan.class, plan.lengths, plan.seed, k)?;
-    let options = FkOptions {
-        seed: plan.seed,
-        pose_count: if plan.count_poses { PoseCounting::WhenUnproved } else { PoseCounting::Never },
-        ..FkOptions::default()
-    };
+    let options = FkOptions::new().seed(plan.seed).pose_count(if plan.count_poses {
+        PoseCounting::WhenUnproved
+    } else {
+        PoseCounting::Never
+    });
     let start = Instant::now();
     let solved = solver.solve(&problem.manipulator, &problem.squares, &options);
     let solve_us = start.elapsed().as_secs_f64() * 1e6;

@@ -3,9 +3,9 @@
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::generator::{NotDrawn, Problem, body, legs};
-use crate::num::Rng;
-use crate::platform::geom::{Pose, any_pose};
-use crate::platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use num::Rng;
+use platform::geom::{Pose, any_pose};
+use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 
 /// At a random pose the last base joint is moved so that the six leg lines belong to one linear complex (the leg's
 /// vector `d` normal to `v + w x R b` for the twist `(v, w)` reciprocal to the other five): two poses meet there, and
@@ -90,7 +90,7 @@ fn singular_design(rng: &mut Rng) -> Result<(Problem, Pose), NotDrawn> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::jacobian;
+    use platform::manipulator::jacobian;
 
     #[test]
     fn a_double_root_is_a_singular_pose_with_exactly_the_given_lengths() {

@@ -6,8 +6,8 @@
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::Manipulator;
+use platform::geom::ComplexPose;
+use platform::manipulator::Manipulator;
 
 /// Reflection `x -> x - 2 n (n.x - d)` in a plane that holds six leg ends.
 #[derive(Debug, Clone, Copy)]

@@ -2,10 +2,10 @@
 
 use num_complex::Complex64;
 
-use crate::fk::Reality;
-use crate::num::ball::Disc;
-use crate::num::double_double::ComplexDoubleDouble;
-use crate::platform::geom::ComplexPose;
+use fk::Reality;
+use num::ball::Disc;
+use num::double_double::ComplexDoubleDouble;
+use platform::geom::ComplexPose;
 
 use super::generator::Problem;
 use super::newton::{LegEquations, NewtonEnd, Point};
@@ -29,7 +29,7 @@ const CLAIMED: f64 = 4e-8;
 pub struct Claim {
     /// The pose.
     pub pose: ComplexPose,
-    /// The same as a dual quaternion, see [`FkRoot::dual_quaternion`](crate::fk::FkRoot::dual_quaternion).
+    /// The same as a dual quaternion, see [`FkRoot::dual_quaternion`](fk::FkRoot::dual_quaternion).
     pub dual_quaternion: Option<[Complex64; 8]>,
     /// Whether existence is claimed to be proved.
     pub certified: bool,

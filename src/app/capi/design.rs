@@ -8,8 +8,8 @@ use super::failure::{CallFault, EqpError, EqpStatus, give, items, places, read, 
 use super::pose::EqpPose;
 use crate::app::entrance::Error;
 use crate::files::design::{Design, Format, parse};
-use crate::machine::requirements::Requirements;
-use crate::platform::manipulator::{Leg, Manipulator, jacobian};
+use machine::requirements::Requirements;
+use platform::manipulator::{Leg, Manipulator, jacobian};
 
 /// A design. It does not change: threads may share it.
 #[derive(Debug)]

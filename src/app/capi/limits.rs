@@ -4,8 +4,8 @@ use super::design::EqpDesign;
 use super::failure::{CallFault, EqpError, EqpStatus, read, told, write};
 use super::pose::EqpPose;
 use crate::app::entrance::Error;
-use crate::machine::reach::{NearestPoseOptions, Reach, Travel};
-use crate::platform::geom::Pose;
+use machine::reach::{NearestPoseOptions, Reach, Travel};
+use platform::geom::Pose;
 
 /// How far one of the six numbers of a pose (x, y, z in design units; roll, pitch, yaw in degrees) may move while the others stay.
 #[repr(C)]

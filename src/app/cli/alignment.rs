@@ -11,13 +11,13 @@ use super::failure::Failure;
 use super::files::{self, OutputPath};
 use crate::app::records::{AlignmentRecord, FramesRecord};
 use crate::files::design::Design;
-use crate::num::linalg::LinalgError;
-use crate::num::shown::fixed;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
-use crate::synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
-use crate::synthesis::{LegMapOutcome, Relation};
-use crate::verify::judge;
+use num::linalg::LinalgError;
+use num::shown::fixed;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
+use synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
+use synthesis::{LegMapOutcome, Relation};
+use verify::judge;
 
 /// Options about the frames of the second design.
 #[derive(Debug, clap::Args)]

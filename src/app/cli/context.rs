@@ -12,8 +12,8 @@ use super::files;
 use super::rows;
 use crate::app::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 use crate::files::design::{Design, Format, Violation, Warning, parse, parse_ideal, parse_with_cranks};
-use crate::machine::coupled::CoupledLegs;
-use crate::machine::rotary::RotaryPlatform;
+use machine::coupled::CoupledLegs;
+use machine::rotary::RotaryPlatform;
 
 /// Options every command takes, before or after its name.
 #[derive(Debug, clap::Args)]

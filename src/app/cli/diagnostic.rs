@@ -9,7 +9,7 @@ use anstyle::{AnsiColor, Style};
 
 use super::failure::Failure;
 use crate::files::design::{Violation, Warning};
-use crate::num::names::changes_direction;
+use num::names::changes_direction;
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();

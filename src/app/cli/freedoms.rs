@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use crate::files::design::Design;
 use crate::files::plot::SliceAxis;
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 

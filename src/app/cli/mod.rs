@@ -36,7 +36,7 @@ use self::context::Context;
 use self::exit::Exit;
 use self::failure::Failure;
 use self::output::Output;
-use crate::num::rounding::check_arithmetic;
+use num::rounding::check_arithmetic;
 
 /// Runs the program on its arguments and returns its exit code. Panics inside are caught and reported.
 pub fn main(args: impl IntoIterator<Item = OsString>) -> ExitCode {

@@ -1,6 +1,6 @@
 //! Numbers in options, and in texts for people.
 
-use crate::num::shown::fixed;
+use num::shown::fixed;
 
 /// So many finite numbers separated by commas.
 pub(crate) fn parse<const N: usize>(text: &str) -> Option<[f64; N]> {

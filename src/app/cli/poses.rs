@@ -2,8 +2,8 @@
 
 use super::failure::Failure;
 use crate::files::design::{Design, Workspace};
-use crate::machine::requirements::PoseSpace;
-use crate::platform::geom::{InvalidPose, Pose};
+use machine::requirements::PoseSpace;
+use platform::geom::{InvalidPose, Pose};
 
 const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::exit::Exit;
 use crate::app::records::{AssessAnswer, MarginRecord, PoseQuaternionRecord, RegularityWord};
-use crate::machine::requirements::MarginVerdict;
+use machine::requirements::MarginVerdict;
 
 /// Width of a column of numbers in the table.
 const COLUMN: usize = 14;

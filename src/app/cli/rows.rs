@@ -6,7 +6,7 @@ use super::context::Context;
 use super::failure::Failure;
 use super::files;
 use crate::files::design::{InvalidSeries, SeriesKind, TimeSeries};
-use crate::platform::geom::{InvalidPose, Pose};
+use platform::geom::{InvalidPose, Pose};
 
 /// What a table is called when it is refused.
 #[derive(Debug, Clone, Copy)]

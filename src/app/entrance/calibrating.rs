@@ -4,14 +4,14 @@ use nalgebra::{DMatrix, Vector3};
 
 use super::Error;
 use crate::files::design::{CalibratedNumber, CalibrationTable, Correlations, Design};
-use crate::machine::calibration::{
+use machine::calibration::{
     CalibrateOptions, Calibration, CarriedFrames, LegModel, Measurement, Unknown, Unknowns, calibrate,
 };
-use crate::machine::manufacture::{Joint, MachineUncertainty, joints};
-use crate::machine::requirements::Terms;
-use crate::num::Purpose;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use machine::manufacture::{Joint, MachineUncertainty, joints};
+use machine::requirements::Terms;
+use num::Purpose;
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 impl Design {
     /// The joints and leg offsets of the machine that was built from this design, from poses and lengths that were measured on it: in the frames of the measured poses,
@@ -152,10 +152,10 @@ pub(crate) fn unknown_names(design: &Design, unknowns: &Unknowns) -> Vec<String>
 mod tests {
     use super::*;
     use crate::files::design::{Format, parse};
-    use crate::machine::calibration::{MeasurementNoise, pose_deviation};
-    use crate::num::Rng;
-    use crate::platform::geom::Angles;
+    use machine::calibration::{MeasurementNoise, pose_deviation};
     use nalgebra::Point3;
+    use num::Rng;
+    use platform::geom::Angles;
 
     #[test]
     fn a_written_calibration_leaves_as_much_open_as_the_one_in_memory() {

@@ -5,13 +5,13 @@ use nalgebra::{Point3, Vector3};
 use super::judging::{AssessReport, deciding};
 use super::moving::{MotionMasses, MotionReport, PlatformMotion};
 use crate::files::design::Design;
-use crate::machine::dynamics::{least_stiffness, mass_matrix, stiffness_matrix, vibration};
-use crate::machine::manufacture::{ErrorBound, PoseSearch, ToleranceError, joint_allowance};
-use crate::machine::requirements::{Terms, leg_forces};
-use crate::machine::rotary::RotaryPlatform;
-use crate::num::Purpose;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, jacobian};
+use machine::dynamics::{least_stiffness, mass_matrix, stiffness_matrix, vibration};
+use machine::manufacture::{ErrorBound, PoseSearch, ToleranceError, joint_allowance};
+use machine::requirements::{Terms, leg_forces};
+use machine::rotary::RotaryPlatform;
+use num::Purpose;
+use platform::geom::Pose;
+use platform::manipulator::{Body, jacobian};
 
 /// Steps between two poses of a trajectory.
 const STEPS: usize = 10;

@@ -7,8 +7,8 @@ use super::Error;
 use super::optimizing::OptimizeStatus;
 use super::platform_search::{FoundPlatform, find_platform};
 use crate::files::design::{Design, Drive};
-use crate::machine::requirements::TermKind;
-use crate::optimize::dimensional::{DimensionalOutcome, Progress, ShapeSearchOptions};
+use machine::requirements::TermKind;
+use optimize::dimensional::{DimensionalOutcome, Progress, ShapeSearchOptions};
 
 /// What decides between drives with which the requirements can be met.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -231,7 +231,7 @@ fn stronger<'t>(design: &Design, tried: &'t [SearchedDrive], drive: &Drive) -> O
 mod tests {
     use super::*;
     use crate::files::design::{Format, parse};
-    use crate::machine::requirements::LengthLimits;
+    use machine::requirements::LengthLimits;
 
     fn drive(name: &str, (least, stroke): (f64, f64), force: Option<f64>, price: Option<f64>) -> Drive {
         Drive {

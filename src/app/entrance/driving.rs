@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use super::judging::{ASSESS_CELLS, BRIEF_CELLS, PATIENT_CELLS, deciding};
 use super::{AssessReport, MotionMasses, MotionReport, PlatformMotion};
 use crate::files::design::{Design, DesignUnits, Drive};
-use crate::machine::requirements::{MarginProof, Requirements, least_conditioning, prove};
-use crate::synthesis::singularity::regular_workspace;
+use machine::requirements::{MarginProof, Requirements, least_conditioning, prove};
+use synthesis::singularity::regular_workspace;
 
 /// A drive with what it makes of a design.
 #[derive(Debug, Clone)]

@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 
 use super::Error;
 use crate::files::design::Design;
-use crate::fk::{FkOptions, Threads};
-use crate::num::Cancel;
-use crate::platform::geom::SamplePlan;
-use crate::synthesis::LegMapOutcome;
-use crate::verify::{Sample, Verification, VerifyError, VerifyRun, judge, verify_each};
+use fk::{FkOptions, Threads};
+use num::Cancel;
+use platform::geom::SamplePlan;
+use synthesis::LegMapOutcome;
+use verify::{Sample, Verification, VerifyError, VerifyRun, judge, verify_each};
 
 /// Sample poses where nothing is said.
 pub(crate) const SAMPLES: usize = 10;
@@ -109,10 +109,10 @@ pub fn verify(a: &Design, b: &Design) -> Result<Verification, Error> {
     verify_with(a, b, VerifyOptions::new())
 }
 
-/// As [`verify`], with options.
+/// As [`verify()`], with options.
 ///
 /// # Errors
-/// Those of [`verify`]; [`Error::Cancelled`].
+/// Those of [`verify()`]; [`Error::Cancelled`].
 pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result<Verification, Error> {
     same_units(a, b)?;
     let VerifyOptions { samples, seed, run, on_sample } = options;

@@ -11,18 +11,18 @@ use super::SingularHome;
 use crate::files::design::{JointError, Violation};
 #[cfg(feature = "files")]
 use crate::files::export::{NoExport, Unsupported};
-use crate::fk::FkError;
+use fk::FkError;
 #[cfg(feature = "synthesis")]
-use crate::machine::calibration::CalibrationError;
+use machine::calibration::CalibrationError;
 #[cfg(feature = "synthesis")]
-use crate::num::linalg::LinalgError;
-use crate::num::names::UnknownName;
-use crate::platform::geom::InvalidPose;
-use crate::platform::manipulator::{InvalidLengths, InvalidManipulator, NotOctahedral};
+use num::linalg::LinalgError;
+use num::names::UnknownName;
+use platform::geom::InvalidPose;
+use platform::manipulator::{InvalidLengths, InvalidManipulator, NotOctahedral};
 #[cfg(feature = "synthesis")]
-use crate::synthesis::{InstantiateError, ParsePatternError};
+use synthesis::{InstantiateError, ParsePatternError};
 #[cfg(feature = "synthesis")]
-use crate::verify::VerifyError;
+use verify::VerifyError;
 
 /// Why a question could not be asked or answered. An answer of "no", or "not known", is a value and no error.
 ///
@@ -147,11 +147,11 @@ pub enum Error {
     /// The offsets cannot be optimised as the design asks.
     #[cfg(feature = "optimize")]
     #[error(transparent)]
-    OffsetProblem(#[from] crate::optimize::offsets::InvalidOffsetProblem),
+    OffsetProblem(#[from] optimize::offsets::InvalidOffsetProblem),
     /// The platform cannot be optimised as the design asks.
     #[cfg(feature = "optimize")]
     #[error(transparent)]
-    DimensionalProblem(#[from] crate::optimize::dimensional::InvalidProblem),
+    DimensionalProblem(#[from] optimize::dimensional::InvalidProblem),
     /// The design asks for a front of several objectives, which is no single platform.
     #[cfg(feature = "optimize")]
     #[error("the design asks for a Pareto front: `equipod::methods::dimensional::pareto` computes fronts")]
@@ -186,11 +186,11 @@ fn listed(violations: &[Violation]) -> String {
 
 /// The parts of an error of cranks are errors of their own.
 #[cfg(feature = "files")]
-impl From<crate::machine::rotary::RotaryFkError> for Error {
-    fn from(error: crate::machine::rotary::RotaryFkError) -> Self {
+impl From<machine::rotary::RotaryFkError> for Error {
+    fn from(error: machine::rotary::RotaryFkError) -> Self {
         match error {
-            crate::machine::rotary::RotaryFkError::Manipulator(why) => Self::Manipulator(why),
-            crate::machine::rotary::RotaryFkError::Fk(why) => Self::Fk(why),
+            machine::rotary::RotaryFkError::Manipulator(why) => Self::Manipulator(why),
+            machine::rotary::RotaryFkError::Fk(why) => Self::Fk(why),
         }
     }
 }

@@ -3,33 +3,22 @@
 use super::Error;
 use crate::files::design::Design;
 use crate::files::export::{EquivalentOctahedral, Export, ExportFormat, ExportOptions, ExportedFile};
-#[cfg(feature = "synthesis")]
-use crate::machine::manufacture::equivalent_octahedral;
-#[cfg(feature = "synthesis")]
-use crate::platform::manipulator::{Manipulator, Octahedral};
-#[cfg(feature = "synthesis")]
-use crate::synthesis::{LegMapTolerances, leg_map};
+use machine::manufacture::equivalent_octahedral;
+use platform::manipulator::{Manipulator, Octahedral};
+use synthesis::{LegMapTolerances, leg_map};
 
 /// The octahedral platform that controllers may compute the poses of a design by: that of a design with one joint on each side of two triangles. `None` for a
-/// design that is octahedral itself, for others, and in a library without synthesis.
+/// design that is octahedral itself, and for others.
 pub(crate) fn octahedral_of_controllers(design: &Design) -> Option<EquivalentOctahedral> {
-    #[cfg(feature = "synthesis")]
-    {
-        let m = design.manipulator();
-        if Octahedral::recognise(&Manipulator::from_legs(m.legs()).ok()?).is_ok() {
-            return None;
-        }
-        let octahedral = equivalent_octahedral(m)?;
-        let found = leg_map(&octahedral, m, LegMapTolerances::default()).ok()?;
-        let back = found.map().filter(|_| found.is_regular_within_rounding())?.invert().ok()?;
-        let a = std::array::from_fn(|i| std::array::from_fn(|j| back.a[(i, j)]));
-        Some(EquivalentOctahedral { manipulator: octahedral, a, c: back.c.into() })
+    let m = design.manipulator();
+    if Octahedral::recognise(&Manipulator::from_legs(m.legs()).ok()?).is_ok() {
+        return None;
     }
-    #[cfg(not(feature = "synthesis"))]
-    {
-        let _ = design;
-        None
-    }
+    let octahedral = equivalent_octahedral(m)?;
+    let found = leg_map(&octahedral, m, LegMapTolerances::default()).ok()?;
+    let back = found.map().filter(|_| found.is_regular_within_rounding())?.invert().ok()?;
+    let a = std::array::from_fn(|i| std::array::from_fn(|j| back.a[(i, j)]));
+    Some(EquivalentOctahedral { manipulator: octahedral, a, c: back.c.into() })
 }
 
 impl Design {

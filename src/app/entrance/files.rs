@@ -6,7 +6,7 @@ use super::Error;
 #[cfg(not(target_family = "wasm"))]
 use super::whole::WholeFile;
 use crate::files::design::{Design, Format, SeriesKind, Violation, Warning, parse};
-use crate::platform::geom::InvalidPose;
+use platform::geom::InvalidPose;
 
 /// What reading a text gives.
 type DesignOrViolations = Result<(Design, Vec<Warning>), Vec<Violation>>;

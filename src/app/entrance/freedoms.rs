@@ -5,14 +5,14 @@ use std::ops::ControlFlow;
 use super::optimizing::{Checked, checked, dimensional_problem};
 use super::platform_search::keeps_symmetry_of_start;
 use crate::files::design::Design;
-use crate::machine::requirements::{Envelope, LengthLimits, PlateDesign, TermKind, VariableKind};
-use crate::optimize::dimensional::{
+use machine::requirements::{Envelope, LengthLimits, PlateDesign, TermKind, VariableKind};
+use optimize::dimensional::{
     ConstraintConflict, Demand, DimensionalOutcome, DimensionalProblem, DimensionalReport,
     DimensionalSolution, Give, Progress, ShapeSearchOptions, Triangles, meet, optimize,
 };
-use crate::optimize::offsets::DEFAULT_MIN_ABS_DET;
-use crate::platform::manipulator::Octahedral;
-use crate::verify::VerifyError;
+use optimize::offsets::DEFAULT_MIN_ABS_DET;
+use platform::manipulator::Octahedral;
+use verify::VerifyError;
 
 /// A freedom that a design does not have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

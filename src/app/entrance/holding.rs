@@ -1,8 +1,8 @@
 //! Do the legs or rods hold the platform at home?
 
 use crate::files::design::Design;
-use crate::platform::geom::Pose;
-use crate::synthesis::singularity::{Architecture, PoseHold, SingularEvidence, hold_at};
+use platform::geom::Pose;
+use synthesis::singularity::{Architecture, PoseHold, SingularEvidence, hold_at};
 
 /// A home pose at which the legs or rods do not hold the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]

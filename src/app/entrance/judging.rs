@@ -3,17 +3,17 @@
 use super::{Error, SingularHome};
 use crate::app::equivalents::Equivalents;
 use crate::files::design::{Design, Workspace};
-use crate::fk::solve::pose_count::{
+use fk::solve::pose_count::{
     CommonPoints, CountOptions, PoseCount, count_common_points, count_generic_poses,
 };
-use crate::fk::{Theorem, pose_bound};
-use crate::machine::requirements::{
+use fk::{Theorem, pose_bound};
+use machine::requirements::{
     AssessOptions, AssessStage, LeastConditioning, MarginBound, MarginProof, Requirements, RodRegularity,
     Terms, least_conditioning, least_rod_conditioning, prove_telling, regular_rods,
 };
-use crate::platform::geom::{PoseSpace, Region};
-use crate::platform::manipulator::{Level, Manipulator};
-use crate::synthesis::singularity::{
+use platform::geom::{PoseSpace, Region};
+use platform::manipulator::{Level, Manipulator};
+use synthesis::singularity::{
     Architecture, Assembly, BoxOptions, Conditioning, NearestSingular, Regularity, assembly, conditioning,
     nearest_singular, regular_workspace, singular_distance_at_least,
 };

@@ -2,15 +2,15 @@
 //!
 //! Nothing is computed here. Each question names the modules that answer it, with their defaults; the command line asks the same questions.
 
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub(crate) mod calibrating;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 mod comparing;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub(crate) mod drive_search;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub(crate) mod driving;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 mod equivalence;
 mod error;
 #[cfg(feature = "files")]
@@ -19,11 +19,11 @@ pub(crate) mod exporting;
 mod files;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub(crate) mod freedoms;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 mod holding;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 mod judging;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 mod moving;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub(crate) mod optimizing;
@@ -31,33 +31,33 @@ pub(crate) mod optimizing;
 pub(crate) mod platform_search;
 #[cfg(feature = "files")]
 mod reaching;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 mod reaching_space;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub(crate) mod rounding;
 mod solving;
 #[cfg(all(feature = "files", not(target_family = "wasm")))]
 pub(crate) mod whole;
 
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub(crate) use comparing::{DesignFigures, FigureOptions, Separation};
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub(crate) use equivalence::{SAMPLES, sample_plan};
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
 pub use error::Error;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub use holding::SingularHome;
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub use judging::{AssessReport, CheckReport};
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub(crate) use judging::{BOX_CELLS, JudgedPoses};
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub use optimizing::{OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus};
-#[cfg(all(feature = "files", feature = "synthesis"))]
+#[cfg(feature = "files")]
 pub(crate) use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
 #[cfg(feature = "python")]
 pub(crate) use solving::solve_angles;
-pub use solving::{Batch, Solver, Tracker};
+pub use solving::{Batch, Kinematics, Solver, Tracker};

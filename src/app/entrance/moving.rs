@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix6, Vector6};
 
 use crate::files::design::Design;
-use crate::machine::dynamics::{
+use machine::dynamics::{
     LeastStiffness, LegExtremes, LegInstant, LegMotion, Manoeuvre, MotionState, MovingBodies, PosePath,
     Vibration, drive_forces, least_stiffness, leg_motions, mass_matrix, stiffness_matrix, vibration,
 };
-use crate::machine::requirements::{Load, Margin, Term, TermKind, Terms};
-use crate::machine::rotary::{CrankMotion, RotaryPlatform};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Manipulator, leg_determinant};
-use crate::synthesis::singularity::{SingularEvidence, hold_at, singular_along, straight};
+use machine::requirements::{Load, Margin, Term, TermKind, Terms};
+use machine::rotary::{CrankMotion, RotaryPlatform};
+use platform::geom::Pose;
+use platform::manipulator::{Manipulator, leg_determinant};
+use synthesis::singularity::{SingularEvidence, hold_at, singular_along, straight};
 
 /// A motion of the platform.
 #[derive(Debug, Clone, PartialEq)]

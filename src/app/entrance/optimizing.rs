@@ -6,21 +6,21 @@ use super::equivalence::sample_plan;
 use super::platform_search::find_platform;
 use super::{AssessReport, Error, SingularHome};
 use crate::files::design::{Combination, Design, Origin};
-use crate::fk::{FkOptions, Threads};
-use crate::machine::requirements::{
+use fk::{FkOptions, Threads};
+use machine::requirements::{
     AssessOptions, Assessment, JointAxes, Objective, Requirements, StartSymmetry, TermKind, VariableKind,
     assess,
 };
-use crate::num::Cancel;
-use crate::optimize::dimensional::{
+use num::Cancel;
+use optimize::dimensional::{
     self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem,
     Mode, ShapeSearchOptions, Triangles, Variables, evaluate,
 };
-use crate::optimize::offsets::{self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator, Octahedral, inverse_condition, jacobian};
-use crate::synthesis::{joint_free, sliding_body};
-use crate::verify::{Verification, VerifyError, verify};
+use optimize::offsets::{self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution};
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator, Octahedral, inverse_condition, jacobian};
+use synthesis::{joint_free, sliding_body};
+use verify::{Verification, VerifyError, verify};
 
 /// Points of the dense evaluation, and as many random ones.
 const POINTS: usize = 5000;
@@ -565,7 +565,7 @@ pub(crate) fn dimensional_problem(design: &Design, extension: f64) -> Dimensiona
     };
     DimensionalProblem {
         characteristic_length: design.characteristic_length(),
-        min_abs_det: table.min_abs_det.unwrap_or(crate::optimize::offsets::DEFAULT_MIN_ABS_DET),
+        min_abs_det: table.min_abs_det.unwrap_or(optimize::offsets::DEFAULT_MIN_ABS_DET),
         manipulator: m.clone(),
         requirements,
         space,
@@ -629,7 +629,7 @@ fn judged(
 ) -> Result<Checked, VerifyError> {
     let space = problem.space.with_home(*home);
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
-    let options = AssessOptions { points: POINTS, seed, ..AssessOptions::default() };
+    let options = AssessOptions::new().points(POINTS).seed(seed);
     // the platform that is written, which may differ from that of the search by rounding
     let platform = out.manipulator();
     let assessment = assess(platform, &requirements, &space, &options);
@@ -701,7 +701,7 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     /// Over random triangles, leg orders and offsets: the joint `X` is where the design has it, the joint `X_Y` on the line of `X` and `Y` and on no vertex.
     #[test]

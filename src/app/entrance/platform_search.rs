@@ -6,14 +6,14 @@ use std::ops::ControlFlow;
 use super::Error;
 use super::optimizing::{Checked, OptimizeStatus, checked, dimensional_problem, dimensional_status};
 use crate::files::design::Design;
-use crate::machine::manufacture::holes_turn;
-use crate::machine::requirements::{KeptSymmetry, StartSymmetry};
-use crate::optimize::dimensional::{
+use machine::manufacture::holes_turn;
+use machine::requirements::{KeptSymmetry, StartSymmetry};
+use optimize::dimensional::{
     DimensionalProblem, DimensionalReport, DimensionalSolution, ParetoReport, Progress, ShapeSearchOptions,
     Triangles, optimize, optimize_without_conflict, pareto,
 };
-use crate::platform::manipulator::{Body, Octahedral};
-use crate::verify::VerifyError;
+use platform::manipulator::{Body, Octahedral};
+use verify::VerifyError;
 
 /// Whether the search keeps the three-fold symmetry of a design that names no symmetry: the design has it at home, the variables of `free`, the problem without it, could break it, and the holes that
 /// the design states turn with it.
@@ -144,9 +144,7 @@ impl FoundFront {
         symmetry: Option<StartSymmetry>,
         seed: u64,
     ) -> Result<Self, VerifyError> {
-        let of = |point: &crate::optimize::dimensional::ParetoPoint| {
-            checked(design, problem, &point.solution, seed)
-        };
+        let of = |point: &optimize::dimensional::ParetoPoint| checked(design, problem, &point.solution, seed);
         let members = report.front.iter().map(of).collect::<Result<Vec<Checked>, VerifyError>>()?;
         Ok(Self { report, members, symmetry })
     }

@@ -2,8 +2,8 @@
 
 use super::Error;
 use crate::files::design::Design;
-use crate::machine::reach::{FreeRange, NearestPose, NearestPoseOptions, Reach};
-use crate::platform::geom::Pose;
+use machine::reach::{FreeRange, NearestPose, NearestPoseOptions, Reach};
+use platform::geom::Pose;
 
 impl Design {
     /// How far each of the six numbers of a pose (x, y, z, roll, pitch, yaw) may move before a requirement of the design binds or a singular pose is passed, the others staying as they are; `None` where the
@@ -45,7 +45,7 @@ impl Design {
     }
 
     /// The limits of the design made ready.
-    pub(crate) fn reach<'a>(&'a self, required: &'a crate::machine::requirements::Requirements) -> Reach<'a> {
+    pub(crate) fn reach<'a>(&'a self, required: &'a machine::requirements::Requirements) -> Reach<'a> {
         Reach::new(self.manipulator(), required, &self.home_or_default(), self.characteristic_length())
     }
 }

@@ -4,9 +4,9 @@ use nalgebra::Vector3;
 
 use super::judging::regular_region;
 use crate::files::design::Design;
-use crate::machine::reach::{FreeRay, largest_box_within, volume_of_rays};
-use crate::machine::requirements::{AssessOptions, Limit, Requirements, assess, prove};
-use crate::platform::geom::{Pose, PoseSpace, Region};
+use machine::reach::{FreeRay, largest_box_within, volume_of_rays};
+use machine::requirements::{AssessOptions, Limit, Requirements, assess, prove};
+use platform::geom::{Pose, PoseSpace, Region};
 
 /// Directions in which ways and turns are followed, where nothing is said.
 pub(crate) const RAYS: usize = 1000;
@@ -171,7 +171,7 @@ impl Around<'_> {
         let (m, options) = (self.design.manipulator(), self.options());
         let proof = prove(m, self.required, space, &options, CELLS);
         let bounds = || proof.bounds.iter().filter(|b| !b.found.term.kind.is_fixed());
-        let violated = |b: &&crate::machine::requirements::MarginBound| b.verdict.is_met() == Some(false);
+        let violated = |b: &&machine::requirements::MarginBound| b.verdict.is_met() == Some(false);
         if let Some(b) = bounds().find(violated) {
             return Judged::Violated(Limit::Term(b.found.term), b.found.value);
         }

@@ -12,13 +12,13 @@ use super::Error;
 #[cfg(feature = "optimize")]
 use super::optimizing::{EXTENSION, checked, dimensional_problem, met_or_nothing_required};
 use crate::files::design::Design;
-use crate::machine::manufacture::{NoRounding, Rounding, RoundingProblem, round_to_grid};
-use crate::machine::requirements::{Grid, HolePattern};
+use machine::manufacture::{NoRounding, Rounding, RoundingProblem, round_to_grid};
+use machine::requirements::{Grid, HolePattern};
 #[cfg(feature = "optimize")]
-use crate::machine::requirements::{Requirements, Reserve, VariableKind};
+use machine::requirements::{Requirements, Reserve, VariableKind};
 #[cfg(feature = "optimize")]
-use crate::optimize::dimensional::{self, DimensionalProblem, Progress, ShapeSearchOptions};
-use crate::platform::manipulator::{Body, Manipulator};
+use optimize::dimensional::{self, DimensionalProblem, Progress, ShapeSearchOptions};
+use platform::manipulator::{Body, Manipulator};
 
 /// Share of the inverse condition number that an exact rounding has to keep to be chosen, where nothing is said.
 pub(crate) const KEEP: f64 = 0.9;

@@ -5,37 +5,58 @@ use std::sync::Arc;
 use super::Error;
 #[cfg(feature = "files")]
 use crate::files::design::Design;
-use crate::fk::{
+use fk::{
     FkOptions, FkSolutions, ForwardKinematics, NearOutcome, NearSolver, PreparedDesign, Threads, solver,
 };
 #[cfg(feature = "python")]
-use crate::machine::rotary::RotaryPlatform;
-use crate::num::Cancel;
-use crate::num::stream::Stream;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
+use machine::rotary::RotaryPlatform;
+use num::Cancel;
+use num::stream::Stream;
+use platform::geom::Pose;
+use platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
 
-impl Manipulator {
+/// Inverse and forward kinematics of a [`Manipulator`], which has no names, units or home; a `Design` has the same methods as its own.
+pub trait Kinematics {
     /// Forward kinematics: all finite poses, real and complex, at these leg lengths.
     ///
     /// # Errors
     /// Values that are no lengths; a computation that broke down.
-    pub fn fk<L: TryInto<LegLengths>>(&self, lengths: L) -> Result<FkSolutions, Error>
+    fn fk<L: TryInto<LegLengths>>(&self, lengths: L) -> Result<FkSolutions, Error>
+    where
+        Error: From<L::Error>;
+
+    /// As [`fk`](Self::fk), with options.
+    ///
+    /// # Errors
+    /// Those of [`fk`](Self::fk); a method that does not apply.
+    fn fk_with<L: TryInto<LegLengths>>(&self, lengths: L, options: FkOptions) -> Result<FkSolutions, Error>
+    where
+        Error: From<L::Error>;
+
+    /// Inverse kinematics: the leg lengths at a pose.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] for a pose so far away that lengths overflow.
+    fn ik(&self, pose: &Pose) -> Result<LegLengths, Error>;
+
+    /// Forward kinematics prepared for many lengths.
+    #[must_use]
+    fn solver(&self, options: FkOptions) -> Solver;
+
+    /// One real pose followed from lengths to lengths, for control loops.
+    #[must_use]
+    fn tracker(&self, start: Pose) -> Tracker;
+}
+
+impl Kinematics for Manipulator {
+    fn fk<L: TryInto<LegLengths>>(&self, lengths: L) -> Result<FkSolutions, Error>
     where
         Error: From<L::Error>,
     {
         self.fk_with(lengths, FkOptions::new())
     }
 
-    /// As [`fk`](Self::fk), with options.
-    ///
-    /// # Errors
-    /// Those of [`fk`](Self::fk); a method that does not apply.
-    pub fn fk_with<L: TryInto<LegLengths>>(
-        &self,
-        lengths: L,
-        options: FkOptions,
-    ) -> Result<FkSolutions, Error>
+    fn fk_with<L: TryInto<LegLengths>>(&self, lengths: L, options: FkOptions) -> Result<FkSolutions, Error>
     where
         Error: From<L::Error>,
     {
@@ -43,23 +64,15 @@ impl Manipulator {
         Ok(solver(options.method).solve(self, &squares, &options)?)
     }
 
-    /// Inverse kinematics: the leg lengths at a pose.
-    ///
-    /// # Errors
-    /// [`Error::Overflow`] for a pose so far away that lengths overflow.
-    pub fn ik(&self, pose: &Pose) -> Result<LegLengths, Error> {
+    fn ik(&self, pose: &Pose) -> Result<LegLengths, Error> {
         pose.lengths(self).ok_or(Error::Overflow)
     }
 
-    /// Forward kinematics prepared for many lengths.
-    #[must_use]
-    pub fn solver(&self, options: FkOptions) -> Solver {
+    fn solver(&self, options: FkOptions) -> Solver {
         Solver::new(self.clone(), options)
     }
 
-    /// One real pose followed from lengths to lengths, for control loops.
-    #[must_use]
-    pub fn tracker(&self, start: Pose) -> Tracker {
+    fn tracker(&self, start: Pose) -> Tracker {
         Tracker { solver: NearSolver::new(self), pose: start, offsets: [0.0; 6] }
     }
 }

@@ -6,8 +6,8 @@ use super::plane::square;
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
 use crate::files::design::Design;
-use crate::machine::requirements::{AssessOptions, Requirements, Terms, ViolationSearch};
-use crate::platform::geom::Pose;
+use machine::requirements::{AssessOptions, Requirements, Terms, ViolationSearch};
+use platform::geom::Pose;
 
 /// What stands where the offsets give no platform: joints or legs of it coincide.
 const NO_PLATFORM: &str = "no_platform";
@@ -60,7 +60,7 @@ pub(super) fn record(
                 search = ViolationSearch::new(&space_of(&design), options);
             }
             let kind = search.violated(design.manipulator(), &design.requirements());
-            violated.push(kind.map(crate::machine::requirements::TermKind::code));
+            violated.push(kind.map(machine::requirements::TermKind::code));
         }
     }
     Ok(FeasibleRecord { points, low: range[0], high: range[1], poses: search.poses(), violated })

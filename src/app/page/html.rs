@@ -9,7 +9,7 @@ use super::request::{Chosen, Opening, Request, Which};
 use super::session::Session;
 use crate::app::records::PoseRecord;
 use crate::files::plot::escape;
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// The core compiled to WebAssembly, compressed by gzip; `tests/page/README.md` says how it is made and compared with its sources.
 #[cfg(not(target_arch = "wasm32"))]

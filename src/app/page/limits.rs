@@ -4,7 +4,7 @@ use super::request::Refusal;
 use crate::app::entrance::Error;
 use crate::app::records::AssessAnswer;
 use crate::files::design::Design;
-use crate::machine::requirements::AssessOptions;
+use machine::requirements::AssessOptions;
 
 /// What [`Design::assess`] finds with these numbers; a design that requires nothing is refused as there.
 pub(super) fn record(

@@ -7,11 +7,11 @@ use super::scene::sign;
 use super::session::Session;
 use crate::app::records::PoseRecord;
 use crate::files::design::Design;
-use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
-use crate::machine::rotary::RotaryPlatform;
-use crate::platform::geom::{ComplexPose, Pose, turn_between};
-use crate::platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
-use crate::verify::match_poses;
+use fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
+use machine::rotary::RotaryPlatform;
+use platform::geom::{ComplexPose, Pose, turn_between};
+use platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
+use verify::match_poses;
 
 /// All poses of two platforms.
 #[derive(Debug, Serialize)]
@@ -80,7 +80,7 @@ pub(super) fn confirm(
     at: &Pose,
 ) -> Result<ConfirmedRecord, Refusal> {
     // as in `verify`: not looked for are poses so far out that the rounding of the joints decides whether there are any
-    let options = FkOptions { pose_count: PoseCounting::Never, ..FkOptions::default() };
+    let options = FkOptions::new().pose_count(PoseCounting::Never);
     let poses = |m: &Manipulator| solve_with(m, at_pose(m, at)?, &options);
     let (a, b) = (poses(first)?, poses(second)?);
     let all = |s: &FkSolutions| s.roots.iter().map(|r| r.pose).collect::<Vec<_>>();

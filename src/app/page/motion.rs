@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use crate::app::records::PoseRecord;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
-use crate::synthesis::singularity::{CurveEnd, MotionCurve, MotionOptions, self_motion};
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
+use synthesis::singularity::{CurveEnd, MotionCurve, MotionOptions, self_motion};
 
 /// Most poses of an animation.
 const FRAMES: usize = 240;

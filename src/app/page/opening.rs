@@ -7,12 +7,10 @@ use super::session::{Equivalent, Session};
 use crate::app::equivalents::Original;
 use crate::app::records::PoseRecord;
 use crate::files::design::Design;
-use crate::machine::requirements::Hardware;
-use crate::platform::manipulator::Body;
-use crate::synthesis::singularity::{Architecture, rounded_singular};
-use crate::synthesis::{
-    Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,
-};
+use machine::requirements::Hardware;
+use platform::manipulator::Body;
+use synthesis::singularity::{Architecture, rounded_singular};
+use synthesis::{Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body};
 
 /// A design with what a page can do about it.
 #[derive(Debug, Serialize)]

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use super::session::Session;
 use crate::app::records::PoseRecord;
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// Steps between two poses of a trajectory.
 const STEPS: usize = 24;

@@ -7,9 +7,9 @@ use super::session::{Equivalent, InvalidStart, Session};
 use super::{begin, feasible, limits, modes, motion, opening, path, plane, scene, surface, worst};
 use crate::app::records::PoseRecord;
 use crate::files::design::{Format, parse_ideal};
-use crate::machine::requirements::AssessOptions;
-use crate::platform::geom::{Angles, Pose};
-use crate::synthesis::Pattern;
+use machine::requirements::AssessOptions;
+use platform::geom::{Angles, Pose};
+use synthesis::Pattern;
 
 /// Which platform of the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

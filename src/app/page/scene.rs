@@ -9,11 +9,11 @@ use super::request::Refusal;
 use super::session::{Equivalent, Session};
 use crate::app::records::{CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
 use crate::files::design::Design;
-use crate::machine::requirements::{Margin, Term, TermKind, Terms};
-use crate::machine::rotary::RotaryPlatform;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
-use crate::synthesis::AffineLegMap;
+use machine::requirements::{Margin, Term, TermKind, Terms};
+use machine::rotary::RotaryPlatform;
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
+use synthesis::AffineLegMap;
 
 /// Below this a singular value is not told from zero.
 const ROUNDING: f64 = 1e-13;

@@ -4,11 +4,11 @@ use thiserror::Error;
 
 use crate::app::equivalents::Original;
 use crate::files::design::Design;
-use crate::machine::rotary::RotaryPlatform;
-use crate::optimize::offsets::OffsetProblem;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
-use crate::synthesis::{AffineLegMap, InstantiateError, Pattern};
+use machine::rotary::RotaryPlatform;
+use optimize::offsets::OffsetProblem;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
+use synthesis::{AffineLegMap, InstantiateError, Pattern};
 
 /// A design with what its page needs to know: the octahedral platform behind it, home, and where the offsets begin.
 #[derive(Debug, Clone)]

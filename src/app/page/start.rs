@@ -2,9 +2,9 @@
 
 use super::session::{InvalidStart, Session};
 use crate::app::equivalents::Original;
-use crate::machine::requirements::{Requirements, Standing, Terms};
-use crate::platform::manipulator::{Body, inverse_condition, jacobian};
-use crate::synthesis::{Offset, Pattern, sliding_body};
+use machine::requirements::{Requirements, Standing, Terms};
+use platform::manipulator::{Body, inverse_condition, jacobian};
+use synthesis::{Offset, Pattern, sliding_body};
 
 /// Offsets that are tried, on all edges of a body alike.
 const SHARES: [f64; 12] = [0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9];

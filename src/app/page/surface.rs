@@ -9,8 +9,8 @@ use super::scene::sign;
 use super::session::Equivalent;
 use crate::files::design::Design;
 use crate::files::plot::{TriangleSurface, ValueBox};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::jacobian;
+use platform::geom::Pose;
+use platform::manipulator::jacobian;
 
 /// Most points a side.
 const MOST: usize = 61;

@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 use super::{Session, page};
 use crate::app::records::AssessAnswer;
 use crate::files::design::{Design, Format, PRESETS, parse};
-use crate::machine::requirements::{AssessOptions, assess};
-use crate::platform::geom::{Angles, Pose};
-use crate::synthesis::{LegMapTolerances, leg_map};
+use machine::requirements::{AssessOptions, assess};
+use platform::geom::{Angles, Pose};
+use synthesis::{LegMapTolerances, leg_map};
 
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
 const EQUIVALENT: &str = include_str!("../../../designs/rbt-griffis-duffy.toml");
@@ -483,7 +483,7 @@ fn the_surface_of_singular_positions_is_where_the_sign_of_det_j_changes() {
         let found = ask(&session, &request(&turned));
         assert_eq!(found["everywhere"], json!(false));
         let det = |p: nalgebra::Vector3<f64>| {
-            crate::platform::manipulator::jacobian(m, &Pose { position: p, ..turned }, l).determinant()
+            platform::manipulator::jacobian(m, &Pose { position: p, ..turned }, l).determinant()
         };
         let [low, high] = ["low", "high"].map(|end| numbers(&found["surface"][end]));
         let cell: Vec<f64> = low.iter().zip(&high).map(|(a, b)| (b - a) / 12.0).collect();

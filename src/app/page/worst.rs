@@ -8,8 +8,8 @@ use super::request::Refusal;
 use super::session::{Equivalent, Session};
 use crate::app::records::PoseRecord;
 use crate::files::design::Design;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Manipulator, inverse_condition, jacobian};
+use platform::geom::Pose;
+use platform::manipulator::{Manipulator, inverse_condition, jacobian};
 
 /// The worst conditioning of the platforms.
 #[derive(Debug, Serialize)]

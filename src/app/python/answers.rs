@@ -12,7 +12,7 @@ use super::failure::{interrupted, raised};
 use crate::app::entrance::{self, VerifyOptions, sample_plan};
 use crate::app::records::{Document, FramesRecord, MapAnswer, ProvenanceRecord, VerifyAnswer};
 use crate::files::design::{self, PRESETS};
-use crate::synthesis::LegCorrespondence;
+use synthesis::LegCorrespondence;
 
 /// The document of an answer about designs, as the command line prints it.
 pub(super) fn document(

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use super::failure::{raised, refused};
 use crate::app::entrance::Error;
-use crate::platform::geom::{ComplexPose, InvalidPose, Pose};
+use platform::geom::{ComplexPose, InvalidPose, Pose};
 
 /// Why a computation at many poses ended: the matrix of one of them, or what was computed of it.
 pub(super) enum PoseFault {

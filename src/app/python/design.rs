@@ -16,13 +16,13 @@ use super::tracker::{Followed, NativeTracker};
 use crate::app::entrance::{Error, Solver, solve_angles};
 use crate::app::records::{AssessAnswer, CheckAnswer};
 use crate::files::design::{self, Format, PRESETS, parse_ideal};
-use crate::fk::{FkOptions, Method, Threads};
-use crate::machine::requirements::{AssessOptions, Terms};
-use crate::machine::rotary::{InvalidRotary, RotaryPlatform, RotaryTracker};
-use crate::num::Cancel;
-use crate::platform::manipulator::{Body, Manipulator, NoSuchBody, jacobian_of_legs};
-use crate::synthesis::InstantiateError;
-use crate::synthesis::singularity::Architecture;
+use fk::{FkOptions, Method, Threads};
+use machine::requirements::{AssessOptions, Terms};
+use machine::rotary::{InvalidRotary, RotaryPlatform, RotaryTracker};
+use num::Cancel;
+use platform::manipulator::{Body, Manipulator, NoSuchBody, jacobian_of_legs};
+use synthesis::InstantiateError;
+use synthesis::singularity::Architecture;
 
 /// Above this `abs(det A)` is not zero whatever rounding did to it.
 const CLEARLY_REGULAR: f64 = 1e-6;
@@ -99,8 +99,7 @@ fn options(py: Python<'_>, seed: u64, method: Option<&str>) -> PyResult<FkOption
     match method {
         None => Ok(options),
         Some(name) => {
-            let method: Method =
-                name.parse().map_err(|e: crate::num::names::UnknownName| raised(py, e.into()))?;
+            let method: Method = name.parse().map_err(|e: num::names::UnknownName| raised(py, e.into()))?;
             Ok(options.method(method))
         }
     }
@@ -474,7 +473,7 @@ impl NativeDesign {
 
     /// The files of a format: names and texts.
     fn export(&self, py: Python<'_>, format: &str) -> PyResult<Vec<(String, String)>> {
-        let format = format.parse().map_err(|e: crate::num::names::UnknownName| raised(py, e.into()))?;
+        let format = format.parse().map_err(|e: num::names::UnknownName| raised(py, e.into()))?;
         let files = py.detach(|| self.design.export(format)).map_err(|e| raised(py, e))?;
         Ok(files.into_iter().map(|f| (f.name, f.text)).collect())
     }

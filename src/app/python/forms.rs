@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use super::arrays::{poses_in, rotations};
 use super::failure::{raised, refused};
-use crate::platform::geom::{Angles, Pose};
+use platform::geom::{Angles, Pose};
 
 /// Roll, pitch and yaw in radians, shape (n, 3), of poses (n, 4, 4).
 #[pyfunction]

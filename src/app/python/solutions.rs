@@ -14,8 +14,8 @@ use super::failure::raised;
 use crate::app::entrance::Error;
 use crate::app::records::{FkOneAnswer, SolvedRecord};
 use crate::files::design::Design;
-use crate::fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
-use crate::machine::rotary::RotaryPlatform;
+use fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
+use machine::rotary::RotaryPlatform;
 
 /// 1 for a real pose, 0 for one that is not, -1 where it is not decided.
 fn reality(root: &FkRoot) -> i8 {

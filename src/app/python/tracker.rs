@@ -6,10 +6,10 @@ use pyo3::prelude::*;
 use super::arrays::{as_it_stands, lengths_in, matrices};
 use super::failure::{interrupted, raised};
 use crate::app::entrance::{self, Error};
-use crate::fk::NearOutcome;
-use crate::machine::rotary::RotaryTracker;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::LegLengths;
+use fk::NearOutcome;
+use machine::rotary::RotaryTracker;
+use platform::geom::Pose;
+use platform::manipulator::LegLengths;
 
 /// Rows between two looks for signals: some milliseconds.
 const SIGNALS: usize = 1024;

@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 use super::{Number, PoseQuaternionRecord, PoseRecord};
 use crate::app::entrance::calibrating::{carried, unknown_names};
 use crate::files::design::Design;
-use crate::machine::calibration::{
+use machine::calibration::{
     Calibration, CalibrationStatus, CarriedFrames, FrameMotion, LegModel, Loss, LossUnit, MeasurementNoise,
     NoiseSource, Observability, Outlier, PoseDeviation, ResidualSpread, StartName, UnobservableChange,
     pose_deviation,
 };
-use crate::num::shown::fixed;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use num::shown::fixed;
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 /// The answer of `calibrate`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

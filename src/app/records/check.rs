@@ -8,10 +8,10 @@ use super::pose::leg_numbers;
 use super::{NamedPoints, Number, PoseRecord, SingularEvidenceWord};
 use crate::app::entrance::CheckReport;
 use crate::files::design::{Design, DesignExactness, Exactness};
-use crate::fk::Theorem;
-use crate::fk::solve::pose_count::CommonPoints;
-use crate::platform::manipulator::{LegLengths, Level};
-use crate::synthesis::singularity::{
+use fk::Theorem;
+use fk::solve::pose_count::CommonPoints;
+use platform::manipulator::{LegLengths, Level};
+use synthesis::singularity::{
     Architecture, Assembly, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound,
     RationalPose,
 };

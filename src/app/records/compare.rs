@@ -279,7 +279,7 @@ impl CompareAnswer {
         let mut kinds: Vec<_> = all().map(|m| m.name).collect();
         kinds.sort_unstable();
         kinds.dedup();
-        let column = |kind: crate::machine::requirements::TermKind| {
+        let column = |kind: machine::requirements::TermKind| {
             let margin = |d: &FiguresRecord| {
                 let found = d.assessment.as_ref()?.requirements.iter().find(|m| m.name == kind)?;
                 Some(FigureCell::Number(found.margin.0, found.violates()))

@@ -5,8 +5,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, leg_number};
-use crate::platform::manipulator::{Leg, LegIndex};
-use crate::synthesis::components::{
+use platform::manipulator::{Leg, LegIndex};
+use synthesis::components::{
     Component, Components, CubicPencil, Decision, ExactCurve, FlatPair, MovingPoint, NoExactCurve,
     Parametrisation, PlaneCurve, SampledLeg, flat_name,
 };
@@ -321,7 +321,7 @@ impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
             Ok(curve) => curve,
             Err(reason) => return Self::None { reason: reason.to_string() },
         };
-        let part = |p: &crate::synthesis::components::ExactPart| ExactPartRecord {
+        let part = |p: &synthesis::components::ExactPart| ExactPartRecord {
             kind: p.kind.as_str().into(),
             degree: p.degree,
             coefficients: p.coefficients.clone(),

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Number;
-use crate::machine::coupled::{CoupledOutcome, CoupledStatus, DriveState};
+use machine::coupled::{CoupledOutcome, CoupledStatus, DriveState};
 
 /// The drives at a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -10,9 +10,9 @@ use super::{
 };
 use crate::app::entrance::Separation;
 use crate::app::entrance::rounding::{DesignOnHoles, RoundingWay};
-use crate::fk::FkSolutions;
-use crate::machine::manufacture::{NoRounding, RoundedJoint};
-use crate::verify::Verification;
+use fk::FkSolutions;
+use machine::manufacture::{NoRounding, RoundedJoint};
+use verify::Verification;
 
 /// The poses of the original, with the lengths they belong to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

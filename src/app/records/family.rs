@@ -7,8 +7,8 @@ use super::map::matrix;
 use super::{Number, leg_number};
 use crate::app::equivalents::Original;
 use crate::files::design::Design;
-use crate::platform::manipulator::Body;
-use crate::synthesis::{
+use platform::manipulator::Body;
+use synthesis::{
     AffineLegMap, Family, FamilyCounts, FamilyMember, HexagonPoint, InstantiateError, JointLabel, Pattern,
     edge_lengths,
 };
@@ -221,8 +221,8 @@ pub struct FamilyTopologyRecord {
     pub next: Vec<usize>,
 }
 
-impl From<(usize, &crate::synthesis::FamilyTopology)> for FamilyTopologyRecord {
-    fn from((k, t): (usize, &crate::synthesis::FamilyTopology)) -> Self {
+impl From<(usize, &synthesis::FamilyTopology)> for FamilyTopologyRecord {
+    fn from((k, t): (usize, &synthesis::FamilyTopology)) -> Self {
         Self {
             topology: k + 1,
             base_joints: t.topology.base_joints(),

@@ -14,14 +14,14 @@ pub use self::closure::{
 };
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
 use super::{ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number};
-use crate::fk::solve::pose_count::{CountedLengths, PoseSet};
-use crate::fk::{
+use fk::solve::pose_count::{CountedLengths, PoseSet};
+use fk::{
     Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
     SolutionSet,
 };
-use crate::machine::rotary::RotaryPlatform;
-use crate::platform::geom::{ComplexPose, Pose};
-use crate::platform::manipulator::{Manipulator, height_above_base};
+use machine::rotary::RotaryPlatform;
+use platform::geom::{ComplexPose, Pose};
+use platform::manipulator::{Manipulator, height_above_base};
 
 /// The answer of `fk`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -7,11 +7,11 @@ use super::{
     DriveLengthsRecord, Number, PoseRecord, PoseUncertaintyRecord, RotaryIkRecord, RotaryIkRowsAnswer,
 };
 use crate::files::design::Design;
-use crate::machine::coupled::{CoupledLegs, DriveState};
-use crate::machine::manufacture::MachineUncertainty;
-use crate::machine::requirements::{JointAngles, TermKind, Terms};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{inverse_condition, jacobian};
+use machine::coupled::{CoupledLegs, DriveState};
+use machine::manufacture::MachineUncertainty;
+use machine::requirements::{JointAngles, TermKind, Terms};
+use platform::geom::Pose;
+use platform::manipulator::{inverse_condition, jacobian};
 
 /// The answer of `ik`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

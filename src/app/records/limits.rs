@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::{Number, PoseQuaternionRecord};
 use crate::app::entrance::{FreeSize, FreeTurn, WorkspaceSize};
 use crate::files::design::Design;
-use crate::machine::reach::{FreeRange, NearestPose, PoseAxis, Reach, StraightWay, Travel};
-use crate::machine::requirements::{Limit, TermKind};
-use crate::platform::geom::Pose;
+use machine::reach::{FreeRange, NearestPose, PoseAxis, Reach, StraightWay, Travel};
+use machine::requirements::{Limit, TermKind};
+use platform::geom::Pose;
 
 /// The answer of `limits`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

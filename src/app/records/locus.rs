@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Number;
 use crate::files::plot::LocusMeeting;
-use crate::fk::Method;
+use fk::Method;
 
 /// The answer of `plot locus`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,11 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, leg_number};
-use crate::platform::manipulator::Level;
-use crate::synthesis::alignment::{
-    Alignment, AlignmentUndecided, Difference, Invariant, Motion, NearestMotion,
-};
-use crate::synthesis::{AffineLegMap, LegCorrespondence, LegMapOutcome, Relation};
+use platform::manipulator::Level;
+use synthesis::alignment::{Alignment, AlignmentUndecided, Difference, Invariant, Motion, NearestMotion};
+use synthesis::{AffineLegMap, LegCorrespondence, LegMapOutcome, Relation};
 
 /// The answer of `equivalents map`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::{MarginRecord, Number, PoseQuaternionRecord};
 use crate::app::entrance::{MotionReport, StiffnessReport, TimedMargin};
 use crate::files::design::Design;
-use crate::machine::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vibration};
-use crate::synthesis::singularity::SingularEvidence;
+use machine::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vibration};
+use synthesis::singularity::SingularEvidence;
 
 /// The answer of `motion`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

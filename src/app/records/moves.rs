@@ -4,12 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{AssessAnswer, DesignRecord, LegEndsRecord, MapRecord, Number};
-use crate::platform::manipulator::Body;
-use crate::synthesis::Relation;
-use crate::synthesis::relocate::SingularParameters;
-use crate::synthesis::relocate::search::{
-    self, Hole, HoleAnswer, Impossibility, SearchVerdict, WishMargin, Wishes,
-};
+use platform::manipulator::Body;
+use synthesis::Relation;
+use synthesis::relocate::SingularParameters;
+use synthesis::relocate::search::{self, Hole, HoleAnswer, Impossibility, SearchVerdict, WishMargin, Wishes};
 
 /// The answer of `equivalents move`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, PoseUncertaintyRecord};
-use crate::fk::NearOutcome;
-use crate::platform::geom::Pose;
+use fk::NearOutcome;
+use platform::geom::Pose;
 
 /// The way from the start to the pose reached, with the numbers that prove it free of singularities.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

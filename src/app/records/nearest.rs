@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::{DesignRecord, Number, PoseQuaternionRecord, SourceWord};
 use crate::app::equivalents::NearestDesigns;
 use crate::files::design::Design;
-use crate::platform::geom::Pose;
-use crate::synthesis::{LengthDeviation, NearestOptions, length_deviation};
+use platform::geom::Pose;
+use synthesis::{LengthDeviation, NearestOptions, length_deviation};
 
 /// The answer of `equivalents nearest`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

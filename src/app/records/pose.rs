@@ -9,9 +9,9 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Number;
-use crate::num::shown::fixed;
-use crate::platform::geom::{Pose, nearest_rotation};
-use crate::platform::manipulator::LegIndex;
+use num::shown::fixed;
+use platform::geom::{Pose, nearest_rotation};
+use platform::manipulator::LegIndex;
 
 /// A pose: a platform point x is at R x + p in the base frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

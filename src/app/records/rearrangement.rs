@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::topologies::joint_pairs;
-use crate::platform::manipulator::Body;
-use crate::synthesis::rearrangement::{
+use platform::manipulator::Body;
+use synthesis::rearrangement::{
     Argument, Arrangement, Obstruction, Piece, PieceKind, Rearrangement, Reduction,
 };
 

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::{LightestDriveRecord, Number, PoseQuaternionRecord};
 use crate::app::entrance::{AssessReport, JudgedPoses};
 use crate::files::design::Design;
-use crate::machine::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
-use crate::synthesis::singularity::Regularity;
+use machine::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
+use synthesis::singularity::Regularity;
 
 /// The least margin of a kind of requirement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseMarginRecord, PoseRecord};
 use crate::files::design::Design;
-use crate::machine::requirements::Terms;
-use crate::machine::rotary::{CrankAngles, Elbow, RotaryPlatform};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{inverse_condition, jacobian};
+use machine::requirements::Terms;
+use machine::rotary::{CrankAngles, Elbow, RotaryPlatform};
+use platform::geom::Pose;
+use platform::manipulator::{inverse_condition, jacobian};
 
 /// The angles of cranks at several poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -9,10 +9,10 @@ use super::{
 };
 use crate::app::entrance::rounding::RoundingWay;
 use crate::files::design::Design;
-use crate::machine::manufacture::{ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint};
-use crate::machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern, TermKind};
-use crate::platform::manipulator::Body;
-use crate::verify::{Verification, VerifyError};
+use machine::manufacture::{ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint};
+use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern, TermKind};
+use platform::manipulator::Body;
+use verify::{Verification, VerifyError};
 
 /// The answer of `build round`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CompletenessWord, Number, PoseQuaternionRecord};
-use crate::synthesis::singularity::{CriticalPoses, CurveDegree, MotionCurve, MotionEvidence, PoseVerdict};
+use synthesis::singularity::{CriticalPoses, CurveDegree, MotionCurve, MotionEvidence, PoseVerdict};
 
 /// The answer of `singular motion`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord, RegularityRecord};
-use crate::synthesis::singularity::{PathPiece, Sign, SignsAlong, Way};
+use synthesis::singularity::{PathPiece, Sign, SignsAlong, Way};
 
 /// The answer of `singular poses`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

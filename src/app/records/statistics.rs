@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Number;
-use crate::machine::manufacture::{ErrorSpread, Quantiles};
+use machine::manufacture::{ErrorSpread, Quantiles};
 
 /// How values spread.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

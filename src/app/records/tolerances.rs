@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use super::uncertainty::{CorrelationsWord, in_degrees};
 use super::{AssessAnswer, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
 use crate::files::design::Design;
-use crate::machine::manufacture::{
+use machine::manufacture::{
     ErrorAtPose, ErrorKind, ErrorParts, Joint, JointBudget, LimitedAllowance, MachineErrors, PoseCovariance,
     Trials,
 };
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 /// The answer of `build tolerances`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

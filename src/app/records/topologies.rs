@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{RearrangementRecord, TrilaterationStepRecord};
-use crate::fk::distance::ClosureDegrees;
-use crate::platform::topology::{JointIndex, NamedTopology, Sequence};
+use fk::distance::ClosureDegrees;
+use platform::topology::{JointIndex, NamedTopology, Sequence};
 
 /// The answer of `equivalents topologies`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Number;
 use crate::files::design::Design;
-use crate::machine::manufacture::{MachineUncertainty, PoseCovariance};
-use crate::platform::geom::Pose;
+use machine::manufacture::{MachineUncertainty, PoseCovariance};
+use platform::geom::Pose;
 
 /// How the errors of a calibration go together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

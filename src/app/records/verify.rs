@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CompletenessWord, ComplexRecord, FramesRecord, MapRecord, Number, PoseRecord, leg_number};
-use crate::fk::{FkSolutions, Method};
-use crate::platform::geom::{ComplexPose, SamplePlan};
-use crate::synthesis::LegMapOutcome;
-use crate::verify::{Counterexample, Sample, Verdict, Verification};
+use fk::{FkSolutions, Method};
+use platform::geom::{ComplexPose, SamplePlan};
+use synthesis::LegMapOutcome;
+use verify::{Counterexample, Sample, Verdict, Verification};
 
 /// The answer of `verify`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -10,12 +10,12 @@ use super::plan::{FreeQuantity, PoseChoice};
 use crate::app::entrance::{AssessReport, CheckReport};
 use crate::app::equivalents::Original;
 use crate::files::design::{Design, Drive};
-use crate::fk::FkSolutions;
-use crate::machine::requirements::AssessOptions;
-use crate::num::Purpose;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
-use crate::synthesis::Pattern;
+use fk::FkSolutions;
+use machine::requirements::AssessOptions;
+use num::Purpose;
+use platform::geom::Pose;
+use platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
+use synthesis::Pattern;
 
 /// What follows from the text of a base design.
 #[derive(Debug, Clone)]
@@ -188,7 +188,7 @@ impl<'a> SweepCandidate<'a> {
             let squares = self.squares()?;
             match &self.sweep.solver {
                 Some(solver) => solver.solve_squared(&squares).map_err(|e| e.to_string()),
-                None => self.manipulator().fk_squared(&squares, self.sweep.seed),
+                None => poses_at(self.manipulator(), &squares, self.sweep.seed),
             }
         };
         self.solved.get_or_init(make).as_ref().map_err(Clone::clone)
@@ -223,11 +223,8 @@ impl<'a> SweepCandidate<'a> {
     }
 }
 
-impl Manipulator {
-    fn fk_squared(&self, squares: &SquaredLegLengths, seed: u64) -> Result<FkSolutions, String> {
-        let options = crate::fk::FkOptions::new().seed(seed);
-        crate::fk::solver(None).solve(self, squares, &options).map_err(|e| e.to_string())
-    }
+fn poses_at(m: &Manipulator, squares: &SquaredLegLengths, seed: u64) -> Result<FkSolutions, String> {
+    fk::solver(None).solve(m, squares, &fk::FkOptions::new().seed(seed)).map_err(|e| e.to_string())
 }
 
 /// The base design with the numbers of the candidate in its text.

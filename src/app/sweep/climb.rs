@@ -9,11 +9,11 @@
 use nalgebra::{DVector, Matrix3, Matrix6, Vector3, Vector6};
 use num_complex::Complex64;
 
-use crate::fk::{FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, solver};
-use crate::num::conic::{ConicAnswer, ConicProgram, ConicRow};
-use crate::num::{Purpose, Rng};
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Body, Manipulator, SquaredLegLengths};
+use fk::{FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, solver};
+use num::conic::{ConicAnswer, ConicProgram, ConicRow};
+use num::{Purpose, Rng};
+use platform::geom::ComplexPose;
+use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 
 /// Length of the first step, in units of the size, and of the longest one.
 const FIRST: f64 = 0.05;
@@ -596,6 +596,6 @@ mod tests {
         let real = found.found.assembly_modes().count();
         assert!(real > found.began, "{} {real}", found.began);
         assert_eq!((found.manipulator.pairs(), found.found.roots.len()), (m.pairs(), 16));
-        assert!(found.found.roots.iter().all(crate::fk::FkRoot::certified));
+        assert!(found.found.roots.iter().all(fk::FkRoot::certified));
     }
 }

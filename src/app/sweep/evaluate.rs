@@ -15,12 +15,12 @@ use super::plan::{AnswerField, AnswerName, AxisValues, BasePlan, FreeQuantity, S
 use crate::app::entrance::{BOX_CELLS, CheckReport, OptimizeEvidence, OptimizeOptions, Solver};
 use crate::app::records::{AssessAnswer, CheckAnswer, SolvedRecord};
 use crate::files::design::Drive;
-use crate::fk::{FkOptions, FkRoot, Threads};
-use crate::machine::manufacture::{PoseSearch, joint_allowance};
-use crate::machine::requirements::{TermKind, Terms};
-use crate::platform::manipulator::{Body, inverse_condition, jacobian};
-use crate::synthesis::Pattern;
-use crate::synthesis::singularity::regular_box;
+use fk::{FkOptions, FkRoot, Threads};
+use machine::manufacture::{PoseSearch, joint_allowance};
+use machine::requirements::{TermKind, Terms};
+use platform::manipulator::{Body, inverse_condition, jacobian};
+use synthesis::Pattern;
+use synthesis::singularity::regular_box;
 
 /// Poses over which joints are toleranced, as of `compare`.
 const TOLERANCE_POSES: usize = 300;

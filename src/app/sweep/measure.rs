@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix6, Point3};
 
-use crate::platform::geom::{Pose, segment_distance};
-use crate::platform::manipulator::{Leg, Manipulator, inverse_condition, jacobian_of_legs};
+use platform::geom::{Pose, segment_distance};
+use platform::manipulator::{Leg, Manipulator, inverse_condition, jacobian_of_legs};
 
 /// What rounding may take from the bounds below, as a share: they are products of some tens of operations, of matrices with condition numbers below `1 / ILL`.
 const ROUNDING: f64 = 1e-9;
@@ -99,7 +99,7 @@ pub(super) fn length_range(legs: &[Leg; 6], poses: &[Pose]) -> Option<[f64; 2]> 
 mod tests {
     use super::*;
     use crate::files::design::{Format, parse};
-    use crate::platform::manipulator::jacobian;
+    use platform::manipulator::jacobian;
 
     fn case() -> (Manipulator, Vec<Pose>) {
         let text = include_str!("../../../designs/presets/bench-l16.toml");

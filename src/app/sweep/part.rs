@@ -18,7 +18,7 @@ use thiserror::Error;
 
 use super::column::{CANDIDATE, ColumnKind, SweepCell, SweepColumn};
 use super::rows::SweepRow;
-use crate::num::Purpose;
+use num::Purpose;
 
 /// Rows that are held before they are written.
 const ROWS: usize = 1 << 14;

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use super::column::SweepCell;
 use super::evaluate::Sweep;
-use crate::num::Cancel;
-use crate::num::stream::Stream;
+use num::Cancel;
+use num::stream::Stream;
 
 /// A row as the columns of its sweep have it.
 pub(crate) type SweepRow = Vec<SweepCell>;

@@ -7,9 +7,9 @@ use nalgebra::Point3;
 use super::plan::{BasePlan, PlanText, read};
 use super::{Sweep, SweepCell, SweepRow};
 use crate::files::design::{Format, parse};
-use crate::machine::manufacture::{ErrorBound, PoseSearch, joint_allowance};
-use crate::num::Cancel;
-use crate::platform::manipulator::{inverse_condition, jacobian};
+use machine::manufacture::{ErrorBound, PoseSearch, joint_allowance};
+use num::Cancel;
+use platform::manipulator::{inverse_condition, jacobian};
 
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
 
@@ -47,7 +47,7 @@ fn figures_are_those_of_the_design_that_the_candidate_is() {
         let pose = &poses[number("conditioning_pose") as usize];
         assert!((inverse_condition(&jacobian(m, pose, length)) - worst).abs() < 1e-12);
         let offsets: [f64; 6] = std::array::from_fn(|i| number(&format!("offsets_{}", i + 1)));
-        assert!((number("det_a") - crate::synthesis::offset_determinant(&offsets)).abs() < 1e-12);
+        assert!((number("det_a") - synthesis::offset_determinant(&offsets)).abs() < 1e-12);
         assert!(
             number("base_spacing") > 0.0 && number("platform_spacing") > 0.0 && number("clearance") >= 0.0
         );
@@ -78,9 +78,9 @@ fn a_candidate_with_a_drive_is_judged_by_its_limits() {
         // the same as the design with these limits says of itself
         let alone = original.with_drive(drive);
         let options =
-            crate::machine::requirements::AssessOptions::new().points(200).searches(1).seed(1).close(false);
+            machine::requirements::AssessOptions::new().points(200).searches(1).seed(1).close(false);
         let found = alone.assess_with(&options, 300).unwrap();
-        let too_long = crate::machine::requirements::TermKind::LegTooLong;
+        let too_long = machine::requirements::TermKind::LegTooLong;
         let bound = found.proof.bounds.iter().find(|b| b.found.term.kind == too_long).unwrap();
         let said = cell(&sweep, &row, &format!("margin_{}", too_long.code())).as_number().unwrap();
         assert!((said - bound.found.value).abs() <= 1e-12 * said.abs(), "{said} {}", bound.found.value);
@@ -122,9 +122,8 @@ fn the_poses_of_a_table_belong_to_the_workspace_of_every_candidate() {
             let (design, _) = parse(&written, Format::Toml).unwrap();
             let home = design.home_or_default();
             let moved = |x: [f64; 3], angles: [f64; 3]| {
-                let listed =
-                    crate::platform::geom::Pose::new(x, crate::platform::geom::Angles::from_degrees(angles));
-                crate::platform::geom::ListedFrom::Home.in_base_frame(&listed, &home)
+                let listed = platform::geom::Pose::new(x, platform::geom::Angles::from_degrees(angles));
+                platform::geom::ListedFrom::Home.in_base_frame(&listed, &home)
             };
             let poses = [home, moved([0.0, 0.0, 1.0], [0.0; 3]), moved([1.0, -1.0, 0.5], [10.0, 0.0, 5.0])];
             let lengths: Vec<f64> =
@@ -269,7 +268,7 @@ fn a_platform_whose_pattern_leaves_offsets_unused_has_one_row() {
     let plan = |vary: &str| format!("compute = ['shared_joints', 'spacing']\n{vary}");
     let rows = |sweep: &Sweep| (0..sweep.count()).filter_map(|k| sweep.row(k)).collect::<Vec<_>>();
     // the corners of both triangles, which have no offset; one offset; all six
-    let family = crate::synthesis::Family::octahedral();
+    let family = synthesis::Family::octahedral();
     let corners = family.members().iter().find(|m| m.pattern.offsets().is_empty()).unwrap();
     let patterns = format!("pattern = ['{}', 'S123456']", corners.pattern);
     let grid = sweep_of(

@@ -7,7 +7,7 @@ use super::model::NotBuilt;
 use super::tree::{Entry, Node, Span, Value, find};
 use super::violation::Findings;
 use super::{Design, Format, Warning, parse_with_cranks, toml_text};
-use crate::platform::manipulator::{Body, InvalidManipulator, Manipulator};
+use platform::manipulator::{Body, InvalidManipulator, Manipulator};
 
 /// The text a design was read from, and what is slippery in it. Two designs that say the same are equal however they are written.
 #[derive(Clone, Default)]
@@ -203,7 +203,7 @@ impl Design {
 mod tests {
     use super::*;
     use crate::files::design::parse;
-    use crate::platform::manipulator::LegLengths;
+    use platform::manipulator::LegLengths;
 
     const TEXT: &str = r#"# a design with words in it
 name = "words" # its name

@@ -4,10 +4,10 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::Design;
 use super::scale::micrometres;
-use crate::machine::requirements::{
+use machine::requirements::{
     ForceUnit, GRAVITY, Load, MassUnit, MovingBodies, Payload, PlateBody, PlateMass, VibratingMasses,
 };
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 impl Design {
     /// The payload and the legs vibrate; `None` where the file states nothing that moves, no stiffness of legs or no known unit of length.

@@ -29,7 +29,6 @@ mod validate;
 mod violation;
 mod workspace;
 
-#[cfg(feature = "synthesis")]
 pub(crate) use construction::Origin;
 use construction::{Construction, Constructions, LinePlace, WrittenNumber};
 pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
@@ -55,7 +54,7 @@ pub(crate) use table::{InvalidPointTable, RigSheet, SheetDialect};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 
-use crate::num::names::{UnknownName, named};
+use num::names::{UnknownName, named};
 
 /// The two notations of the same structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,7 +122,7 @@ pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<V
 }
 
 /// Reads a design from text, also one whose legs are rods on cranks (`drive = "rotary"`), or whose joints are not ideal
-/// ([`Hardware::is_coupled`](crate::machine::requirements::Hardware::is_coupled)), so that the lengths of its drives are not the distances of its joints.
+/// ([`Hardware::is_coupled`](machine::requirements::Hardware::is_coupled)), so that the lengths of its drives are not the distances of its joints.
 ///
 /// The base joints of such a design are the centres of its cranks: [`Design::manipulator`] joins them to the platform and says nothing of the rods. Ask [`Design::rotary`] for cranks and rods.
 ///

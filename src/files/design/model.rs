@@ -6,15 +6,15 @@ use thiserror::Error;
 use super::construction::resolve::{Fault, Joints};
 use super::construction::{RealPoint, WrittenHome};
 use super::{Constructions, CrankLimits, DesignExactness, ExactJoint, Workspace, Written};
-use crate::machine::requirements::{
+use machine::requirements::{
     CrankedLeg, Cranks, Envelopes, ForceUnit, Grid, Hardware, KeepOut, Load, MassUnit, Payload, PlateSolid,
     Plates, PlatformSpeed, PlatformStiffness, Quantity, Requirements, Reserves, Term, TermKind,
 };
-use crate::machine::requirements::{KeptSymmetry, Objective, VariableKind};
-use crate::machine::rotary::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
-use crate::platform::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
+use machine::requirements::{KeptSymmetry, Objective, VariableKind};
+use machine::rotary::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform};
+use platform::geom::Pose;
+use platform::manipulator::Body;
+use platform::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
 
 /// A manipulator with names and everything else a design file may carry.
 #[derive(Debug, Clone, PartialEq)]

@@ -160,7 +160,7 @@ pub(crate) fn with_lengths(text: &str, lengths: [f64; 6]) -> String {
 mod tests {
     use super::*;
     use crate::files::design::{Design, Exactness, Format, parse};
-    use crate::platform::manipulator::Octahedral;
+    use platform::manipulator::Octahedral;
 
     fn sizes(spread_deg: [f64; 2]) -> HexapodSizes {
         HexapodSizes { radius: [500.0, 300.0], spread_deg, height: 400.0 }

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 
 use super::fixtures::REQUIRED as GOOD;
 use super::*;
-use crate::machine::requirements::{
+use machine::requirements::{
     Envelope, GRAVITY, Grid, HoleCircle, HoleCircles, Housing, JointAxes, KeepOutShape, LengthLimits,
     Quantity, Region, TermKind,
 };
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 #[test]
 fn every_key_is_read_and_written_back_to_the_bit() {
@@ -282,11 +282,11 @@ fn masses_and_units_give_what_vibrates() {
     design.workspace = Workspace::default();
     let metres = design.in_units("m").unwrap();
     let lowest = |d: &Design, unit: f64| {
-        let pose = crate::platform::geom::Pose {
+        let pose = platform::geom::Pose {
             rotation: nalgebra::Rotation3::from_euler_angles(0.1, -0.2, 0.3),
             position: nalgebra::Vector3::new(3.0, -2.0, 14.0) * unit,
         };
-        crate::machine::requirements::lowest_frequency(d.manipulator(), &pose, &d.vibrating().unwrap())
+        machine::requirements::lowest_frequency(d.manipulator(), &pose, &d.vibrating().unwrap())
     };
     let (one, other) = (lowest(&design, 1.0), lowest(&metres, 1e-3));
     assert!(one > 0.0 && (one / other - 1.0).abs() < 1e-9, "{one} {other}");
@@ -441,7 +441,7 @@ const PER_LEG: &str = "base_joint = [
 
 #[test]
 fn kinds_of_joints_per_leg_are_read_scaled_and_written_back_to_the_bit() {
-    use crate::machine::requirements::JointType::{Ball, Flexure, Universal};
+    use machine::requirements::JointType::{Ball, Flexure, Universal};
     let design = parse(&GOOD.replacen(JOINTS, PER_LEG, 1), Format::Toml).unwrap().0;
     let h = &design.hardware;
     let kinds: [_; 6] = std::array::from_fn(|leg| h.joint_kind(Body::Base, leg));
@@ -646,8 +646,7 @@ fn plates_are_read_and_written_back_to_the_bit_and_follow_the_unit() {
     // margins of holes are the same length in the other unit
     let least = |d: &Design, kind: TermKind| {
         let required = d.requirements();
-        let terms =
-            crate::machine::requirements::Terms::new(d.manipulator(), &required, &d.home_or_default());
+        let terms = machine::requirements::Terms::new(d.manipulator(), &required, &d.home_or_default());
         terms.fixed().into_iter().filter(|t| t.0.kind == kind).map(|t| t.1).fold(f64::INFINITY, f64::min)
     };
     for kind in [TermKind::BaseHoleEdge, TermKind::BaseHoleGap, TermKind::PlatformHoleEdge] {
@@ -693,7 +692,7 @@ fn the_mass_of_a_plate_is_counted_once() {
     let included = design(&with_plates().replacen("plate = \"added\"\n", "", 1));
     let moving = included.moving_payload().unwrap();
     assert!((moving.inertia.unwrap() - ball).norm() < 1e-12 * ball.norm());
-    let stated = crate::machine::requirements::Payload { inertia: None, ..moving };
+    let stated = machine::requirements::Payload { inertia: None, ..moving };
     assert_eq!(Some(stated), included.payload, "the mass has the plate in it");
     // without a payload the plate is what moves
     let (text, _) = PLATES.split_once("[payload]").unwrap();
@@ -785,7 +784,7 @@ fn axes_are_normals_vectors_or_both() {
             .replacen("platform_axes = \"optimize\"", platform, 1);
         parse(&text, Format::Toml).unwrap().0
     };
-    let given = |swing: Option<crate::machine::requirements::Swing>| {
+    let given = |swing: Option<machine::requirements::Swing>| {
         let JointAxes::Given(axes) = swing.unwrap().axes else { panic!("axes are known") };
         axes.map(nalgebra::Unit::into_inner)
     };
@@ -801,7 +800,7 @@ fn axes_are_normals_vectors_or_both() {
     assert!(given(h.platform_swing).iter().all(|axis| (axis - tilted).norm() < 1e-15));
     // swing counts from them, in `assess` and `ik` alike
     let required = design.requirements();
-    let terms = crate::machine::requirements::Terms::new(design.manipulator(), &required, &home);
+    let terms = machine::requirements::Terms::new(design.manipulator(), &required, &home);
     let margins = terms.at(&home);
     for (i, leg) in design.manipulator().legs().iter().enumerate() {
         let line = home.transform(&leg.platform) - leg.base;

@@ -5,10 +5,8 @@ use thiserror::Error;
 
 use super::model::NotBuilt;
 use super::{Construction, Design, LinePlace, WrittenNumber};
-use crate::machine::requirements::{
-    Envelope, Housing, KeepOutShape, LegBody, LengthLimits, Quantity, Reserve,
-};
-use crate::platform::manipulator::{Body, InvalidLengths, InvalidManipulator, LegLengths, Manipulator};
+use machine::requirements::{Envelope, Housing, KeepOutShape, LegBody, LengthLimits, Quantity, Reserve};
+use platform::manipulator::{Body, InvalidLengths, InvalidManipulator, LegLengths, Manipulator};
 
 /// Units by label with their lengths in micrometres, which are whole numbers; the inch is 25.4 mm exactly.
 const UNITS: [(&str, u64); 6] =

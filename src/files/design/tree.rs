@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::violation::Findings;
 use super::{Code, Format, json_text, toml_text};
-use crate::num::names::changes_direction;
+use num::names::changes_direction;
 
 /// Byte range in the text.
 pub(crate) type Span = Range<usize>;

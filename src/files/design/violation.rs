@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::tree::Span;
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 /// What kind of violation; the name in [`Code::as_str`] is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -3,9 +3,9 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::Design;
-use crate::machine::requirements::{ListedFrom, PoseSpace, Region};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::default_home;
+use machine::requirements::{ListedFrom, PoseSpace, Region};
+use platform::geom::Pose;
+use platform::manipulator::default_home;
 
 /// Half width of the default box of translations, as a share of the design's size.
 const TRANSLATION_SHARE: f64 = 0.15;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::hal::home_words;
 use super::text::{commented, csv_field, real, reals, scaled};
 use super::{Export, ExportCalibration, ExportedFile, Unsupported, Writer};
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// The format `csv`.
 #[derive(Debug)]

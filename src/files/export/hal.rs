@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::text::{ascii, commented, one_line, real};
 use super::{Export, ExportedFile, Unsupported, Writer};
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 /// The format `hal`.
 #[derive(Debug)]

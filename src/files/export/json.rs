@@ -6,7 +6,7 @@ use super::{
     Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, Plate, PlateHole, SizeChoice,
     Unsupported, Writer,
 };
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// The format `json`.
 #[derive(Debug)]

@@ -81,7 +81,7 @@ fn script(export: &Export) -> String {
     matrix(&mut out, "p", &[0, 1, 2].map(|i| vec![export.home.position[i] * m]));
     matrix(&mut out, "l", &export.shown_at(&export.home).map(|l| vec![l * m]));
     let poses: Vec<_> = export.workspace.iter().chain(&export.trajectory).collect();
-    let row = |pose: &&crate::platform::geom::Pose| -> Vec<f64> {
+    let row = |pose: &&platform::geom::Pose| -> Vec<f64> {
         let (r, p) = (pose.rotation.matrix(), pose.position * m);
         let mut row: Vec<f64> = (0..3).flat_map(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)], p[i]]).collect();
         row.extend([0.0, 0.0, 0.0, 1.0]);

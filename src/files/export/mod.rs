@@ -34,11 +34,11 @@ mod units;
 
 use thiserror::Error;
 
-use crate::num::names::{UnknownName, named};
-use crate::platform::manipulator::Body;
+use num::names::{UnknownName, named};
+use platform::manipulator::Body;
 
-pub use crate::machine::requirements::{Outline, OutlinePart};
 pub use controller::EquivalentOctahedral;
+pub use machine::requirements::{Outline, OutlinePart};
 pub use model::{Export, ExportBody, ExportCalibration, ExportCranks, ExportLeg, ExportedJoint};
 pub use parts::{PART_COLUMNS, PartLine};
 pub use plate::{Plate, PlateHole};

@@ -8,11 +8,11 @@ use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_d
 use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
 use crate::files::design::{CalibratedNumber, Design};
-use crate::machine::coupled::CoupledLegs;
-use crate::machine::requirements::{Hardware, KeepOutShape, MovingBodies, plate_normal};
-use crate::machine::rotary::RotaryPlatform;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator};
+use machine::coupled::CoupledLegs;
+use machine::requirements::{Hardware, KeepOutShape, MovingBodies, plate_normal};
+use machine::rotary::RotaryPlatform;
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator};
 
 /// A joint of a body.
 #[derive(Debug, Clone, PartialEq)]

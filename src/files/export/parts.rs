@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use super::plate::ClearanceHole;
 use super::text::{commented, csv_field, real, rounded};
 use super::{Export, ExportBody, Plate};
-use crate::machine::requirements::Housing;
-use crate::platform::manipulator::Body;
+use machine::requirements::Housing;
+use platform::manipulator::Body;
 
 /// Legs whose lengths differ by less than this share of the size are of one kind: above what searches leave of a symmetry, a hundredth of a micrometre in a metre.
 pub(super) const SAME_LENGTH: f64 = 1e-8;

@@ -8,8 +8,8 @@ use super::Outline;
 use super::Unsupported;
 use super::model::ExportedJoint;
 use super::sizes::Sizes;
-use crate::machine::requirements::{BoltPattern, PlateDesign, frame_of};
-use crate::platform::manipulator::Body;
+use machine::requirements::{BoltPattern, PlateDesign, frame_of};
+use platform::manipulator::Body;
 
 /// A hole of a plate under a joint.
 #[derive(Debug, Clone, PartialEq)]

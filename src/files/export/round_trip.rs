@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::{Export, ExportFormat, ExportOptions, LengthUnit};
 use crate::files::design::{Design, Format, PointTable, parse_with_cranks};
-use crate::platform::manipulator::{Body, Manipulator};
+use platform::manipulator::{Body, Manipulator};
 
 const SYMMETRIC: &str = include_str!("../../../designs/symmetric-hexapod.toml");
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");

@@ -7,8 +7,8 @@ use super::model::ExportedJoint;
 use super::telescope::has_room;
 use super::units::{LengthUnit, UnknownUnit};
 use crate::files::design::Design;
-use crate::machine::requirements::{Hardware, MovingBodies, PlateDesign, seat_height};
-use crate::platform::manipulator::Body;
+use machine::requirements::{Hardware, MovingBodies, PlateDesign, seat_height};
+use platform::manipulator::Body;
 
 /// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that [`Export::choices`](super::Export::choices) states.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -8,7 +8,7 @@ use nalgebra::{Point2, Point3};
 use super::text::{ascii, scaled};
 use super::triangulate::triangulate;
 use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
-use crate::machine::requirements::on_circle;
+use machine::requirements::on_circle;
 
 /// The format `stl`.
 #[derive(Debug)]

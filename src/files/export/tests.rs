@@ -7,9 +7,9 @@ use super::text::real;
 use super::triangulate::triangulate;
 use super::*;
 use crate::files::design::{Design, Format, parse};
-use crate::machine::requirements::{Housing, JointAxes, LegBody, LengthLimits, Swing};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use machine::requirements::{Housing, JointAxes, LegBody, LengthLimits, Swing};
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 const SYMMETRIC: &str = include_str!("../../../designs/symmetric-hexapod.toml");
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");

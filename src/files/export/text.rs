@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::num::names::changes_direction;
+use num::names::changes_direction;
 
 /// The shortest decimal that reads back to the same double, never `-0.0`.
 pub(super) fn real(x: f64) -> String {

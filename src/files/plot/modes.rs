@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use super::oblique::{BaseFrame, Bodies, Extent};
 use super::style::Svg;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// What the picture shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -189,7 +189,7 @@ mod tests {
             Point3::new(r * x, r * y, 0.0)
         };
         // platform joints in another order than around the body: the outline does not cross itself
-        let m = Manipulator::from_legs(std::array::from_fn(|k| crate::platform::manipulator::Leg {
+        let m = Manipulator::from_legs(std::array::from_fn(|k| platform::manipulator::Leg {
             base: at(k, 2.0, 0.0),
             platform: at((k + 3) % 6, 1.0, 0.2),
         }));

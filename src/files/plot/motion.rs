@@ -2,8 +2,8 @@
 
 use super::oblique::{Extent, oblique, outlines};
 use super::style::{Svg, px};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// What the picture shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,8 +90,8 @@ pub fn motion(m: &Manipulator, figure: &MotionFigure) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::Leg;
     use nalgebra::{Point3, Rotation3, Vector3};
+    use platform::manipulator::Leg;
 
     #[test]
     fn every_leg_and_the_platform_move_through_all_frames() {

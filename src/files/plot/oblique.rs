@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Vector3};
 
 use super::style::Svg;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Manipulator, Octahedral};
+use platform::geom::Pose;
+use platform::manipulator::{Manipulator, Octahedral};
 
 /// Depth is drawn along this direction (right, up): half size at about 35 degrees.
 const DEPTH: (f64, f64) = (0.41, 0.29);

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::oblique::{BaseFrame, Bodies, Extent};
 use super::style::Svg;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// What the picture shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,8 +117,8 @@ fn legend(svg: &mut Svg, y: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::{Leg, default_home};
     use nalgebra::Point3;
+    use platform::manipulator::{Leg, default_home};
 
     #[test]
     fn shared_joints_are_rings_on_the_left_and_none_on_the_right() {

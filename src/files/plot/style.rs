@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::num::names::changes_direction;
+use num::names::changes_direction;
 
 /// Classes used by the pictures. The palette is safe for colour-blind readers and differs in lightness.
 const CSS: &str = "\

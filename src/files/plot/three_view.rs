@@ -4,7 +4,7 @@ use nalgebra::{Point2, Point3};
 
 use super::labels::{Labels, PageBox, centred_text_box, text_box};
 use super::style::Svg;
-use crate::platform::geom::convex_hull;
+use platform::geom::convex_hull;
 
 /// Base or platform as it is drawn; points in the base frame, millimetres.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,8 @@
 
 use super::oblique::{BaseFrame, Bodies, Extent};
 use super::style::Svg;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// Width and height, pixels.
 const SIZE: (f64, f64) = (140.0, 110.0);
@@ -25,8 +25,8 @@ pub fn thumbnail(m: &Manipulator, pose: &Pose, name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::{Leg, default_home};
     use nalgebra::Point3;
+    use platform::manipulator::{Leg, default_home};
 
     #[test]
     fn a_thumbnail_has_two_bodies_and_six_legs_within_its_frame() {

@@ -4,7 +4,7 @@
 //! [`Topology::layout`]; nothing but the graph is shown.
 
 use super::style::Svg;
-use crate::platform::topology::{NamedTopology, Topology};
+use platform::topology::{NamedTopology, Topology};
 
 /// A topology and what to write below it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -157,7 +157,7 @@ pub fn topology_sheet(title: &str, figures: &[TopologyFigure]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::topology::catalogue;
+    use platform::topology::catalogue;
 
     #[test]
     fn a_sheet_has_six_legs_and_every_joint_of_every_topology() {

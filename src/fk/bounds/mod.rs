@@ -7,11 +7,11 @@ mod shared;
 pub(super) use shared::class_bound;
 
 use super::Theorem;
-use crate::fk::solve::special::special_position;
-use crate::platform::manipulator::Manipulator;
+use crate::solve::special::special_position;
+use platform::manipulator::Manipulator;
 
 /// The smallest proved bound on the number of isolated finite poses of a design, for all lengths.
-pub(crate) fn pose_bound(m: &Manipulator) -> Theorem {
+pub fn pose_bound(m: &Manipulator) -> Theorem {
     let special = [class_bound(m), special_bound(m)];
     special.into_iter().flatten().min_by_key(|theorem| theorem.bound()).unwrap_or(Theorem::SixLegs)
 }

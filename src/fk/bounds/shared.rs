@@ -3,9 +3,9 @@
 //! A bound proved for generic platforms of a topology holds for every
 //! platform of it and of its mergers; which joints coincide is decided exactly, on the doubles as they are.
 
-use crate::fk::Theorem;
-use crate::platform::manipulator::{Body, JointKnowledge, Manipulator};
-use crate::platform::topology::Topology;
+use crate::Theorem;
+use platform::manipulator::{Body, JointKnowledge, Manipulator};
+use platform::topology::Topology;
 
 /// A topology with a count of its own, base and platform joint of every leg.
 type Row = ([usize; 6], [usize; 6], Theorem);
@@ -86,7 +86,7 @@ const PROVED: [Row; 10] = [
 ];
 
 /// The smallest bound below 40 that shared joints give, if any.
-pub(in crate::fk) fn class_bound(m: &Manipulator) -> Option<Theorem> {
+pub(crate) fn class_bound(m: &Manipulator) -> Option<Theorem> {
     let bodies = match m.joint_knowledge() {
         JointKnowledge::Doubles => Body::BOTH.map(|body| places(m.legs().map(|l| l.end(body).into()))),
         JointKnowledge::Exact => {
@@ -125,9 +125,9 @@ fn first_of<T: PartialEq>(ends: &[T; 6]) -> [usize; 6] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::Leg;
-    use crate::platform::topology::catalogue;
     use nalgebra::Point3;
+    use platform::manipulator::Leg;
+    use platform::topology::catalogue;
 
     fn joint(k: usize) -> Point3<f64> {
         let t = k as f64;

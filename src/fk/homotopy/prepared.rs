@@ -7,18 +7,18 @@
 use num_complex::Complex64;
 
 use super::{SectionProblem, assemble, ends_of};
-use crate::fk::evidence::attach;
-use crate::fk::harvest::harvest;
-use crate::fk::judge::{RealityJudgement, judge};
-use crate::fk::solve::homotopy::{LengthStart, StartKind, projective_distance, unit};
-use crate::fk::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
-use crate::fk::solve::{ScaledFrames, mirror};
-use crate::fk::{
+use crate::evidence::attach;
+use crate::harvest::harvest;
+use crate::judge::{RealityJudgement, judge};
+use crate::solve::homotopy::{LengthStart, StartKind, projective_distance, unit};
+use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
+use crate::solve::{ScaledFrames, mirror};
+use crate::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, PreparedDesign,
     SolutionSet, Theorem,
 };
-use crate::num::Purpose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths, default_home};
+use num::Purpose;
+use platform::manipulator::{Manipulator, SquaredLegLengths, default_home};
 
 /// Two start poses closer than this are not told apart.
 const SAME_POSE: f64 = 1e-6;

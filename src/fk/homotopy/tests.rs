@@ -1,9 +1,9 @@
 use super::super::FkRoot;
 use super::*;
-use crate::num::Rng;
-use crate::platform::geom::{Pose, random_rotation};
-use crate::platform::manipulator::Leg;
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use num::Rng;
+use platform::geom::{Pose, random_rotation};
+use platform::manipulator::Leg;
 
 /// Doubly planar joints in `z = 0`, or in two planes somewhere.
 fn planar(rng: &mut Rng, tilt: bool) -> Manipulator {
@@ -247,7 +247,7 @@ fn simple_poses_and_a_proved_double_one_are_a_complete_answer() {
         }
         whole += 1;
         assert_eq!((found.roots.len(), double.len(), found.certified_count()), (39, 1, 40), "{k}");
-        assert!(double[0].certified() && double[0].reality == crate::fk::Reality::Undecided);
+        assert!(double[0].certified() && double[0].reality == crate::Reality::Undecided);
         let identity = double[0].pose.rotation - Matrix3::identity();
         assert!(identity.iter().all(|z| z.norm() < 1e-9), "{k}");
     }

@@ -13,9 +13,9 @@ pub use outcome::{NearEvidence, NearOutcome, WhyLost};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 use local::{Blur, Local, Newton, SegmentStart};
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 
 /// `4 (beta + eta) eta` aimed at for every segment; the theorem needs 1.
 const KANTOROVICH: f64 = 0.88;
@@ -43,6 +43,7 @@ impl Default for NearOptions {
 /// Follows one real pose of a manipulator. Made once a design; a solve allocates nothing.
 ///
 /// ```
+/// # mod equipod { pub use equipod_fk::*; pub mod methods { pub use equipod_fk as fk; pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
 /// use equipod::methods::fk::{NearOutcome, NearSolver};
 /// use equipod::methods::manipulator::{Leg, Manipulator, default_home};
 /// use nalgebra::Point3;
@@ -87,14 +88,21 @@ struct Place {
 
 /// The numbers of a solver, for programs that compute the same elsewhere: those of [`NearSolver`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct NearNumbers {
-    pub(crate) base: [[f64; 3]; 6],
-    pub(crate) platform: [[f64; 3]; 6],
-    pub(crate) loose: [[f64; 6]; 2],
-    pub(crate) origin: [f64; 3],
-    pub(crate) centre: [f64; 3],
-    pub(crate) unit: f64,
-    pub(crate) residual_scale: f64,
+pub struct NearNumbers {
+    /// Base joints relative to `origin`, in units of `unit`.
+    pub base: [[f64; 3]; 6],
+    /// Platform joints relative to `centre`, in units of `unit`.
+    pub platform: [[f64; 3]; 6],
+    /// How far each joint of base and platform may be from its numbers, in units of `unit`.
+    pub loose: [[f64; 6]; 2],
+    /// Centroid of the base joints.
+    pub origin: [f64; 3],
+    /// Centroid of the platform joints.
+    pub centre: [f64; 3],
+    /// The unit of length.
+    pub unit: f64,
+    /// What residuals are divided by.
+    pub residual_scale: f64,
 }
 
 /// What one segment came to.
@@ -135,7 +143,7 @@ impl NearSolver {
     }
 
     /// The numbers worked out for the design.
-    pub(crate) fn numbers(&self) -> NearNumbers {
+    pub fn numbers(&self) -> NearNumbers {
         NearNumbers {
             base: self.base,
             platform: self.platform,

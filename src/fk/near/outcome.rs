@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// Numbers that go with every outcome.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -10,7 +10,7 @@ pub struct NearEvidence {
     /// Largest error of the leg equations at the pose, over the squared size of the design.
     pub residual: f64,
     /// `6 / (|J|_F |J^-1|_F)` at the pose, `J` the matrix of unnormalised leg lines
-    /// ([`plucker_matrix`](crate::platform::manipulator::plucker_matrix)) with the RMS radius of the platform as
+    /// ([`plucker_matrix`](platform::manipulator::plucker_matrix)) with the RMS radius of the platform as
     /// characteristic length: 1 at best, 0 at a singularity. Cheaper than the inverse condition number, and never below that of the same matrix.
     pub frobenius_ratio: f64,
     /// Segments the straight line of squared lengths was divided into; 1: the start lies in the Kantorovich ball.
@@ -34,7 +34,6 @@ impl NearEvidence {
 
 /// Why a pose was lost although no singularity is near.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[non_exhaustive]
 pub enum WhyLost {
     /// The start has an entry that is not finite, or its matrix is not a rotation (by more than `1e-6`).
     #[error("the start is not a pose: its matrix is not a rotation, or a number is not finite")]

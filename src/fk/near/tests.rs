@@ -1,9 +1,9 @@
 use super::*;
-use crate::fk::{Homotopy, Reality};
-use crate::num::Rng;
-use crate::platform::geom::{ComplexPose, random_rotation};
-use crate::platform::manipulator::{Leg, default_home};
+use crate::{Homotopy, Reality};
 use nalgebra::{Matrix6, Point3};
+use num::Rng;
+use platform::geom::{ComplexPose, random_rotation};
+use platform::manipulator::{Leg, default_home};
 
 fn hexapod(rng: &mut Rng) -> Manipulator {
     let mut point = |r: f64| Point3::new(r * rng.normal(), r * rng.normal(), 0.3 * rng.normal());
@@ -21,7 +21,7 @@ fn gap(m: &Manipulator, a: &Pose, b: &Pose) -> f64 {
 }
 
 fn determinant(m: &Manipulator, pose: &Pose) -> f64 {
-    let j: Matrix6<f64> = crate::platform::manipulator::plucker_matrix(m, pose, m.platform_rms_radius());
+    let j: Matrix6<f64> = platform::manipulator::plucker_matrix(m, pose, m.platform_rms_radius());
     j.determinant()
 }
 
@@ -245,6 +245,6 @@ fn as_a_general_method_it_does_not_apply() {
     let mut rng = Rng::new(9);
     let m = hexapod(&mut rng);
     let s = SquaredLegLengths::try_new([1.0; 6]).unwrap();
-    let error = crate::fk::solver(Some(Method::Near)).solve(&m, &s, &FkOptions::default()).unwrap_err();
+    let error = crate::solver(Some(Method::Near)).solve(&m, &s, &FkOptions::default()).unwrap_err();
     assert!(matches!(error, FkError::NotApplicable { method: Method::Near, .. }));
 }

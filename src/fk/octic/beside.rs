@@ -10,7 +10,7 @@
 
 use super::lanes::{Corners, Points, dot, separate};
 use super::solver::{OcticSolver, Triangle};
-use crate::num::batch::{ComplexBatch, LANES};
+use num::batch::{ComplexBatch, LANES};
 
 /// Newton steps of the angles at most.
 const STEPS: usize = 8;

@@ -1,14 +1,14 @@
 //! The certificates of octahedral platforms on what the solver finds.
 
 use super::{OcticPoses, OcticSolver};
-use crate::fk::solve::certify::octahedral::{OctahedralCertificates, OctahedralCertifier, PairCertificate};
-use crate::fk::solve::certify::{Certifier, ProvedReality};
-use crate::num::Rng;
-use crate::num::interval::Interval;
-use crate::platform::geom::{Pose, random_rotation};
-use crate::platform::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
+use crate::solve::certify::octahedral::{OctahedralCertificates, OctahedralCertifier, PairCertificate};
+use crate::solve::certify::{Certifier, ProvedReality};
 use nalgebra::{Point3, Vector3};
+use num::Rng;
+use num::interval::Interval;
 use num_complex::Complex64;
+use platform::geom::{Pose, random_rotation};
+use platform::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
 
 const LEGS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
 
@@ -181,7 +181,7 @@ fn poses_called_proved_are_the_roots_to_the_accuracy_stated() {
         };
         let m = Manipulator::try_new(triangle(), triangle(), LEGS).unwrap();
         let lengths = std::array::from_fn(|_| rng.uniform(2.0, 4.0));
-        let s = crate::platform::manipulator::LegLengths::try_new(lengths).unwrap().squared();
+        let s = platform::manipulator::LegLengths::try_new(lengths).unwrap().squared();
         let solver = OcticSolver::new(&m).unwrap();
         let Some(found) = solver.solve(&s) else { continue };
         let certificates = solver.certify(&s, &found);
@@ -210,7 +210,7 @@ fn poses_called_proved_are_the_roots_to_the_accuracy_stated() {
                 turn <= pair.deviation * 1.001 + 1e-15 && shift <= pair.deviation * 1.001 + 1e-15,
                 "{k} {i}: {turn:e} {shift:e}"
             );
-            assert!(pair.deviation <= crate::fk::solve::certify::NEAR);
+            assert!(pair.deviation <= crate::solve::certify::NEAR);
             worst = worst.max(turn.max(shift));
         }
     }
@@ -263,7 +263,7 @@ fn certificates_of_joints_within_radii_hold_for_every_choice() {
                 (held, closest) = (held + 1, closest.max(ratio));
                 // one of the two poses of the one is the pose of the other
                 let given = &c.found.poses[2 * i];
-                let near = |pose: &crate::platform::geom::ComplexPose| {
+                let near = |pose: &platform::geom::ComplexPose| {
                     let turn = (pose.rotation - given.rotation).iter().map(|z| z.norm()).fold(0.0, f64::max);
                     let shift = (pose.position - given.position).iter().map(|z| z.norm()).fold(0.0, f64::max);
                     turn <= pair.distances[0] + other.distances[0]
@@ -285,12 +285,12 @@ fn certificates_of_joints_within_radii_hold_for_every_choice() {
 /// Two joints next to the same double are two joints: merged they would be another platform, with its own sixteen poses.
 #[test]
 fn joints_are_merged_by_what_they_are() {
-    use crate::num::surd::Surd;
+    use num::surd::Surd;
     let c = (0..).find_map(case).unwrap();
     let mut ends = c.m.exact_ends().unwrap();
     assert!(OcticSolver::new(&Manipulator::from_exact_ends(&ends).unwrap()).is_ok());
     // below what a double next to one can tell
-    let trace = Surd::rational(&crate::num::exact::rational(1e-40).unwrap()).unwrap();
+    let trace = Surd::rational(&num::exact::rational(1e-40).unwrap()).unwrap();
     let x = &mut ends[0][0][0];
     *x = x.plus(&trace).unwrap();
     let split = Manipulator::from_exact_ends(&ends).unwrap();

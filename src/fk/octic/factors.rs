@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 
 use super::Biquadratic;
-use crate::num::batch::ComplexBatch;
+use num::batch::ComplexBatch;
 
 /// Products of the sides `b = B - A`, `c = C - A` of a triangle, and `|b x c|^2`.
 #[derive(Debug, Clone)]

@@ -8,9 +8,9 @@ use super::factors::Factors;
 use super::parallel::Translation;
 use super::solver::{OcticSolver, Triangle};
 use super::{minor, resultant};
-use crate::num::batch::{ComplexBatch, LANES};
-use crate::num::poly::octic_roots;
-use crate::platform::geom::ComplexPose;
+use num::batch::{ComplexBatch, LANES};
+use num::poly::octic_roots;
+use platform::geom::ComplexPose;
 
 /// Relative accuracy asked of the octic's roots before both closures take over.
 pub(super) const COARSE: f64 = 1e-6;

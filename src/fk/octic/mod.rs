@@ -27,11 +27,11 @@ use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
     SolutionSet, Theorem,
 };
-use crate::fk::solve::certify::Certifier;
-use crate::num::batch::LANES;
-use crate::num::poly::roots;
-use crate::platform::geom::{ComplexPose, trilaterate};
-use crate::platform::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
+use crate::solve::certify::Certifier;
+use num::batch::LANES;
+use num::poly::roots;
+use platform::geom::{ComplexPose, trilaterate};
+use platform::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
 
 /// Forward kinematics of octahedral platforms (also of those whose joints coincide without being named as
 /// shared: only coordinates count).
@@ -73,7 +73,7 @@ impl PreparedDesign for OcticSolver {
 
 impl OcticSolver {
     /// All sixteen poses, certified; `None` where that takes the general treatment, or another method.
-    pub(in crate::fk) fn proved(&self, s: &SquaredLegLengths, seed: u64) -> Option<FkSolutions> {
+    pub(crate) fn proved(&self, s: &SquaredLegLengths, seed: u64) -> Option<FkSolutions> {
         self.proved_of(&self.solve(s)?, s, seed)
     }
 

@@ -9,8 +9,8 @@
 
 use super::lanes::{COARSE, LEGS, Points};
 use super::solver::Triangle;
-use crate::num::batch::{ComplexBatch, LANES};
-use crate::num::poly::roots_in_lanes;
+use num::batch::{ComplexBatch, LANES};
+use num::poly::roots_in_lanes;
 
 /// Squared lengths this near to those of a translation, in parts of all, are solved from there: three roots of the octic are one at the translation, and still close to each other at the cube root of it.
 /// Ten times farther the continuation fails too often to be worth its time.
@@ -228,11 +228,11 @@ fn divide(c: &mut [f64], root: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::OcticSolver;
-    use crate::num::Rng;
-    use crate::platform::geom::Pose;
-    use crate::platform::manipulator::Manipulator;
+    use crate::OcticSolver;
     use nalgebra::{Point3, Rotation3, Vector3};
+    use num::Rng;
+    use platform::geom::Pose;
+    use platform::manipulator::Manipulator;
 
     const ZERO: Points = [ComplexBatch::ZERO; 3];
 

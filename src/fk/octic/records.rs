@@ -1,16 +1,16 @@
 //! Sixteen certified poses as records, without the general collection: they are proved distinct, so that nothing is merged or rejected.
 
 use super::{OcticPoses, OcticSolver};
-use crate::fk::collect::sort_key;
-use crate::fk::evidence::proved as proved_reality;
-use crate::fk::solve::certify::octahedral::{OctahedralCertificates, PairCertificate};
-use crate::fk::solve::certify::{
+use crate::collect::sort_key;
+use crate::evidence::proved as proved_reality;
+use crate::solve::certify::octahedral::{OctahedralCertificates, PairCertificate};
+use crate::solve::certify::{
     Certificate, CertifiedPose, Certifier, Distinctness, NewtonStart, RootCertificate, distinct,
 };
-use crate::fk::{Completeness, FkRoot, FkSolutions, Method, SolutionSet, Theorem};
-use crate::num::batch::LANES;
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::SquaredLegLengths;
+use crate::{Completeness, FkRoot, FkSolutions, Method, SolutionSet, Theorem};
+use num::batch::LANES;
+use platform::geom::ComplexPose;
+use platform::manipulator::SquaredLegLengths;
 
 /// The answer for poses all of which are certified and distinct.
 pub(super) fn proved(

@@ -9,16 +9,16 @@ use super::OcticProblem;
 use super::factors::Gram;
 use super::lanes::{Corners, Placed, SEPARATE};
 use super::parallel::ParallelSides;
-use crate::fk::collect::pose_scale;
-use crate::fk::newton::refine;
-use crate::fk::solve::certify::octahedral::{
+use crate::collect::pose_scale;
+use crate::newton::refine;
+use crate::solve::certify::octahedral::{
     OctahedralCertificate, OctahedralCertificates, OctahedralCertifier, PairCertificate,
 };
-use crate::fk::{FkError, Method};
-use crate::num::batch::LANES;
-use crate::num::vector_unit::on_vector_unit;
-use crate::platform::geom::{ComplexPose, reorthogonalised};
-use crate::platform::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
+use crate::{FkError, Method};
+use num::batch::LANES;
+use num::vector_unit::on_vector_unit;
+use platform::geom::{ComplexPose, reorthogonalised};
+use platform::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
 
 /// Largest residual of a pose that is returned.
 const RESIDUAL: f64 = 1e-12;
@@ -26,6 +26,7 @@ const RESIDUAL: f64 = 1e-12;
 /// Forward kinematics of one octahedral design; made once, a solve allocates nothing.
 ///
 /// ```
+/// # mod equipod { pub use equipod_fk::*; pub mod methods { pub use equipod_fk as fk; pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
 /// use equipod::methods::fk::OcticSolver;
 /// use equipod::methods::manipulator::{LegLengths, Manipulator};
 /// use nalgebra::Point3;
@@ -125,7 +126,7 @@ impl OcticSolver {
         Ok(Self {
             manipulator: m.clone(),
             size,
-            order: octahedral.order().map(crate::platform::manipulator::LegIndex::get),
+            order: octahedral.order().map(platform::manipulator::LegIndex::get),
             parallel: ParallelSides::all(&base, &platform),
             base,
             platform,

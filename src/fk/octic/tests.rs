@@ -1,9 +1,9 @@
 use super::*;
-use crate::fk::Homotopy;
-use crate::num::Rng;
-use crate::platform::geom::{Pose, random_rotation};
-use crate::platform::manipulator::LegLengths;
+use crate::Homotopy;
 use nalgebra::Point3;
+use num::Rng;
+use platform::geom::{Pose, random_rotation};
+use platform::manipulator::LegLengths;
 
 /// Rojas, Borras, Thomas, sec. 6.
 fn published() -> (Manipulator, SquaredLegLengths) {

@@ -8,9 +8,9 @@
 //! Joints that are their doubles are decided over the rationals, exact ones in their field of square roots. Of joints known between bounds only nothing is decided
 //! beyond their being far from any relation.
 
-use crate::num::exact::{ExactVector, Rational, rational, relations};
-use crate::num::surd::{Surd, combination, eliminate};
-use crate::platform::manipulator::{
+use num::exact::{ExactVector, Rational, rational, relations};
+use num::surd::{Surd, combination, eliminate};
+use platform::manipulator::{
     Body, ExactLeg, JointKnowledge, Manipulator, SquaredLegLengths, squares_of_ends, vector_of_ends,
 };
 
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1.0 / (1u64 << 49) as f64;
 
 /// What is known of the six leg vectors and lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum LegDependence {
+pub enum LegDependence {
     /// Independent, far from any relation.
     Independent,
     /// A relation holds nearly; not exactly, or that is not known.
@@ -39,7 +39,7 @@ pub(crate) enum LegDependence {
 }
 
 /// Decides the dependence of the legs of `m` with squared lengths `s`.
-pub(crate) fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> LegDependence {
+pub fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> LegDependence {
     let radius = (0..6).flat_map(|i| Body::BOTH.map(|body| m.end_radius(i, body))).fold(0.0, f64::max);
     // a vector of scaled coordinates changes by less than sixteen times their radius
     if least_sine(m) > SUSPECT + 32.0 * radius / m.size() {
@@ -159,10 +159,10 @@ fn least_sine(m: &Manipulator) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::{Pose, random_rotation};
-    use crate::platform::manipulator::Leg;
     use nalgebra::{Point3, Rotation3, Vector3};
+    use num::Rng;
+    use platform::geom::{Pose, random_rotation};
+    use platform::manipulator::Leg;
 
     /// Midpoints of the edges of two triangles (Rojas, Borras, Thomas 2010, sec. 6); all halves are exact.
     fn midline() -> Manipulator {

@@ -6,9 +6,9 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use num_complex::Complex64;
 
-use crate::num::Rng;
-use crate::platform::geom::{ComplexPose, random_rotation, rotation_from_quaternion};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use num::Rng;
+use platform::geom::{ComplexPose, random_rotation, rotation_from_quaternion};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// The products `e_i e_j`, `i <= j`, in the order in which forms in `e` are stored.
 pub(crate) const PRODUCTS: [(usize, usize); 10] =
@@ -17,12 +17,14 @@ pub(crate) const PRODUCTS: [(usize, usize); 10] =
 /// A problem in its own frames: legs 2..6 of a platform whose leg 1 joins the two origins.
 #[derive(Debug, Clone)]
 pub struct GenericProblem {
-    pub(crate) base: [Vector3<f64>; 5],
-    pub(crate) platform: [Vector3<f64>; 5],
+    /// Base ends of legs 2..6.
+    pub base: [Vector3<f64>; 5],
+    /// Platform ends of legs 2..6.
+    pub platform: [Vector3<f64>; 5],
     /// Squared length of leg 1.
-    pub(crate) first: f64,
+    pub first: f64,
     /// Squared lengths of legs 2..6.
-    pub(crate) others: [f64; 5],
+    pub others: [f64; 5],
     frame: GenericFrame,
 }
 
@@ -107,9 +109,9 @@ pub(crate) fn norm_form() -> [f64; 10] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::geom::Pose;
-    use crate::platform::manipulator::Leg;
     use nalgebra::Point3;
+    use platform::geom::Pose;
+    use platform::manipulator::Leg;
 
     #[test]
     fn a_pose_found_in_the_frames_is_a_pose_of_the_design() {

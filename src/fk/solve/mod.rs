@@ -10,12 +10,12 @@ mod octuple_sections;
 mod planar;
 pub mod pose_count;
 mod sections;
-pub(crate) mod special;
+pub mod special;
 #[cfg(feature = "lab")]
 pub mod sylvester;
 #[cfg(feature = "lab")]
 pub mod template;
 
-pub(crate) use dependence::{LegDependence, dependence};
-pub(crate) use planar::mirror;
-pub(crate) use sections::{ScaledFrames, Sections, quaternion_product, split};
+pub use dependence::{LegDependence, dependence};
+pub use planar::mirror;
+pub use sections::{ScaledFrames, Sections, quaternion_product, split};

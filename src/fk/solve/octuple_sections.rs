@@ -3,8 +3,8 @@
 use num_complex::Complex64;
 
 use super::sections::{FORMS, ScaledFrames, Sections};
-use crate::num::octuple::{ComplexOctuple, Octuple};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use num::octuple::{ComplexOctuple, Octuple};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// A row of real coefficients, see [`FormRow`](super::sections::FormRow).
 type OctupleRow = [Octuple; FORMS];
@@ -15,7 +15,7 @@ const DEPENDENT: f64 = 1e-45;
 /// Six linear sections, `g.g` in the last one only.
 #[derive(Debug, Clone)]
 pub(crate) struct OctupleSections {
-    pub(crate) rows: [OctupleRow; 6],
+    pub rows: [OctupleRow; 6],
 }
 
 type Point = [Octuple; 3];
@@ -164,11 +164,11 @@ pub(crate) fn octuple_forms(x: &[ComplexOctuple; 8]) -> [ComplexOctuple; FORMS] 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::solve::sections::forms;
-    use crate::num::Rng;
-    use crate::platform::geom::{Pose, random_rotation};
-    use crate::platform::manipulator::Leg;
+    use crate::solve::sections::forms;
     use nalgebra::{Point3, Vector3};
+    use num::Rng;
+    use platform::geom::{Pose, random_rotation};
+    use platform::manipulator::Leg;
 
     #[test]
     fn octuple_sections_are_those_in_doubles_with_more_digits() {

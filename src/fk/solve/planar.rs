@@ -16,8 +16,8 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 use num_complex::Complex64;
 
-use crate::fk::solve::sections::FORMS;
-use crate::platform::manipulator::Manipulator;
+use crate::solve::sections::FORMS;
+use platform::manipulator::Manipulator;
 
 /// Number of quadratic forms in the leg equations of a doubly planar platform.
 pub(crate) const PLANAR_FORMS: usize = 10;
@@ -32,7 +32,7 @@ const FLAT: f64 = 64.0 * f64::EPSILON;
 const SPAN: f64 = 1e-3;
 
 /// The mirror pose, in frames with both planes as `z = 0`.
-pub(crate) fn mirror(x: [Complex64; 8]) -> [Complex64; 8] {
+pub fn mirror(x: [Complex64; 8]) -> [Complex64; 8] {
     [x[0], -x[1], -x[2], x[3], -x[4], x[5], x[6], -x[7]]
 }
 
@@ -53,14 +53,14 @@ pub(crate) fn spatial_row(row: [Complex64; PLANAR_FORMS]) -> [Complex64; FORMS] 
 
 /// Rotations that turn the planes of base and platform to `z = const`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Planes {
-    pub(crate) base: Rotation3<f64>,
-    pub(crate) platform: Rotation3<f64>,
+pub(super) struct Planes {
+    pub base: Rotation3<f64>,
+    pub platform: Rotation3<f64>,
 }
 
 impl Planes {
     /// `None` when the joints of a body are not coplanar to rounding, or nearly collinear.
-    pub(crate) fn of(m: &Manipulator) -> Option<Self> {
+    pub(super) fn of(m: &Manipulator) -> Option<Self> {
         let legs = m.legs();
         let base = turn_to_plane(&legs.map(|l| l.base), m.size())?;
         Some(Self { base, platform: turn_to_plane(&legs.map(|l| l.platform), m.size())? })
@@ -93,11 +93,11 @@ fn turn_to_plane(points: &[Point3<f64>; 6], size: f64) -> Option<Rotation3<f64>>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::solve::sections::{ScaledFrames, forms};
-    use crate::num::Rng;
-    use crate::platform::geom::{Pose, random_rotation};
-    use crate::platform::manipulator::Leg;
+    use crate::solve::sections::{ScaledFrames, forms};
     use nalgebra::{Matrix3, UnitQuaternion};
+    use num::Rng;
+    use platform::geom::{Pose, random_rotation};
+    use platform::manipulator::Leg;
 
     fn random_point(rng: &mut Rng) -> [Complex64; 8] {
         std::array::from_fn(|_| Complex64::new(rng.normal(), rng.normal()))

@@ -18,13 +18,13 @@
 use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 use num_complex::Complex64;
 
-use crate::fk::solve::planar::Planes;
-use crate::num::Rng;
-use crate::num::small::bounded_svd;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::planar::Planes;
+use num::Rng;
+use num::small::bounded_svd;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Number of quadratic forms.
-pub(crate) const FORMS: usize = 17;
+pub(super) const FORMS: usize = 17;
 
 /// Coefficients of one quadratic form, in the order `E00 E01 E02 E03 E11 E12 E13 E22 E23 E33`
 /// (diagonal entries as they stand, off-diagonal entries of the symmetric matrix), `m`, `n`, `c`.
@@ -32,13 +32,14 @@ pub(crate) type FormRow = [Complex64; FORMS];
 
 /// Six linear sections.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sections {
-    pub(crate) rows: [FormRow; 6],
+pub struct Sections {
+    /// One linear form a section.
+    pub rows: [FormRow; 6],
 }
 
 /// Centred and scaled frames in which a problem is solved: `turn (a - origin_a) = scale a'`, likewise `b`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct ScaledFrames {
+pub struct ScaledFrames {
     pub(super) base_origin: Vector3<f64>,
     pub(super) platform_origin: Vector3<f64>,
     pub(super) scale: f64,
@@ -48,21 +49,21 @@ pub(crate) struct ScaledFrames {
 
 impl ScaledFrames {
     /// Centroids as origins; the scale is the larger of the design's size and its RMS leg length.
-    pub(crate) fn of(m: &Manipulator, s: &SquaredLegLengths) -> Self {
+    pub fn of(m: &Manipulator, s: &SquaredLegLengths) -> Self {
         let [base_origin, platform_origin] = m.mean_leg_ends();
         let rms = (s.get().iter().sum::<f64>() / 6.0).sqrt();
         Self { base_origin, platform_origin, scale: m.size().max(rms), planes: None }
     }
 
     /// [`ScaledFrames::of`] with the joints of base and platform in `z = 0`; `None` unless both are coplanar to rounding.
-    pub(crate) fn planar(m: &Manipulator, s: &SquaredLegLengths) -> Option<Self> {
+    pub fn planar(m: &Manipulator, s: &SquaredLegLengths) -> Option<Self> {
         Some(Self { planes: Some(Planes::of(m)?), ..Self::of(m, s) })
     }
 
     /// The orthonormalised sections of the legs, in this frame, `g.g` in the last one only: far out, where `|e|` is small against
     /// `|g|`, rounding in `g.g` would drown what the others say about `e`. `None` when the six leg equations are
     /// linearly dependent to rounding (relative `1e-13`), so that they do not span six dimensions.
-    pub(crate) fn sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<Sections> {
+    pub fn sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<Sections> {
         self.moving_sections(m, s, &[Complex64::ZERO; 6]).map(|(sections, _)| sections)
     }
 
@@ -183,7 +184,7 @@ impl ScaledFrames {
     }
 
     /// Design units a unit of this frame.
-    pub(crate) fn scale(&self) -> f64 {
+    pub fn scale(&self) -> f64 {
         self.scale
     }
 }
@@ -203,12 +204,12 @@ fn pure(v: &Vector3<f64>) -> [Complex64; 4] {
 }
 
 /// `(e, g)` from `x`.
-pub(crate) fn split(x: [Complex64; 8]) -> ([Complex64; 4], [Complex64; 4]) {
+pub fn split(x: [Complex64; 8]) -> ([Complex64; 4], [Complex64; 4]) {
     ([x[0], x[1], x[2], x[3]], [x[4], x[5], x[6], x[7]])
 }
 
 /// Quaternion product, scalar part first.
-pub(crate) fn quaternion_product(p: [Complex64; 4], q: [Complex64; 4]) -> [Complex64; 4] {
+pub fn quaternion_product(p: [Complex64; 4], q: [Complex64; 4]) -> [Complex64; 4] {
     [
         p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
         p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
@@ -283,7 +284,7 @@ impl Sections {
     }
 
     /// Modified Gram-Schmidt with re-orthogonalisation; `None` when a row depends on the earlier ones.
-    pub(crate) fn orthonormalised(&self) -> Option<Self> {
+    pub fn orthonormalised(&self) -> Option<Self> {
         self.orthonormalised_beside(&mut [Complex64::ZERO; 6])
     }
 
@@ -316,7 +317,7 @@ impl Sections {
 pub(crate) const NORM_FORMS: [usize; 4] = [0, 4, 7, 9];
 
 /// The 17 forms at `x`, such that `q(x) = sum_k row_k forms_k`.
-pub(crate) fn forms(x: [Complex64; 8]) -> FormRow {
+pub(super) fn forms(x: [Complex64; 8]) -> FormRow {
     let (e, g) = split(x);
     let ev = Vector3::new(e[1], e[2], e[3]);
     let gv = Vector3::new(g[1], g[2], g[3]);
@@ -347,8 +348,8 @@ pub(crate) fn forms(x: [Complex64; 8]) -> FormRow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::geom::{Pose, random_rotation};
-    use crate::platform::manipulator::Leg;
+    use platform::geom::{Pose, random_rotation};
+    use platform::manipulator::Leg;
 
     #[test]
     fn aligned_rows_span_the_same_sections_and_are_nearer() {

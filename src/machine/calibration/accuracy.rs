@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::model::{LegModel, Unknowns};
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// Standard deviations of a pose that is computed from shown lengths, by what a calibration does not know of the machine. The noise of these lengths is not in them.
 #[derive(Debug, Clone, Copy, PartialEq)]

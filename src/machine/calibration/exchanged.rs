@@ -29,8 +29,8 @@ pub(super) fn exchanged(nominal: &LegModel, measurements: &[Measurement]) -> Opt
 mod tests {
     use super::super::simulated::{built, measured, nominal, octahedral, poses};
     use super::*;
-    use crate::machine::calibration::MeasurementNoise;
-    use crate::num::Rng;
+    use crate::calibration::MeasurementNoise;
+    use num::Rng;
 
     #[test]
     fn columns_in_each_others_place_are_named_and_no_others() {

@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, Matrix3, Point3, Vector3};
 
 use super::model::{LegModel, Unknowns};
-use crate::num::small::bounded_svd;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use num::small::bounded_svd;
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 /// Points whose spread across a line is below this share of that along it have no rotation of their own.
 const ON_A_LINE: f64 = 1e-6;
@@ -51,7 +51,7 @@ pub fn rigid_motion(from: &[Point3<f64>], to: &[Point3<f64>]) -> Option<FrameMot
     }
     let sign = if (u * v_t).determinant() < 0.0 { -1.0 } else { 1.0 };
     let rotation = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * v_t;
-    let rotation = crate::platform::geom::nearest_rotation(&rotation);
+    let rotation = platform::geom::nearest_rotation(&rotation);
     let motion = Pose { rotation, position: b - rotation * a };
     let squares = from.iter().zip(to).map(|(x, y)| (motion.transform(x) - y).norm_squared());
     Some(FrameMotion { motion, rms: (squares.sum::<f64>() / count as f64).sqrt() })

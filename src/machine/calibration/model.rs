@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Point3, Vector3, Vector6};
 
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, InvalidManipulator, Manipulator};
+use platform::geom::Pose;
+use platform::manipulator::{Body, InvalidManipulator, Manipulator};
 
 /// What the lengths that a machine shows follow from: `l_i = |R b_i + p - a_i| + d_i`.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, Matrix6};
 use super::model::{LegModel, Unknowns};
 use super::noise::MeasurementNoise;
 use super::robust::PoseWeight;
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// A pose to measure next.
 #[derive(Debug, Clone, Copy, PartialEq)]

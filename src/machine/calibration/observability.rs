@@ -4,7 +4,7 @@ use nalgebra::{DVector, Vector3};
 
 use super::model::{Unknown, Unknowns};
 use super::spectrum::Spectrum;
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 /// Parts of a direction that are smaller than this are left out when it is described; the whole has norm 1.
 const NAMED: f64 = 1e-3;

@@ -12,7 +12,7 @@ use super::observability::Observability;
 use super::robust::{Loss, LossUnit, PoseWeight};
 use super::spectrum::{Spectrum, deletion};
 use super::start::closed_form;
-use crate::platform::manipulator::InvalidManipulator;
+use platform::manipulator::InvalidManipulator;
 
 /// Measurements of a right model have a larger chi-square with this probability.
 const REFUTED: f64 = 1e-3;
@@ -23,7 +23,6 @@ const SAME_END: f64 = 0.01;
 
 /// What is asked of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub struct CalibrateOptions {
     /// How uncertain measurements are; `None`: lengths equally, poses exact, and how much is estimated.
     pub noise: Option<MeasurementNoise>,
@@ -67,7 +66,7 @@ pub enum StartChoice {
 /// Where the fit that was taken began.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -138,7 +137,7 @@ pub enum CalibrationError {
 /// How a calibration ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]

@@ -3,12 +3,12 @@
 use nalgebra::{Matrix6, Vector6};
 
 use super::chi_square::{chi_square_exceeds, chi_square_quantile};
-use crate::num::names::{UnknownName, named};
+use num::names::{UnknownName, named};
 
 /// How much a distance costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -60,7 +60,7 @@ impl std::str::FromStr for Loss {
 /// What is taken together: gross errors of the pose, or of single lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]

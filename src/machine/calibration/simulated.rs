@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::{LegModel, Measurement, MeasurementNoise};
-use crate::num::Rng;
-use crate::platform::geom::Pose;
+use num::Rng;
+use platform::geom::Pose;
 
 /// A hexapod with joints in pairs on circles of 500 and 300 mm, some millimetres out of their planes.
 pub(super) fn nominal() -> LegModel {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6};
 
-use crate::num::small::bounded_svd;
+use num::small::bounded_svd;
 
 /// `rows x = right` with equations of variance 1: `rows = U diag(s) V^T` and `U^T right`.
 ///
@@ -108,7 +108,7 @@ const INDISPENSABLE: f64 = 1e-9;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     #[test]
     fn steps_are_damped_least_squares_and_unknown_directions_are_orthonormal() {

@@ -4,9 +4,9 @@ use nalgebra::{DMatrix, Point3, Rotation3, Vector3};
 
 use super::simulated::{built, measured, nominal, octahedral, poses};
 use super::*;
-use crate::num::Rng;
-use crate::platform::geom::{Pose, random_rotation, rotation_vector, turn_between};
-use crate::platform::manipulator::Body;
+use num::Rng;
+use platform::geom::{Pose, random_rotation, rotation_vector, turn_between};
+use platform::manipulator::Body;
 
 const LASER: MeasurementNoise = MeasurementNoise { length: 0.01, position: 0.015, rotation: 3e-5 };
 const ENCODERS: MeasurementNoise = MeasurementNoise { length: 0.02, position: 0.0, rotation: 0.0 };

@@ -7,6 +7,6 @@ mod proof;
 mod tests;
 mod track;
 
-pub use crate::machine::requirements::coupled::{CoupledLegs, DriveState, NoDriveLength};
+pub use crate::requirements::coupled::{CoupledLegs, DriveState, NoDriveLength};
 pub use proof::PoseBound;
 pub use track::{CoupledOutcome, CoupledStatus, CoupledTracker};

@@ -3,12 +3,10 @@
 use nalgebra::Matrix6;
 
 use super::{CoupledLegs, DriveState};
-use crate::machine::requirements::coupled::{PlacedLeg, Vec3, unit};
-use crate::num::interval::Interval;
-use crate::platform::geom::enclosed::{
-    IntervalMatrix, IntervalVector, Rotation, apply, exact_rotation, times,
-};
-use crate::platform::geom::{Pose, arc_cosine};
+use crate::requirements::coupled::{PlacedLeg, Vec3, unit};
+use num::interval::Interval;
+use platform::geom::enclosed::{IntervalMatrix, IntervalVector, Rotation, apply, exact_rotation, times};
+use platform::geom::{Pose, arc_cosine};
 
 /// How far the pose of the machine is from the one found, at most.
 #[derive(Debug, Clone, Copy, PartialEq)]

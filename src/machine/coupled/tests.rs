@@ -4,11 +4,11 @@
 use nalgebra::{Matrix6, Point3, Rotation3, Unit, Vector3, Vector6};
 
 use super::*;
-use crate::fk::NearSolver;
-use crate::machine::requirements::{Hardware, JointAxes, UniversalJoint};
-use crate::num::Rng;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator};
+use crate::requirements::{Hardware, JointAxes, UniversalJoint};
+use fk::NearSolver;
+use num::Rng;
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator};
 
 /// A leg as it is built: base, turn about x, offset along z, turn about y, length along z, turn about z, turn about y, offset along z, turn about x.
 #[derive(Debug, Clone, Copy)]

@@ -5,9 +5,9 @@
 
 use super::proof::PoseBound;
 use super::{CoupledLegs, DriveState, NoDriveLength};
-use crate::fk::{NearOutcome, NearSolver};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::LegLengths;
+use fk::{NearOutcome, NearSolver};
+use platform::geom::Pose;
+use platform::manipulator::LegLengths;
 
 /// Most steps of the fixed point.
 const STEPS: u32 = 200;
@@ -112,9 +112,9 @@ impl CoupledTracker {
     pub fn find(&self, drives: &[f64; 6]) -> CoupledOutcome {
         let stay = NearOutcome::Lost {
             pose: self.pose,
-            reason: crate::fk::WhyLost::NoConvergence,
+            reason: fk::WhyLost::NoConvergence,
             fraction: 0.0,
-            evidence: crate::fk::NearEvidence::default(),
+            evidence: fk::NearEvidence::default(),
         };
         let mut out = CoupledOutcome {
             near: stay,

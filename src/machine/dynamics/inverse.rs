@@ -25,7 +25,7 @@
 use nalgebra::{Matrix3, Vector3, Vector6};
 
 use super::{MotionState, MovingBodies};
-use crate::platform::manipulator::{Leg, Manipulator, jacobian};
+use platform::manipulator::{Leg, Manipulator, jacobian};
 
 /// Length of a leg and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]

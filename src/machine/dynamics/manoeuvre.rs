@@ -6,12 +6,12 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use thiserror::Error;
 
 use super::MotionState;
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// A freedom of the platform: along an axis of the base frame, or about the line through the platform origin that is parallel to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]

@@ -15,13 +15,13 @@ pub use inverse::{LegMotion, drive_forces, kinetic_energy, leg_motions, potentia
 pub use manoeuvre::{InvalidManoeuvre, Manoeuvre, PlatformFreedom};
 pub use spline::{InvalidPath, PathEnds, PosePath};
 
-pub use crate::machine::requirements::{
+pub use crate::requirements::{
     LeastStiffness, MovingBodies, Vibration, least_stiffness, mass_matrix, stiffness_matrix, vibration,
 };
 
 use nalgebra::Vector3;
 
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// A pose with the first and second derivatives of the motion through it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +49,7 @@ impl MotionState {
     /// Velocity and acceleration of a point of the platform whose arm from the platform origin is given in the base frame:
     /// `v + w x r` and `a + w' x r + w x (w x r)`.
     #[must_use]
-    pub(crate) fn of_arm(&self, arm: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+    pub fn of_arm(&self, arm: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         let turning = self.angular_velocity.cross(arm);
         let velocity = self.velocity + turning;
         let centripetal = self.angular_velocity.cross(&turning);

@@ -11,7 +11,7 @@ use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
 use thiserror::Error;
 
 use super::MotionState;
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// Position, then quaternion with the scalar part first.
 type Row = SVector<f64, 7>;
@@ -137,7 +137,7 @@ impl PosePath {
     /// quaternion of any norm.
     ///
     /// Pieces meet exactly; inside a piece the control points round the spline.
-    pub(crate) fn control_points(&self, piece: usize) -> [[f64; 7]; 4] {
+    pub fn control_points(&self, piece: usize) -> [[f64; 7]; 4] {
         let h = self.times[piece + 1] - self.times[piece];
         let (y0, y1) = (self.rows[piece], self.rows[piece + 1]);
         let (m0, m1) = (self.bends[piece] * (h * h), self.bends[piece + 1] * (h * h));

@@ -3,11 +3,11 @@
 use nalgebra::{Matrix3, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::*;
-use crate::machine::requirements::{ForceUnit, LegMasses, LegPart, MassUnit, Payload, PlateMass, leg_forces};
-use crate::machine::requirements::{VibratingMasses, least_stiffness_at, lowest_frequency};
-use crate::num::Rng;
-use crate::platform::geom::random_rotation;
-use crate::platform::manipulator::{Leg, Manipulator, default_home};
+use crate::requirements::{ForceUnit, LegMasses, LegPart, MassUnit, Payload, PlateMass, leg_forces};
+use crate::requirements::{VibratingMasses, least_stiffness_at, lowest_frequency};
+use num::Rng;
+use platform::geom::random_rotation;
+use platform::manipulator::{Leg, Manipulator, default_home};
 
 fn hexapod(rng: &mut Rng) -> Manipulator {
     let mut at = |deg: f64, r: f64| {

@@ -6,10 +6,10 @@ use super::gauge::Gauge;
 use super::joint::{Joint, joints};
 use super::product::largest_product;
 use super::sample::{ErrorBound, ErrorKind, PoseSample, PoseSearch, SampleEntry, Shares, ToleranceError};
-use crate::machine::requirements::PoseSpace;
-use crate::num::small::symmetric_eigen3;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use crate::requirements::PoseSpace;
+use num::small::symmetric_eigen3;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// Gap of the bracket of the worst case at the worst pose.
 const GAP: f64 = 1e-6;

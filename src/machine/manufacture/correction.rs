@@ -4,12 +4,12 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use super::uncertainty::{MachineUncertainty, PoseCovariance};
-use crate::fk::{FkError, NearSolver, OcticSolver};
-use crate::num::linalg::LinalgError;
-use crate::platform::geom::{ComplexPose, Pose};
-use crate::platform::manipulator::{InvalidManipulator, Manipulator, Octahedral, SquaredLegLengths};
-use crate::synthesis::singularity::GriffisDuffy;
-use crate::synthesis::{AffineLegMap, LegMapTolerances, Relation, SingularMap, leg_map};
+use fk::{FkError, NearSolver, OcticSolver};
+use num::linalg::LinalgError;
+use platform::geom::{ComplexPose, Pose};
+use platform::manipulator::{InvalidManipulator, Manipulator, Octahedral, SquaredLegLengths};
+use synthesis::singularity::GriffisDuffy;
+use synthesis::{AffineLegMap, LegMapTolerances, Relation, SingularMap, leg_map};
 
 /// Imaginary parts of a real pose of the octic are below this, relative.
 const REAL: f64 = 1e-7;

@@ -6,9 +6,9 @@ use super::gauge::Gauge;
 use super::joint::joints;
 use super::sample::{PoseSearch, ToleranceError};
 use super::sensitivity::Sensitivity;
-use crate::machine::requirements::PoseSpace;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use crate::requirements::PoseSpace;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// By how much a machine may differ from its design.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

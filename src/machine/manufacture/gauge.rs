@@ -28,25 +28,25 @@ pub(crate) struct Gauge {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bracket {
     /// A value of `f`, reached in `direction`.
-    pub(crate) least: f64,
+    pub least: f64,
     /// No value is greater.
-    pub(crate) most: f64,
-    pub(crate) direction: Vector3<f64>,
+    pub most: f64,
+    pub direction: Vector3<f64>,
 }
 
 impl Gauge {
     /// One ellipsoid a matrix, and segments.
-    pub(crate) fn of(balls: Vec<Matrix3<f64>>, segments: Vec<Vector3<f64>>) -> Self {
+    pub(super) fn of(balls: Vec<Matrix3<f64>>, segments: Vec<Vector3<f64>>) -> Self {
         Self { balls, segments }
     }
 
     /// One ellipsoid a matrix.
-    pub(crate) fn balls(blocks: &[Matrix3<f64>], radius: f64) -> Self {
+    pub(super) fn balls(blocks: &[Matrix3<f64>], radius: f64) -> Self {
         Self { balls: blocks.iter().map(|b| b * radius).collect(), segments: Vec::new() }
     }
 
     /// Three segments a matrix: its columns, times the half widths.
-    pub(crate) fn boxes(blocks: &[Matrix3<f64>], half: &[Vector3<f64>]) -> Self {
+    pub(super) fn boxes(blocks: &[Matrix3<f64>], half: &[Vector3<f64>]) -> Self {
         let columns = |(b, h): (&Matrix3<f64>, &Vector3<f64>)| -> Vec<Vector3<f64>> {
             (0..3).map(|k| b.column(k) * h[k]).collect()
         };
@@ -97,7 +97,7 @@ impl Gauge {
     }
 
     /// The best of local searches from the axes and the diagonals of the octants: a value that is reached.
-    pub(crate) fn search(&self) -> (f64, Vector3<f64>) {
+    pub(super) fn search(&self) -> (f64, Vector3<f64>) {
         let d = 1.0 / 3f64.sqrt();
         let starts = [
             Vector3::x(),
@@ -117,7 +117,7 @@ impl Gauge {
     /// A point of a spherical triangle is `x / |x|` with `x` in the flat one, `f(x)` is at most its greatest value at the corners and `|x|` at
     /// least the distance of the plane from the origin: the quotient bounds `f`. Triangles whose bound is below a value found are dropped, the
     /// others divided in four.
-    pub(crate) fn bracket(&self, gap: f64) -> Bracket {
+    pub(super) fn bracket(&self, gap: f64) -> Bracket {
         let (mut least, mut direction) = self.search();
         let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
         let mut open: Vec<[Vector3<f64>; 3]> = vec![[x, y, z], [y, -x, z], [-x, -y, z], [-y, x, z]];
@@ -154,7 +154,7 @@ impl Gauge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     fn random(rng: &mut Rng) -> Gauge {
         let mut block = || Matrix3::from_fn(|_, _| rng.normal());

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::platform::manipulator::{Body, InvalidManipulator, Manipulator};
+use platform::manipulator::{Body, InvalidManipulator, Manipulator};
 
 /// A joint that carries legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

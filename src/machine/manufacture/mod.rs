@@ -27,7 +27,7 @@ pub use budget::{Budget, JointBudget, LimitedAllowance, budget, joint_allowance}
 pub use correction::{Controller, NoFormula, equivalent_octahedral, octahedral_of};
 pub use error_map::{ErrorAtPose, ErrorParts, MachineErrors, error_map, errors_at};
 pub use joint::{Joint, displaced, joints};
-pub(crate) use rounding::holes_turn;
+pub use rounding::holes_turn;
 pub use rounding::{
     ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint, Rounding, RoundingProblem,
     round_to_grid,

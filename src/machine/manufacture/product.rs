@@ -38,7 +38,7 @@ pub(super) fn largest_product(rows: &[Vec<f64>], weights: &mut Vec<f64>, accurac
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     #[test]
     fn one_constraint_is_shared_equally() {

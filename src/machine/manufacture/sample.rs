@@ -4,10 +4,10 @@ use nalgebra::{Matrix3, Point3, Vector6};
 use thiserror::Error;
 
 use super::sensitivity::Sensitivity;
-use crate::machine::requirements::PoseSpace;
-use crate::num::Purpose;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Manipulator, jacobian};
+use crate::requirements::PoseSpace;
+use num::Purpose;
+use platform::geom::Pose;
+use platform::manipulator::{Manipulator, jacobian};
 
 /// How far the pose that is computed may be off.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +21,7 @@ pub struct ErrorBound {
 /// Which of the two errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::joint::joints;
-use crate::platform::geom::{Pose, turn_between};
-use crate::platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
+use platform::geom::{Pose, turn_between};
+use platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 
 /// Below this inverse condition number (platform radius as characteristic length) a pose counts as singular.
 const SINGULAR: f64 = 1e-10;
@@ -84,6 +84,6 @@ impl Sensitivity {
 }
 
 /// How the pose `found` differs from `truth`: of the tool point, and as rotation vector, both in the base frame.
-pub(crate) fn pose_error(found: &Pose, truth: &Pose, tool: &Point3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+pub(super) fn pose_error(found: &Pose, truth: &Pose, tool: &Point3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     (found.transform(tool) - truth.transform(tool), turn_between(&truth.rotation, &found.rotation))
 }

@@ -3,12 +3,12 @@
 use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::*;
-use crate::fk::NearSolver;
-use crate::machine::requirements::PoseSpace;
-use crate::num::Rng;
-use crate::platform::geom::{Pose, random_rotation, turn_between};
-use crate::platform::manipulator::{Leg, LegLengths, Manipulator, Octahedral, default_home};
-use crate::synthesis::joint_free;
+use crate::requirements::PoseSpace;
+use fk::NearSolver;
+use num::Rng;
+use platform::geom::{Pose, random_rotation, turn_between};
+use platform::manipulator::{Leg, LegLengths, Manipulator, Octahedral, default_home};
+use synthesis::joint_free;
 
 pub(super) const T: [f64; 6] = [-0.2, 0.3, -0.25, 1.2, 0.2, -0.3];
 
@@ -101,7 +101,7 @@ fn a_shared_joint_is_one_joint_with_one_error() {
         (Sensitivity::at(&m, &pose, &TOOL).unwrap(), Sensitivity::at(&apart, &pose, &TOOL).unwrap());
     assert_eq!((one.position.len(), two.position.len()), (6, 12));
     for (joint, g) in joints(&m).iter().zip(&one.position) {
-        let base = joint.body == crate::platform::manipulator::Body::Base;
+        let base = joint.body == platform::manipulator::Body::Base;
         let own =
             |i: &usize| if base { m.pairs()[*i].0 == joint.index } else { m.pairs()[*i].1 == joint.index };
         let sum: nalgebra::Matrix3<f64> =

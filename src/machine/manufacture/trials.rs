@@ -6,11 +6,11 @@ use super::joint::{displaced, joints};
 use super::sample::ErrorBound;
 use super::sensitivity::{Sensitivity, pose_error};
 use super::uncertainty::MachineUncertainty;
-use crate::fk::NearSolver;
-use crate::machine::requirements::PoseSpace;
-use crate::num::{Purpose, Rng};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
+use crate::requirements::PoseSpace;
+use fk::NearSolver;
+use num::{Purpose, Rng};
+use platform::geom::Pose;
+use platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
 
 /// Where the joint errors come from.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, Matrix6, Point3, Vector3};
 
 use super::sensitivity::Sensitivity;
-use crate::num::Rng;
-use crate::num::small::bounded_svd;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use num::Rng;
+use num::small::bounded_svd;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// What a calibration does not know of a machine: errors of joints and leg offsets with the covariance `C = F F^T`.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,7 +103,7 @@ impl MachineUncertainty {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::geom::Angles;
+    use platform::geom::Angles;
 
     /// Three base joints and three platform joints, each of two legs.
     fn octahedral() -> Manipulator {

@@ -11,9 +11,9 @@ mod step;
 mod tests;
 mod way;
 
-use crate::machine::requirements::{Limit, Requirements, Terms};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Leg, Manipulator};
+use crate::requirements::{Limit, Requirements, Terms};
+use platform::geom::Pose;
+use platform::manipulator::{Leg, Manipulator};
 
 pub use nearest::{NearestPose, NearestPoseOptions};
 pub use rays::{FreeRay, largest_box_within, volume_of_rays};

@@ -4,9 +4,9 @@ use nalgebra::{Rotation3, Vector6};
 
 use super::projection::{HalfSpace, project};
 use super::{Reach, StraightWay};
-use crate::machine::requirements::Limit;
-use crate::num::{Purpose, Rng};
-use crate::platform::geom::Pose;
+use crate::requirements::Limit;
+use num::{Purpose, Rng};
+use platform::geom::Pose;
 
 /// `det J` over that at home that a pose found keeps: the set of regular poses has no nearest point of its own.
 const REGULAR: f64 = 1e-3;

@@ -42,7 +42,7 @@ pub(super) fn project(point: &Vector6<f64>, spaces: &[HalfSpace], tolerance: f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     #[test]
     fn corners_faces_and_inner_points_are_found() {

@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::{FARTHEST, Reach, StraightWay};
-use crate::machine::requirements::Limit;
-use crate::platform::geom::Pose;
+use crate::requirements::Limit;
+use platform::geom::Pose;
 
 /// A way in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]

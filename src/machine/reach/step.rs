@@ -18,9 +18,9 @@
 use nalgebra::Vector3;
 
 use super::{Reach, StraightWay};
-use crate::machine::requirements::{CrankRoom, HingeAngle, Limit, Term, TermKind};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Leg};
+use crate::requirements::{CrankRoom, HingeAngle, Limit, Term, TermKind};
+use platform::geom::Pose;
+use platform::manipulator::{Body, Leg};
 
 /// The steps of a leg are so short that it keeps this share of its length.
 const KEPT: f64 = 0.75;

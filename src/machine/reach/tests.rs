@@ -3,14 +3,14 @@ use std::collections::BTreeSet;
 use nalgebra::{Point3, Rotation3, Unit, Vector3, Vector6};
 
 use super::{NearestPoseOptions, PoseAxis, Reach, StraightWay};
-use crate::machine::requirements::{
+use crate::fixtures::symmetric_hexapod;
+use crate::requirements::{
     Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Limit, Load, PlatformSpeed,
     Requirements, Swing, TermKind, UniversalJoint,
 };
-use crate::num::Rng;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::fixtures::symmetric_hexapod;
-use crate::platform::manipulator::{Body, Manipulator, default_home};
+use num::Rng;
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator, default_home};
 
 /// Everything a pose can violate.
 fn required(m: &Manipulator, home: &Pose) -> Requirements {
@@ -68,7 +68,7 @@ fn drawn(home: &Pose, rng: &mut Rng) -> StraightWay {
 
 #[test]
 fn one_number_of_a_pose_moves_and_the_others_stay() {
-    let pose = Pose::new([1.0, 2.0, 3.0], crate::platform::geom::Angles::from_degrees([20.0, -35.0, 130.0]));
+    let pose = Pose::new([1.0, 2.0, 3.0], platform::geom::Angles::from_degrees([20.0, -35.0, 130.0]));
     for (k, axis) in PoseAxis::ALL.into_iter().enumerate() {
         let moved = StraightWay::axis(&pose, axis).at(0.25);
         let numbers = |p: &Pose| {

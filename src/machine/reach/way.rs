@@ -2,12 +2,12 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use crate::platform::geom::{Pose, turn_between};
+use platform::geom::{Pose, turn_between};
 
 /// The six numbers of a pose that a machine is moved by: position, and `R = Rz(yaw) Ry(pitch) Rx(roll)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -111,8 +111,8 @@ impl StraightWay {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::random_rotation;
+    use num::Rng;
+    use platform::geom::random_rotation;
 
     #[test]
     fn a_way_ends_at_its_last_pose_after_half_a_turn_and_after_no_turn_but_rounding() {

@@ -8,9 +8,9 @@ use nalgebra::Vector6;
 use super::standing::Standing;
 use super::term::{Term, TermKind, Terms};
 use super::{PoseSpace, Requirements};
-use crate::num::{Purpose, Rng};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use num::{Purpose, Rng};
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// How densely the poses are looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -234,14 +234,14 @@ fn descend(
 /// Looks for a requirement that a platform violates, for many platforms with the same workspace one after the other: at the poses that [`assess()`] looks at
 /// before it searches for worse ones, and only until one is found.
 #[derive(Debug, Clone)]
-pub(crate) struct ViolationSearch {
+pub struct ViolationSearch {
     home: Pose,
     poses: Vec<Pose>,
 }
 
 impl ViolationSearch {
     /// Makes the poses of a space ready.
-    pub(crate) fn new(space: &PoseSpace, o: &AssessOptions) -> Self {
+    pub fn new(space: &PoseSpace, o: &AssessOptions) -> Self {
         let mut rng = Purpose::ASSESSED_POSES.rng(o.seed);
         let mut poses = space.listed(o.steps);
         poses.extend(space.cube_points(o.points, &mut rng).iter().map(|x| space.pose(x)));
@@ -249,19 +249,19 @@ impl ViolationSearch {
     }
 
     /// The home of the space.
-    pub(crate) fn home(&self) -> &Pose {
+    pub fn home(&self) -> &Pose {
         &self.home
     }
 
     /// How many poses are looked at, at most.
-    pub(crate) fn poses(&self) -> usize {
+    pub fn poses(&self) -> usize {
         self.poses.len()
     }
 
     /// A requirement that is violated, those that do not depend on the pose first; `None` when none is at these poses, which is no proof that none is between them.
     ///
     /// The pose that shows a violation is the first to be looked at next time: platforms that are much alike are violated at the same poses.
-    pub(crate) fn violated(&mut self, m: &Manipulator, required: &Requirements) -> Option<TermKind> {
+    pub fn violated(&mut self, m: &Manipulator, required: &Requirements) -> Option<TermKind> {
         let terms = Terms::new(m, required, &self.home);
         let bad = |list: Vec<(Term, f64)>, pose: Option<&Pose>| {
             let violated = |(term, value): &(Term, f64)| !terms.standing(term.kind, *value, pose).is_met();

@@ -1,9 +1,9 @@
 //! The least conditioning over a workspace.
 
 use super::{AssessOptions, PoseSpace};
-use crate::num::Purpose;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Manipulator, inverse_condition, jacobian};
+use num::Purpose;
+use platform::geom::Pose;
+use platform::manipulator::{Manipulator, inverse_condition, jacobian};
 
 /// Where the Jacobian is conditioned worst among the poses looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]

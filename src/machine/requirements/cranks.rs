@@ -16,8 +16,8 @@ use nalgebra::{Matrix6, Point3, Vector3};
 use super::load::forces_along;
 use super::term::{Term, TermKind, Terms, angle_deg};
 use super::{LeastConditioning, Requirements};
-use crate::platform::geom::{Pose, PoseSpace};
-use crate::platform::manipulator::{Leg, inverse_condition, jacobian_of_legs, leg_determinant};
+use platform::geom::{Pose, PoseSpace};
+use platform::manipulator::{Leg, inverse_condition, jacobian_of_legs, leg_determinant};
 
 /// A crank and its rod; the base joint of the leg is the centre of the crank.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,15 +83,15 @@ struct CrankAt {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CrankRoom {
     /// Of the crank.
-    pub(crate) length: f64,
+    pub length: f64,
     /// Of the rod.
-    pub(crate) rod: f64,
+    pub rod: f64,
     /// `s^2`, negative where the rod does not close.
-    pub(crate) square: f64,
+    pub square: f64,
     /// What `s^2` is above its value at the least transmission angle.
     pub(crate) above_least: f64,
     /// How far the rod may lean out of the plane of its crank beyond what it does; infinite where nothing is required.
-    pub(crate) lean: f64,
+    pub lean: f64,
 }
 
 /// The cranks of a design, and what they and the joints of their rods can do.
@@ -226,7 +226,7 @@ impl Terms<'_> {
 
     /// `det J` of the lines of what pushes the platform, without unit: of legs with lengths over the size, of rods with unit vectors and moments over the size. `None` where a rod does not close.
     #[must_use]
-    pub(crate) fn determinant(&self, pose: &Pose) -> Option<f64> {
+    pub fn determinant(&self, pose: &Pose) -> Option<f64> {
         match &self.required.cranks {
             None => Some(leg_determinant(self.manipulator, pose)),
             Some(cranks) => {

@@ -64,7 +64,7 @@ impl Envelope {
 
 /// Half extents along the axes of its frame and radius of the room of a joint in the frame of its body: one of them is 0.
 #[must_use]
-pub(crate) fn room(housing: Option<Housing>) -> (Vector3<f64>, f64) {
+pub fn room(housing: Option<Housing>) -> (Vector3<f64>, f64) {
     match housing {
         None => (Vector3::zeros(), 0.0),
         Some(Housing::Sphere(diameter)) => (Vector3::zeros(), 0.5 * diameter),
@@ -74,7 +74,7 @@ pub(crate) fn room(housing: Option<Housing>) -> (Vector3<f64>, f64) {
 
 /// Radius of the ball that holds the room of a joint however it is turned.
 #[must_use]
-pub(crate) fn ball(housing: Option<Housing>) -> f64 {
+pub fn ball(housing: Option<Housing>) -> f64 {
     let (half, radius) = room(housing);
     half.norm() + radius
 }

@@ -12,8 +12,8 @@
 use nalgebra::Vector3;
 
 use super::term::Terms;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 /// A force and a torque about the platform origin, base frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -66,13 +66,13 @@ impl Terms<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::requirements::{Hardware, Requirements};
+    use crate::requirements::{Hardware, Requirements};
     use nalgebra::Rotation3;
 
     #[test]
     fn the_wrench_is_minus_the_slope_of_the_energy() {
-        let m = crate::platform::manipulator::fixtures::symmetric_hexapod(2.0, 1.0);
-        let home = crate::platform::manipulator::default_home(&m);
+        let m = crate::fixtures::symmetric_hexapod(2.0, 1.0);
+        let home = platform::manipulator::default_home(&m);
         let hardware = Hardware {
             base_bending: [Some(3.0); 6],
             platform_bending: [Some(2.0); 6],

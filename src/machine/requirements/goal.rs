@@ -51,7 +51,6 @@ impl VariableKind {
 
 /// What became of the three-fold symmetry of a design that names no symmetry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum StartSymmetry {
     /// The answer has it.
     Kept,
@@ -76,7 +75,6 @@ impl StartSymmetry {
 
 /// The symmetry that a search keeps, by its name in design files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
 pub enum KeptSymmetry {
     /// Every leg may differ.
     #[default]
@@ -104,9 +102,8 @@ impl KeptSymmetry {
 
 /// A figure of merit; `docs/theory/dimensional-synthesis.md` has the formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]

@@ -3,8 +3,8 @@
 use super::envelope::room;
 use super::term::TermKind;
 use super::universal::{HingeAngle, UniversalJoint};
-use crate::platform::manipulator::Body;
 use nalgebra::{Unit, Vector3};
+use platform::manipulator::Body;
 
 /// The room a joint takes up, centred at the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +38,7 @@ impl Housing {
     }
 
     /// Two housings where at least one joint has one: a joint without a housing is a point.
-    pub(crate) fn pair(a: Option<Self>, b: Option<Self>) -> Option<[Self; 2]> {
+    pub fn pair(a: Option<Self>, b: Option<Self>) -> Option<[Self; 2]> {
         let point = Self::Sphere(0.0);
         (a.is_some() || b.is_some()).then(|| [a.unwrap_or(point), b.unwrap_or(point)])
     }
@@ -173,12 +173,12 @@ impl LegMasses {
     }
 
     /// Mass that moves along the leg with its platform joint.
-    pub(crate) fn lengthwise(&self) -> f64 {
+    pub fn lengthwise(&self) -> f64 {
         self.rod.mass + self.reflected
     }
 
     /// Moment of inertia of a leg of this length about an axis across it through its base joint.
-    pub(crate) fn turning(&self, length: f64) -> f64 {
+    pub fn turning(&self, length: f64) -> f64 {
         let (cylinder, rod) = (&self.cylinder, &self.rod);
         cylinder.inertia
             + cylinder.mass * cylinder.center.powi(2)
@@ -311,7 +311,7 @@ impl Hardware {
     }
 
     /// The limit of an angle of the universal joint of a leg, degrees; `None` where there is none, and for other kinds.
-    pub(crate) fn angle_limit_deg(&self, kind: TermKind, leg: usize) -> Option<f64> {
+    pub fn angle_limit_deg(&self, kind: TermKind, leg: usize) -> Option<f64> {
         let (body, angle) = kind.hinge()?;
         let joints = self.universal(body)?;
         let limits = joints.limits_deg[leg].filter(|_| joints.first_axes[leg].is_some())?;

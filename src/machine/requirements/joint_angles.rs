@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::term::{Terms, angle_deg};
 use super::universal::Hinge;
-use crate::platform::geom::{Pose, any_across};
+use platform::geom::{Pose, any_across};
 
 /// How a joint at one end of a leg stands, measured from its axis `n`.
 ///
@@ -47,7 +47,7 @@ impl Terms<'_> {
 
     /// The same for legs with given lines, base frame.
     #[must_use]
-    pub(crate) fn angles_of(&self, lines: &[Vector3<f64>; 6], pose: &Pose) -> [[JointAngles; 6]; 2] {
+    pub fn angles_of(&self, lines: &[Vector3<f64>; 6], pose: &Pose) -> [[JointAngles; 6]; 2] {
         let [base, platform] = self.axes();
         let back = pose.rotation.inverse();
         [
@@ -60,8 +60,8 @@ impl Terms<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
     use nalgebra::{Rotation3, Unit};
+    use num::Rng;
 
     #[test]
     fn the_two_turns_take_the_axis_to_the_leg() {

@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::platform::geom::{segment_box_distance, segment_distance};
-use crate::platform::manipulator::Body;
+use platform::geom::{segment_box_distance, segment_distance};
+use platform::manipulator::Body;
 
 /// The shape of a keep-out, design units.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 
 use super::Requirements;
 use super::term::{Term, Terms};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// What ends the workspace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -81,10 +81,10 @@ impl<'a> Limits<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::requirements::{Hardware, LengthLimits};
-    use crate::platform::manipulator::default_home;
-    use crate::platform::manipulator::fixtures::symmetric_hexapod;
+    use crate::fixtures::symmetric_hexapod;
+    use crate::requirements::{Hardware, LengthLimits};
     use nalgebra::{Rotation3, Vector3};
+    use platform::manipulator::default_home;
 
     fn lifted(home: &Pose, z: f64) -> Pose {
         Pose { position: home.position + Vector3::z() * z, ..*home }

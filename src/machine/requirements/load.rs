@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix6, Point3, Vector3, Vector6};
 
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator, jacobian};
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator, jacobian};
 
 /// A force and a torque that act on the platform.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,8 +56,8 @@ pub(super) fn forces_along(rows: &Matrix6<f64>, wrench: &Vector6<f64>, scale: f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::Leg;
     use nalgebra::Rotation3;
+    use platform::manipulator::Leg;
 
     #[test]
     fn forces_balance_the_load_about_every_point() {

@@ -8,7 +8,7 @@ mod assess;
 mod bodies;
 mod bound;
 mod conditioning;
-pub(crate) mod coupled;
+pub mod coupled;
 mod cranks;
 mod envelope;
 mod flexure;
@@ -29,18 +29,16 @@ mod tests;
 mod universal;
 mod vibration;
 
-pub use crate::platform::geom::{ListedFrom, PoseSpace, Region};
-#[cfg(feature = "page")]
-pub(crate) use assess::ViolationSearch;
+pub use assess::ViolationSearch;
 pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bodies::MovingBodies;
-pub(crate) use bound::prove_telling;
+pub use bound::prove_telling;
 pub use bound::{AssessStage, MarginBound, MarginProof, MarginVerdict, RodRegularity, prove, regular_rods};
 pub use conditioning::{LeastConditioning, least_conditioning};
 pub(crate) use cranks::CrankRoom;
 pub use cranks::{CrankedLeg, Cranks, least_rod_conditioning};
 pub use envelope::{Envelope, Envelopes};
-pub(crate) use envelope::{ball, room};
+pub use envelope::{ball, room};
 pub use flexure::Wrench;
 pub use goal::{KeptSymmetry, Objective, StartSymmetry, VariableKind};
 pub use hardware::{
@@ -56,20 +54,19 @@ pub use plate::{
     BoltPattern, BoltsFrom, MATERIALS, Outline, OutlinePart, PlateDesign, PlateSeat, PlateSolid, Plates,
     seat_height,
 };
-#[cfg(feature = "files")]
-pub(crate) use plate::{PlateBody, on_circle};
-#[cfg(any(feature = "files", feature = "optimize"))]
-pub(crate) use plate::{frame_of, plate_normal};
+pub use plate::{PlateBody, on_circle};
+pub use plate::{frame_of, plate_normal};
+pub use platform::geom::{ListedFrom, PoseSpace, Region};
 pub use reserve::{Reserve, Reserves};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
-pub(crate) use universal::HingeAngle;
+pub use universal::HingeAngle;
 pub use universal::UniversalJoint;
 pub use vibration::{
     LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, least_stiffness_at,
     lowest_frequency, mass_matrix, stiffness_matrix, vibration,
 };
-pub(crate) use vibration::{mass_of, scaled_mass};
+pub use vibration::{mass_of, scaled_mass};
 
 /// Greatest speed of the platform: every direction of motion up to these rates, together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -153,7 +150,7 @@ impl Requirements {
 
     /// `true` where a natural frequency is asked for whose legs have masses and joints that are not ideal: how such legs move is not known, and the frequency is not judged.
     #[must_use]
-    pub(crate) fn leaves_out_moving_legs(&self) -> bool {
+    pub fn leaves_out_moving_legs(&self) -> bool {
         let wanted = self.platform_stiffness.is_some_and(|s| s.natural_frequency.is_some());
         let moving = self.vibrating.as_ref().is_some_and(|v| v.bodies.leg != LegMasses::default());
         wanted && moving && self.hardware.is_coupled()
@@ -166,7 +163,7 @@ impl Requirements {
     }
 
     /// What a margin of a kind is a share of where margins of several kinds are compared: the size of the design (lengths), 90 degrees, or the limit itself.
-    pub(crate) fn scale_of(&self, kind: TermKind, size: f64) -> f64 {
+    pub fn scale_of(&self, kind: TermKind, size: f64) -> f64 {
         match kind.quantity() {
             Quantity::Length => size,
             Quantity::Angle => 90.0,

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::keep_out::KeepOutShape;
 use super::load::Load;
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 /// Standard gravity, m/s^2.
 pub const GRAVITY: f64 = 9.806_65;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Requirements;
 use super::envelope::Envelope;
 use super::term::TermKind;
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 /// What has to remain of a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,7 +54,7 @@ impl Requirements {
     }
 
     /// What percentages of a kind are parts of; 0 where nothing is limited.
-    pub(crate) fn whole(&self, kind: TermKind) -> f64 {
+    pub fn whole(&self, kind: TermKind) -> f64 {
         let h = &self.hardware;
         let spacing = |body: Body| {
             let widths = (0..6).filter_map(|leg| h.housing(body, leg)).map(|h| h.greatest_width());
@@ -103,7 +103,7 @@ impl Requirements {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::requirements::{Hardware, LengthLimits};
+    use crate::requirements::{Hardware, LengthLimits};
 
     #[test]
     fn amounts_stand_and_percentages_are_parts_of_the_limit() {

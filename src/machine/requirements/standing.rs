@@ -2,8 +2,8 @@
 
 use super::term::{Quantity, TermKind, Terms};
 use super::universal::HingeAngle;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, inverse_condition};
+use platform::geom::Pose;
+use platform::manipulator::{Body, inverse_condition};
 
 /// Rounding of a length over the sum of the lengths it is computed from: some ten operations on coordinates that are rounded themselves, each
 /// good to half of `eps`, and room to spare.

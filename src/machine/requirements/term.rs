@@ -11,14 +11,13 @@ use super::load::forces_along;
 use super::plate::PlateSolid;
 use super::universal::{Hinge, HingeAngle};
 use super::vibration::{lowest_of, mass_matrix, softest_of};
-use crate::platform::geom::{Pose, segment_distance};
-use crate::platform::manipulator::{Body, Manipulator, jacobian};
+use platform::geom::{Pose, segment_distance};
+use platform::manipulator::{Body, Manipulator, jacobian};
 
 /// The kinds of requirements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -220,7 +219,7 @@ impl TermKind {
     }
 
     /// For the angles of universal joints: of which body, and about which axis.
-    pub(crate) fn hinge(self) -> Option<(Body, HingeAngle)> {
+    pub fn hinge(self) -> Option<(Body, HingeAngle)> {
         Some(match self {
             Self::BaseFirstAngle => (Body::Base, HingeAngle::First),
             Self::BaseSecondAngle => (Body::Base, HingeAngle::Second),
@@ -231,7 +230,7 @@ impl TermKind {
     }
 
     /// The kinds of the angles of universal joints.
-    pub(crate) const HINGES: [Self; 4] =
+    pub const HINGES: [Self; 4] =
         [Self::BaseFirstAngle, Self::BaseSecondAngle, Self::PlatformFirstAngle, Self::PlatformSecondAngle];
 
     /// The kinds that the lines of single legs decide, besides [`HINGES`](Self::HINGES).
@@ -255,7 +254,7 @@ impl TermKind {
     }
 
     /// For the margins of holes: of the plate of which body.
-    pub(crate) fn plate(self) -> Option<Body> {
+    pub fn plate(self) -> Option<Body> {
         Some(match self {
             Self::BaseHoleEdge | Self::BaseHoleGap => Body::Base,
             Self::PlatformHoleEdge | Self::PlatformHoleGap => Body::Platform,
@@ -383,7 +382,7 @@ impl<'a> Terms<'a> {
     }
 
     /// The universal joint at an end (0 base, 1 platform) of a leg.
-    pub(crate) fn hinge(&self, end: usize, leg: usize) -> Option<&Hinge> {
+    pub fn hinge(&self, end: usize, leg: usize) -> Option<&Hinge> {
         self.hinges[end][leg].as_ref()
     }
 

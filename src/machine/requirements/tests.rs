@@ -4,10 +4,10 @@
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::*;
-use crate::num::Rng;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
-use crate::platform::manipulator::{Manipulator, jacobian};
+use num::Rng;
+use platform::geom::Pose;
+use platform::manipulator::Body;
+use platform::manipulator::{Manipulator, jacobian};
 
 /// Six vertical legs of length 10 over a hexagon of radius 4 (singular at home, which lengths and clearances don't mind).
 fn upright() -> (Manipulator, Pose) {
@@ -39,7 +39,7 @@ fn margin(found: &Assessment, kind: TermKind) -> &Margin {
 }
 
 fn quick() -> AssessOptions {
-    AssessOptions { points: 60, ..AssessOptions::default() }
+    AssessOptions::new().points(60)
 }
 
 #[test]
@@ -306,7 +306,7 @@ fn proofs_do_not_depend_on_the_number_of_threads() {
     let (m, mut r, space) = several();
     r.reserves.all = Some(0.02);
     let of = |threads: usize, close: bool| {
-        let options = AssessOptions { threads: std::num::NonZeroUsize::new(threads), close, ..quick() };
+        let options = quick().threads(std::num::NonZeroUsize::new(threads).unwrap()).close(close);
         prove(&m, &r, &space, &options, 400)
     };
     for close in [true, false] {

@@ -37,7 +37,7 @@ impl UniversalJoint {
 
 /// The angle about an axis of a universal joint that has a limit of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum HingeAngle {
+pub enum HingeAngle {
     /// About the axis that is fixed in the body.
     First,
     /// About the axis that turns with the leg.
@@ -46,16 +46,16 @@ pub(crate) enum HingeAngle {
 
 /// One universal joint.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Hinge {
+pub struct Hinge {
     /// The first axis.
-    pub(crate) first: Vector3<f64>,
+    pub first: Vector3<f64>,
     /// The rest direction; `None` where the axis of the joint is the first axis, so that there is none.
-    pub(crate) rest: Option<Vector3<f64>>,
+    pub rest: Option<Vector3<f64>>,
 }
 
 impl Hinge {
     /// The joint with this first axis and this axis, unit vectors.
-    pub(crate) fn new(first: Vector3<f64>, axis: &Vector3<f64>) -> Self {
+    pub fn new(first: Vector3<f64>, axis: &Vector3<f64>) -> Self {
         // a x (k x a) keeps its direction where k is nearly a
         Self { first, rest: first.cross(&axis.cross(&first)).try_normalize(0.0) }
     }
@@ -67,7 +67,7 @@ impl Hinge {
     }
 
     /// Both angles of a leg, degrees, the first 0 where it is not determined.
-    pub(crate) fn angles_deg(&self, line: &Vector3<f64>) -> [f64; 2] {
+    pub fn angles_deg(&self, line: &Vector3<f64>) -> [f64; 2] {
         let along = line.dot(&self.first);
         let Some([up, across, _]) = self.parts(line) else {
             let away = self.first.cross(line).norm();
@@ -91,7 +91,7 @@ impl Hinge {
     }
 
     /// By how much an error of the direction of a leg is greater in the first angle.
-    pub(crate) fn amplification(&self, line: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
+    pub fn amplification(&self, line: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
         line.norm() / self.first.cross(line).norm() + 1.0 / self.first.cross(axis).norm()
     }
 }
@@ -99,8 +99,8 @@ impl Hinge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
     use nalgebra::Rotation3;
+    use num::Rng;
 
     #[test]
     fn the_two_turns_take_the_rest_direction_to_the_leg() {

@@ -8,9 +8,9 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
 use super::bodies::MovingBodies;
 use super::term::TermKind;
-use crate::num::small::{bounded_svd, singular_values, symmetric_eigen3};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Manipulator, jacobian};
+use num::small::{bounded_svd, singular_values, symmetric_eigen3};
+use platform::geom::Pose;
+use platform::manipulator::{Manipulator, jacobian};
 
 /// `K = k J^T J`: force units per design unit, times design units for each index of rotation.
 #[must_use]
@@ -31,7 +31,7 @@ pub fn mass_matrix(m: &Manipulator, bodies: &MovingBodies, pose: &Pose) -> Matri
 }
 
 /// [`mass_matrix`] from the arm `R b` and the line `R b + p - a` of each leg.
-pub(crate) fn mass_of(
+pub fn mass_of(
     bodies: &MovingBodies,
     rotation: &Rotation3<f64>,
     ends: &[(Vector3<f64>, Vector3<f64>); 6],
@@ -157,7 +157,7 @@ pub struct VibratingMasses {
 
 impl VibratingMasses {
     /// Frequency of the mass of platform and payload on a single leg, hertz: a scale for natural frequencies.
-    pub(crate) fn on_one_leg(&self) -> f64 {
+    pub fn on_one_leg(&self) -> f64 {
         (self.leg / self.bodies.mass).sqrt() / std::f64::consts::TAU
     }
 }
@@ -202,7 +202,7 @@ pub(super) fn lowest_of(rows: Option<&Matrix6<f64>>, size: f64, mass: &Matrix6<f
 }
 
 /// A mass matrix for twists `(v, L w)`.
-pub(crate) fn scaled_mass(mass: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
+pub fn scaled_mass(mass: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
     let unit = |k: usize| if k < 3 { 1.0 } else { length };
     Matrix6::from_fn(|i, j| mass[(i, j)] / (unit(i) * unit(j)))
 }

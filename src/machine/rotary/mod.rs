@@ -19,9 +19,9 @@ mod tracker;
 use nalgebra::{Matrix6, Point3, Unit, Vector3, Vector6};
 use thiserror::Error;
 
-use crate::fk::{FkError, FkOptions, FkSolutions, solver};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{InvalidManipulator, Leg, LegLengths, Manipulator, jacobian_of_legs};
+use fk::{FkError, FkOptions, FkSolutions, solver};
+use platform::geom::Pose;
+use platform::manipulator::{InvalidManipulator, Leg, LegLengths, Manipulator, jacobian_of_legs};
 
 pub use tracker::RotaryTracker;
 
@@ -393,7 +393,6 @@ impl RotaryPlatform {
 
 /// Why poses for given angles were not computed.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
 pub enum RotaryFkError {
     /// Tips and joints that make no platform.
     #[error(transparent)]

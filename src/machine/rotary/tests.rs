@@ -1,9 +1,9 @@
 use nalgebra::{Point3, Rotation3, Unit, Vector3, Vector6};
 
 use super::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform, RotaryTracker};
-use crate::fk::{FkOptions, NearOutcome, NearSolver, Reality, WhyLost};
-use crate::num::Rng;
-use crate::platform::geom::{Angles, Pose, rotation_vector, turn_between};
+use fk::{FkOptions, NearOutcome, NearSolver, Reality, WhyLost};
+use num::Rng;
+use platform::geom::{Angles, Pose, rotation_vector, turn_between};
 
 /// Reachy Mini by Pollen Robotics in millimetres: `motor_arm_length`, `rod_length`, `head_z_offset`, the poses of the motors and `branch_position` of
 /// `src/reachy_mini/assets/kinematics_data.json` of github.com/pollen-robotics/reachy_mini, commit 70a7c0b (Apache-2.0), rounded to a micrometre and its symmetry of three turns and a mirror written out.
@@ -135,7 +135,7 @@ fn reachy_mini_has_sixteen_real_poses_at_home_and_the_nearest_wrong_one_is_turne
     let m = reachy_mini();
     let angles = m.ik(&home()).unwrap();
     let found = m.fk(&angles, &FkOptions::new()).unwrap();
-    assert!(found.roots.iter().all(crate::fk::FkRoot::certified));
+    assert!(found.roots.iter().all(fk::FkRoot::certified));
     let real: Vec<Pose> = found.real_poses().collect();
     assert_eq!(real.len(), 16);
     assert!(found.roots.iter().filter(|r| r.reality == Reality::Real).all(|r| r.residual < 1e-12));

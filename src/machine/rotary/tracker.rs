@@ -3,9 +3,9 @@
 use nalgebra::{Point3, Vector3};
 
 use super::RotaryPlatform;
-use crate::fk::{NearEvidence, NearOutcome, NearSolver, WhyLost};
-use crate::platform::geom::{Pose, turn_between};
-use crate::platform::manipulator::InvalidManipulator;
+use fk::{NearEvidence, NearOutcome, NearSolver, WhyLost};
+use platform::geom::{Pose, turn_between};
+use platform::manipulator::InvalidManipulator;
 
 /// Angles move by at most this much at once, radians.
 const LONGEST: f64 = 0.05;

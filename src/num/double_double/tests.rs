@@ -1,5 +1,5 @@
 use super::*;
-use crate::num::Rng;
+use crate::Rng;
 use num_rational::BigRational;
 
 fn exact(x: f64) -> BigRational {

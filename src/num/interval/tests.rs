@@ -1,8 +1,8 @@
 #![allow(clippy::float_cmp)] // exact ends are what is tested
 
 use super::*;
-use crate::num::Rng;
-use crate::num::complex::Complex;
+use crate::Rng;
+use crate::complex::Complex;
 use num_complex::Complex64;
 use num_rational::BigRational;
 

@@ -8,6 +8,6 @@ pub use integer::{
     ComplexRoot, Dyadic, IntPoly, NotSeparated, RealRoot, SquarefreeFactor, complex_roots, gcd, real_roots,
     squarefree_factors, sturm_count,
 };
-pub(crate) use octic::{octic_roots, repulsion, roots_in_lanes};
-pub(crate) use roots::approximate_roots;
+pub use octic::{octic_roots, repulsion, roots_in_lanes};
+pub use roots::approximate_roots;
 pub use roots::{RootsError, roots};

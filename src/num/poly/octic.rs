@@ -2,14 +2,14 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use crate::num::batch::{ComplexBatch, LANES};
+use crate::batch::{ComplexBatch, LANES};
 
 /// Sweeps before giving up; well separated roots take about ten.
 const SWEEPS: usize = 40;
 
 /// Approximate roots of `c[0] + .. + c[8] x^8`, as [`roots_in_lanes`].
 #[inline(always)]
-pub(crate) fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<ComplexBatch> {
+pub fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<ComplexBatch> {
     roots_in_lanes::<LANES>(c, accuracy)
 }
 
@@ -18,7 +18,7 @@ pub(crate) fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<Complex
 /// Ehrlich-Aberth iteration on all roots side by side, from circles whose radii are the slopes of the Newton polygon. `None` when an end
 /// coefficient is zero or not finite, or when some root does not settle (multiple roots converge linearly).
 #[inline(always)]
-pub(crate) fn roots_in_lanes<const N: usize>(c: &[f64], accuracy: f64) -> Option<ComplexBatch> {
+pub fn roots_in_lanes<const N: usize>(c: &[f64], accuracy: f64) -> Option<ComplexBatch> {
     let usable = c.len() == N + 1 && c.iter().all(|x| x.is_finite()) && c[0].abs() > 0.0 && c[N].abs() > 0.0;
     if !usable {
         return None;
@@ -57,7 +57,7 @@ fn corrections<const N: usize>(c: &[f64], z: &ComplexBatch) -> ComplexBatch {
 
 /// `sum 1 / (z_k - z_j)` over the other lanes `j`, for every lane `k`.
 #[inline(always)]
-pub(crate) fn repulsion(z: &ComplexBatch) -> ComplexBatch {
+pub fn repulsion(z: &ComplexBatch) -> ComplexBatch {
     repulsion_among::<LANES>(z)
 }
 
@@ -131,7 +131,7 @@ fn starting_points<const N: usize>(c: &[f64]) -> ComplexBatch {
 mod tests {
     use super::super::roots;
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
     use num_complex::Complex64;
 
     #[test]

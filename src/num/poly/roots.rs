@@ -5,8 +5,8 @@
 use num_complex::Complex64;
 use thiserror::Error;
 
-use crate::num::batch::{ComplexBatch, LANES};
-use crate::num::vector_unit::on_vector_unit;
+use crate::batch::{ComplexBatch, LANES};
+use crate::vector_unit::on_vector_unit;
 
 /// Roots that could not be computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -31,6 +31,7 @@ const SWEEPS: usize = 120;
 /// [`RootsError::NoPolynomial`] for non-finite or all-zero coefficients.
 ///
 /// ```
+/// # mod equipod { pub use equipod_num::Cancel; pub mod methods { pub use equipod_num::poly; } }
 /// use equipod::methods::poly::roots;
 /// use num_complex::Complex64;
 /// // (x - 1)(x - 2)(x + 3) = 6 - 7x + x^3
@@ -71,7 +72,10 @@ pub fn roots(coefficients: &[Complex64]) -> Result<Vec<Complex64>, RootsError> {
 
 /// [`roots`] as far as relative steps of `tolerance`, at most `sweeps` of them: start values for methods that know the function better than by
 /// its coefficients. Each root rests once its step is that small.
-pub(crate) fn approximate_roots(
+///
+/// # Errors
+/// [`RootsError`]: no polynomial, or an iteration that does not end.
+pub fn approximate_roots(
     coefficients: &[Complex64],
     tolerance: f64,
     sweeps: usize,
@@ -215,7 +219,7 @@ fn starting_points(c: &[Complex64]) -> Vec<Complex64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
 
     fn expand(roots: &[Complex64]) -> Vec<Complex64> {
         let mut c = vec![Complex64::ONE];

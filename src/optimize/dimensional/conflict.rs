@@ -11,11 +11,11 @@ use super::search::{
     refine_adding,
 };
 use super::terms::Item;
-use crate::machine::requirements::{HingeAngle, TermKind};
-use crate::num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
-use crate::num::farkas::{EnclosedRow, refuted};
-use crate::num::interval::Interval;
-use crate::num::parallel::parallel;
+use machine::requirements::{HingeAngle, TermKind};
+use num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
+use num::farkas::{EnclosedRow, refuted};
+use num::interval::Interval;
+use num::parallel::parallel;
 
 pub(crate) fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> Task {
     let n = model.objectives.len();
@@ -26,7 +26,7 @@ pub(crate) fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> 
 const ELASTIC_BATCH: usize = 16;
 
 /// Least violation, objectives left out, from where the runs of a task ended, once from each end, as long as none meets the requirements and other ends are to be expected.
-pub(crate) fn elastic(
+pub(super) fn elastic(
     model: &Model<'_>,
     task: &Task,
     from: &[RefinedRun],
@@ -75,7 +75,7 @@ fn with_least_whole(
 /// From the point that misses least the least violation is looked for. The requirements that are missed there are part of what is wanted, so that what cannot meet those cannot meet all: they alone are
 /// tried from the points, without the others, which have optima of their own between them. Where every run misses them, and ends so alike that no other end is to be expected
 /// ([`expects_no_other`]), the requirements count as not to be met, as far as local searches can tell.
-pub(crate) fn unmet(
+pub(super) fn unmet(
     model: &Model<'_>,
     points: &[Vec<f64>],
     threads: usize,
@@ -151,7 +151,7 @@ const BATCH: usize = 4;
 
 /// Tries to meet what a task does not drop, from where other runs ended and from a population of its own: the ends are where all
 /// requirements together led, which need not be near to where fewer of them can be met.
-pub(crate) fn attempt(
+pub(super) fn attempt(
     model: &Model<'_>,
     task: &Task,
     from: &[RefinedRun],
@@ -204,7 +204,7 @@ pub(crate) enum Clash {
 ///
 /// Deletion filter (Chinneck, Dravnieks 1991): constraints are left out one kind at a time, and stay out when the others still cannot be met. Those that hold at the least violation are left out
 /// together first, and stay out at once where the others still cannot be met.
-pub(crate) fn conflict(
+pub(super) fn conflict(
     model: &Model<'_>,
     settled: &[RefinedRun],
     o: &ShapeSearchOptions,
@@ -281,7 +281,7 @@ pub(crate) fn conflict(
 }
 
 /// The constraint of a group, as answers name it.
-pub(crate) fn demand(model: &Model<'_>, group: ConstraintGroup) -> Demand {
+pub(super) fn demand(model: &Model<'_>, group: ConstraintGroup) -> Demand {
     match group {
         ConstraintGroup::Term(kind) => Demand::Requirement(kind),
         ConstraintGroup::Determinant => Demand::Determinant,

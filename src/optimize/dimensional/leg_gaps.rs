@@ -4,9 +4,9 @@ use nalgebra::Vector3;
 
 use super::leg_lines::LegLines;
 use super::pull::Gradient;
-use crate::machine::requirements;
-use crate::machine::requirements::{KeepOut, LegBody};
-use crate::platform::manipulator::Body;
+use machine::requirements;
+use machine::requirements::{KeepOut, LegBody};
+use platform::manipulator::Body;
 
 /// A part of a leg: from one share of its line to another, with a radius.
 #[derive(Debug, Clone, Copy)]
@@ -20,10 +20,10 @@ pub(super) struct Part {
 
 /// A gap with its gradient; `part` tells apart the gaps of a pair of legs.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Gap<P> {
-    pub(crate) value: f64,
-    pub(crate) pull: P,
-    pub(crate) part: usize,
+pub(super) struct Gap<P> {
+    pub value: f64,
+    pub pull: P,
+    pub part: usize,
 }
 
 /// The parts of a leg: cylinder and rod, or one.

@@ -4,35 +4,35 @@ use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
 use super::pull::Gradient;
 use super::shape::JointEnds;
-use crate::machine::requirements::Load;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use machine::requirements::Load;
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 /// A pose at which the requirements are held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HeldPose {
     /// As given, before home is lifted.
-    pub(crate) pose: Pose,
+    pub pose: Pose,
     /// Whether it moves with home.
-    pub(crate) follows: bool,
+    pub follows: bool,
 }
 
 /// The six legs at a pose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LegLines {
-    pub(crate) rotation: Rotation3<f64>,
-    pub(crate) position: Vector3<f64>,
-    pub(crate) base: [Vector3<f64>; 6],
+    pub rotation: Rotation3<f64>,
+    pub position: Vector3<f64>,
+    pub base: [Vector3<f64>; 6],
     /// `R b`.
-    pub(crate) arm: [Vector3<f64>; 6],
+    pub arm: [Vector3<f64>; 6],
     /// `R b + p - a`.
-    pub(crate) line: [Vector3<f64>; 6],
-    pub(crate) length: [f64; 6],
-    pub(crate) direction: [Vector3<f64>; 6],
+    pub line: [Vector3<f64>; 6],
+    pub length: [f64; 6],
+    pub direction: [Vector3<f64>; 6],
 }
 
 impl LegLines {
-    pub(crate) fn new(ends: &JointEnds, at: &HeldPose) -> Self {
+    pub(super) fn new(ends: &JointEnds, at: &HeldPose) -> Self {
         let rotation = at.pose.rotation;
         let position = if at.follows { at.pose.position + ends.lift } else { at.pose.position };
         let arm = ends.platform.map(|b| rotation * b);
@@ -49,12 +49,12 @@ impl LegLines {
     }
 
     /// Row `[u, (R b x u) / L]` of a leg.
-    pub(crate) fn row(&self, leg: usize, length: f64) -> Vector6<f64> {
+    pub(super) fn row(&self, leg: usize, length: f64) -> Vector6<f64> {
         let (u, m) = (self.direction[leg], self.arm[leg].cross(&self.direction[leg]) / length);
         Vector6::new(u.x, u.y, u.z, m.x, m.y, m.z)
     }
 
-    pub(crate) fn jacobian(&self, length: f64) -> Matrix6<f64> {
+    pub(super) fn jacobian(&self, length: f64) -> Matrix6<f64> {
         let mut j = Matrix6::zeros();
         for i in 0..6 {
             j.set_row(i, &self.row(i, length).transpose());
@@ -78,8 +78,8 @@ impl LegLines {
 
 /// Leg forces that hold a load, and what their derivatives need.
 #[derive(Debug, Clone)]
-pub(crate) struct Forces<'a> {
-    pub(crate) forces: Vector6<f64>,
+pub(super) struct Forces<'a> {
+    pub forces: Vector6<f64>,
     inverse: &'a Matrix6<f64>,
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn inverse_of_columns(l: &LegLines, length: f64) -> Option<Matrix6<f6
 }
 
 /// `sum F_i (u_i, R b_i x u_i) = -(f, t)`; `None` at a singular pose.
-pub(crate) fn leg_forces<'a>(
+pub(super) fn leg_forces<'a>(
     l: &LegLines,
     inverse: Option<&'a Matrix6<f64>>,
     load: &Load,
@@ -106,7 +106,7 @@ pub(crate) fn leg_forces<'a>(
 
 impl Forces<'_> {
     /// Force of a leg and its gradient: `dF_i = - sum_j F_j (row i of the inverse) . d(column j)`.
-    pub(crate) fn of<P: Gradient>(&self, l: &LegLines, leg: usize, length: f64) -> (f64, P) {
+    pub(super) fn of<P: Gradient>(&self, l: &LegLines, leg: usize, length: f64) -> (f64, P) {
         let y: Vector6<f64> = self.inverse.row(leg).transpose();
         let mut pull = P::none();
         for j in (0..6).filter(|_| P::KEPT) {

@@ -9,9 +9,9 @@ use super::pull::{Gradient, Pull, Rate};
 use super::shape::JointEnds;
 use super::skeleton::Room;
 use super::terms::{ConvexForm, Item, TermId};
-use crate::machine::requirements::Objective;
-use crate::machine::requirements::TermKind;
-use crate::platform::manipulator::Body;
+use machine::requirements::Objective;
+use machine::requirements::TermKind;
+use platform::manipulator::Body;
 
 /// Stands for the pose of what has none.
 const NO_POSE: usize = usize::MAX;
@@ -19,30 +19,30 @@ const NO_POSE: usize = usize::MAX;
 /// A constraint near a point.
 #[derive(Debug, Clone)]
 pub(crate) struct LinearItem {
-    pub(crate) group: ConstraintGroup,
+    pub group: ConstraintGroup,
     /// Pose and requirement.
-    pub(crate) id: (usize, TermId),
-    pub(crate) value: f64,
-    pub(crate) gradient: Vec<f64>,
+    pub id: (usize, TermId),
+    pub value: f64,
+    pub gradient: Vec<f64>,
     /// Head and tail of a second-order cone, divided by the size.
-    pub(crate) cone: Option<AffineCone>,
+    pub cone: Option<AffineCone>,
 }
 
 /// `head >= |tail|`, affine in the step.
 #[derive(Debug, Clone)]
 pub(crate) struct AffineCone {
-    pub(crate) head: (f64, Vec<f64>),
-    pub(crate) tail: [(f64, Vec<f64>); 3],
+    pub head: (f64, Vec<f64>),
+    pub tail: [(f64, Vec<f64>); 3],
     /// Factor of the slack in the head.
-    pub(crate) slack: f64,
+    pub slack: f64,
 }
 
 /// A cluster of singular values with gradients instead of pulls.
 #[derive(Debug, Clone)]
 pub(crate) struct LinearCluster {
-    pub(crate) sigma: f64,
-    pub(crate) own: Vec<f64>,
-    pub(crate) others: Vec<(f64, Vec<f64>, Vec<f64>)>,
+    pub sigma: f64,
+    pub own: Vec<f64>,
+    pub others: Vec<(f64, Vec<f64>, Vec<f64>)>,
 }
 
 /// A bound of an objective near a point.
@@ -56,12 +56,12 @@ pub(crate) enum LinearBound {
 /// A piece of an objective near a point.
 #[derive(Debug, Clone)]
 pub(crate) struct LinearPiece {
-    pub(crate) objective: usize,
+    pub objective: usize,
     /// Pose and number within the pose.
-    pub(crate) id: (usize, usize),
-    pub(crate) value: f64,
-    pub(crate) gradient: Vec<f64>,
-    pub(crate) bound: LinearBound,
+    pub id: (usize, usize),
+    pub value: f64,
+    pub gradient: Vec<f64>,
+    pub bound: LinearBound,
 }
 
 fn affine(at: f64, gradient: &[f64], d: &[f64]) -> f64 {
@@ -76,7 +76,7 @@ impl AffineCone {
 
 impl LinearItem {
     /// How far the model is from being violated after a step, with slack.
-    pub(crate) fn room(&self, d: &[f64], slack: f64, spare: f64) -> f64 {
+    pub(super) fn room(&self, d: &[f64], slack: f64, spare: f64) -> f64 {
         match &self.cone {
             Some(cone) => affine(cone.head.0, &cone.head.1, d) + cone.slack * slack - cone.norm(d),
             None => affine(self.value - spare + slack, &self.gradient, d),
@@ -98,7 +98,7 @@ impl LinearCluster {
 
 impl LinearPiece {
     /// What the piece allows the objective after a step.
-    pub(crate) fn upper(&self, d: &[f64]) -> f64 {
+    pub(super) fn upper(&self, d: &[f64]) -> f64 {
         match &self.bound {
             LinearBound::Spectral { f, h, low, high } => {
                 self.value + f * low.change(d, 1.0) - h * high.change(d, -1.0)
@@ -108,7 +108,7 @@ impl LinearPiece {
     }
 
     /// Lower and upper model of a length after a step.
-    pub(crate) fn lengths(&self, d: &[f64]) -> (f64, f64) {
+    pub(super) fn lengths(&self, d: &[f64]) -> (f64, f64) {
         let plain = affine(self.value, &self.gradient, d);
         match &self.bound {
             LinearBound::Length(Some(cone)) => (plain, cone.norm(d)),
@@ -120,8 +120,8 @@ impl LinearPiece {
 /// Everything the next step has to know.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Linearised {
-    pub(crate) items: Vec<LinearItem>,
-    pub(crate) pieces: Vec<LinearPiece>,
+    pub items: Vec<LinearItem>,
+    pub pieces: Vec<LinearPiece>,
 }
 
 /// Legs at a held pose with the motions of the variables.

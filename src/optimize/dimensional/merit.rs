@@ -12,11 +12,11 @@ use super::pull::{Gradient, Pull};
 use super::shape::JointEnds;
 use super::stiffness::{self, RayleighQuotient};
 use super::terms::{RequirementTerms, joint_pull};
-use crate::machine::requirements::{Load, Objective, VibratingMasses};
-use crate::num::linalg::svd;
-use crate::num::small::{bounded_svd, singular_values};
-use crate::platform::manipulator::Body;
-use crate::synthesis::Normalisation;
+use machine::requirements::{Load, Objective, VibratingMasses};
+use num::linalg::svd;
+use num::small::{bounded_svd, singular_values};
+use platform::manipulator::Body;
+use synthesis::Normalisation;
 
 /// Singular values within this factor of the extreme one are modelled together with it.
 const CLUSTER: f64 = 1.6;
@@ -27,19 +27,19 @@ const SINGULAR_GAIN: f64 = -1e6;
 /// `y <= value + f (s_6 - sigma_6) - h (s_1 - sigma_1)` with the singular values `s` of the linearised matrix.
 #[derive(Debug, Clone)]
 pub(crate) struct Spectral {
-    pub(crate) value: f64,
-    pub(crate) f: f64,
-    pub(crate) h: f64,
-    pub(crate) low: Cluster,
-    pub(crate) high: Cluster,
+    pub value: f64,
+    pub f: f64,
+    pub h: f64,
+    pub low: Cluster,
+    pub high: Cluster,
 }
 
 /// An extreme singular value with those close to it: their values, and the pulls of the blocks `(kk, ko, oo)`.
 #[derive(Debug, Clone)]
-pub(crate) struct Cluster {
-    pub(crate) sigma: f64,
-    pub(crate) own: Pull,
-    pub(crate) others: Vec<(f64, Pull, Pull)>,
+pub(super) struct Cluster {
+    pub sigma: f64,
+    pub own: Pull,
+    pub others: Vec<(f64, Pull, Pull)>,
 }
 
 /// What bounds an objective from above.
@@ -57,18 +57,18 @@ pub(crate) enum MeritPiece {
 #[derive(Debug, Clone)]
 pub(crate) struct Merit<'a> {
     loads: &'a [Load],
-    leg_body: Option<crate::machine::requirements::LegBody>,
+    leg_body: Option<machine::requirements::LegBody>,
     length: f64,
     size: f64,
     force_unit: f64,
     vibrating: Option<VibratingMasses>,
     normalisation: Normalisation,
     /// Poses of the mean.
-    pub(crate) sample: Vec<HeldPose>,
+    pub sample: Vec<HeldPose>,
 }
 
 impl<'a> Merit<'a> {
-    pub(crate) fn new(p: &'a DimensionalProblem, sample: Vec<HeldPose>) -> Self {
+    pub(super) fn new(p: &'a DimensionalProblem, sample: Vec<HeldPose>) -> Self {
         let of = |l: &Load| l.force.norm() + l.torque.norm() / p.characteristic_length;
         let force_unit = p.requirements.loads.iter().map(of).fold(0.0, f64::max);
         Self {
@@ -84,7 +84,7 @@ impl<'a> Merit<'a> {
     }
 
     /// Factor that turns a gain into the value of the objective, sign included.
-    pub(crate) fn unit(&self, o: Objective, stiffness: f64) -> f64 {
+    pub(super) fn unit(&self, o: Objective, stiffness: f64) -> f64 {
         match o {
             Objective::LegForce => -self.force_unit,
             Objective::Stroke => -self.size,
@@ -117,10 +117,10 @@ impl<'a> Merit<'a> {
     }
 
     /// The least gain at one pose, of the objectives over poses.
-    pub(crate) fn at_pose(&self, o: Objective, terms: &RequirementTerms<'_>, l: &LegLines) -> f64 {
+    pub(super) fn at_pose(&self, o: Objective, terms: &RequirementTerms<'_>, l: &LegLines) -> f64 {
         match o {
             Objective::WorstConditioning => {
-                crate::platform::manipulator::inverse_condition(&l.jacobian(self.length))
+                platform::manipulator::inverse_condition(&l.jacobian(self.length))
             }
             Objective::SmallestSingularValue | Objective::Stiffness => {
                 let j = l.jacobian(self.length);
@@ -258,7 +258,7 @@ impl<'a> Merit<'a> {
     }
 
     /// Inverse condition number at a pose and its gradient.
-    pub(crate) fn conditioning(&self, l: &LegLines) -> Option<(f64, Pull)> {
+    pub(super) fn conditioning(&self, l: &LegLines) -> Option<(f64, Pull)> {
         let (u, s, v) = decomposed(&l.jacobian(self.length))?;
         let g = s[5] / s[0];
         let mut pull = Pull::none();
@@ -309,7 +309,7 @@ fn decomposed(j: &Matrix6<f64>) -> Option<(Matrix6<f64>, Vector6<f64>, Matrix6<f
 
 impl Spectral {
     /// The gradient of the piece, clusters taken apart.
-    pub(crate) fn pull(&self) -> Pull {
+    pub(super) fn pull(&self) -> Pull {
         let mut pull = self.low.own.scaled(self.f);
         pull.add(&self.high.own, -self.h);
         pull

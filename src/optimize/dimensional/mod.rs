@@ -1,6 +1,6 @@
 //! Dimensional synthesis: chooses the dimensions of a platform such that it meets all its requirements and is otherwise as good as can be found.
 //!
-//! Variables are offsets, triangles, the height of home and joint axes; requirements are those of [`crate::machine::requirements`], in formulas of
+//! Variables are offsets, triangles, the height of home and joint axes; requirements are those of [`machine::requirements`], in formulas of
 //! this module with derivatives. Sequential convex programming from many starts, over poses that are added where the requirements
 //! are met least. Definitions, method and limits: `docs/theory/dimensional-synthesis.md`.
 
@@ -35,4 +35,4 @@ pub use pareto::{ParetoPoint, ParetoReport, pareto};
 pub use problem::{DimensionalProblem, InvalidProblem, Mode, Triangles, Variables};
 pub use scp::HistoryStep;
 pub use search::{Progress, ShapeSearchOptions, Stage, optimize};
-pub(crate) use search::{meet, optimize_without_conflict, why_not};
+pub use search::{meet, optimize_without_conflict, why_not};

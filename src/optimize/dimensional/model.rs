@@ -9,8 +9,8 @@ use super::merit::Merit;
 use super::problem::{DimensionalProblem, InvalidProblem, Variables};
 use super::shape::Shape;
 use super::terms::RequirementTerms;
-use crate::machine::requirements::{ListedFrom, Objective, TermKind};
-use crate::num::Rng;
+use machine::requirements::{ListedFrom, Objective, TermKind};
+use num::Rng;
 
 /// Constraints that share one slack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,18 +29,18 @@ pub(crate) enum ConstraintGroup {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Task {
     /// Weight of each objective; 0 leaves it out.
-    pub(crate) weights: Vec<f64>,
+    pub weights: Vec<f64>,
     /// Least gain of each objective.
     pub(crate) floors: Vec<Option<f64>>,
     /// Constraints that are not held.
-    pub(crate) dropped: Vec<ConstraintGroup>,
+    pub dropped: Vec<ConstraintGroup>,
     /// Constraints whose violation costs a hundredth.
-    pub(crate) soft: Option<ConstraintGroup>,
+    pub soft: Option<ConstraintGroup>,
 }
 
 impl Task {
     /// Relative price of a violation.
-    pub(crate) fn cost(&self, group: ConstraintGroup) -> f64 {
+    pub(super) fn cost(&self, group: ConstraintGroup) -> f64 {
         if self.soft == Some(group) { 0.01 } else { 1.0 }
     }
 }
@@ -48,14 +48,14 @@ impl Task {
 /// The problem with its parametrisation.
 #[derive(Debug)]
 pub(crate) struct Model<'a> {
-    pub(crate) problem: &'a DimensionalProblem,
-    pub(crate) shape: Shape,
-    pub(crate) terms: RequirementTerms<'a>,
-    pub(crate) merit: Merit<'a>,
-    pub(crate) objectives: Vec<Objective>,
+    pub problem: &'a DimensionalProblem,
+    pub shape: Shape,
+    pub terms: RequirementTerms<'a>,
+    pub merit: Merit<'a>,
+    pub objectives: Vec<Objective>,
     /// Constraints are held with this to spare, so that what lies between the poses meets them too.
     pub(crate) backoff: f64,
-    pub(crate) affine: bool,
+    pub affine: bool,
     /// Set when the search is to end with what it has.
     stop: Arc<AtomicBool>,
 }
@@ -72,7 +72,7 @@ const BETWEEN_CORNERS: u64 = 2;
 const BACKOFF: (f64, f64) = (1e-6, 2e-8);
 
 impl<'a> Model<'a> {
-    pub(crate) fn new(problem: &'a DimensionalProblem) -> Result<Self, InvalidProblem> {
+    pub(super) fn new(problem: &'a DimensionalProblem) -> Result<Self, InvalidProblem> {
         problem.validate()?;
         Self::with_axes(problem, problem.axes_wanted())
     }
@@ -137,23 +137,23 @@ impl<'a> Model<'a> {
     }
 
     /// Factor from the gain of an objective to its value.
-    pub(crate) fn unit(&self, o: Objective) -> f64 {
+    pub(super) fn unit(&self, o: Objective) -> f64 {
         self.merit.unit(o, self.problem.requirements.hardware.leg_stiffness.unwrap_or(1.0))
     }
 
-    pub(crate) fn wanted<'b>(&'b self, task: &'b Task) -> impl Iterator<Item = (usize, Objective)> + 'b {
+    pub(super) fn wanted<'b>(&'b self, task: &'b Task) -> impl Iterator<Item = (usize, Objective)> + 'b {
         let used = |m: &usize| task.weights[*m] > 0.0 || task.floors[*m].is_some();
         (0..self.objectives.len()).filter(used).map(|m| (m, self.objectives[m]))
     }
 
     /// `sign det A` less the least value, and its gradient, where the variables keep the class of the design.
-    pub(crate) fn determinant(&self, x: &[f64], sign: f64) -> Option<(f64, Vec<f64>)> {
+    pub(super) fn determinant(&self, x: &[f64], sign: f64) -> Option<(f64, Vec<f64>)> {
         let (det, gradient) = self.shape.determinant(x)?;
         Some((sign * det - self.problem.min_abs_det, gradient.into_iter().map(|g| sign * g).collect()))
     }
 
     /// Sign of `det A` at a point.
-    pub(crate) fn sign(&self, x: &[f64]) -> f64 {
+    pub(super) fn sign(&self, x: &[f64]) -> f64 {
         self.shape.determinant(x).map_or(1.0, |(det, _)| if det < 0.0 { -1.0 } else { 1.0 })
     }
 }

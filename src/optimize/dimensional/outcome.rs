@@ -7,15 +7,15 @@ use super::model::{Model, Task};
 use super::problem::DimensionalProblem;
 use super::scp::HistoryStep;
 use super::search::RefinedRun;
-use crate::machine::requirements::{
+use machine::requirements::{
     Hardware, Objective, PoseSpace, Requirements, TermKind, Terms, leg_forces, lowest_frequency,
 };
-use crate::num::Purpose;
-use crate::num::conic::SolverFailure;
-use crate::num::linalg::svd;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
-use crate::synthesis::{Normalisation, leg_vector};
+use num::Purpose;
+use num::conic::SolverFailure;
+use num::linalg::svd;
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
+use synthesis::{Normalisation, leg_vector};
 
 /// A variable of the search that is not a component of a joint axis, with what it was and what it has become.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,7 +150,7 @@ impl DimensionalReport {
 }
 
 /// The first of the refined runs as an answer.
-pub(crate) fn outcome(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> DimensionalOutcome {
+pub(super) fn outcome(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> DimensionalOutcome {
     let Some(solution) = solution(model, task, refined) else { return DimensionalOutcome::Undecided(None) };
     if refined.run.is_settled() && refined.complete {
         DimensionalOutcome::Optimal(Box::new(solution))
@@ -160,7 +160,7 @@ pub(crate) fn outcome(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> D
 }
 
 /// A refined run as a platform, whether or not it meets the requirements; `None` where its legs make none.
-pub(crate) fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> Option<DimensionalSolution> {
+pub(super) fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> Option<DimensionalSolution> {
     let x = &refined.run.x;
     let manipulator = model.shape.manipulator(x).ok()?;
     let home = model.terms.home;

@@ -6,7 +6,7 @@ use super::model::{Model, Task};
 use super::outcome::{DimensionalOutcome, DimensionalReport, DimensionalSolution, evaluate, outcome};
 use super::problem::{DimensionalProblem, InvalidProblem};
 use super::search::{Progress, RefinedRun, ShapeSearchOptions, Stage, Watch, better, refine, search_task};
-use crate::num::parallel::parallel;
+use num::parallel::parallel;
 
 /// Points of the dense evaluation, and as many random ones.
 const POINTS: usize = 1000;

@@ -10,11 +10,9 @@ use super::leg_lines::LegLines;
 use super::pull::Gradient;
 use super::shape::{JointEnds, JointId};
 use super::terms::Item;
-use crate::machine::requirements::{
-    BoltsFrom, Hardware, LegBody, PlateDesign, TermKind, frame_of, plate_normal,
-};
-use crate::platform::geom::convex_hull;
-use crate::platform::manipulator::Body;
+use machine::requirements::{BoltsFrom, Hardware, LegBody, PlateDesign, TermKind, frame_of, plate_normal};
+use platform::geom::convex_hull;
+use platform::manipulator::Body;
 
 /// Joints nearer than this share of the size are one corner of an outline.
 const SAME: f64 = 1e-9;
@@ -26,7 +24,7 @@ const HALVINGS: usize = 60;
 /// The plate of a body before its joints are known.
 #[derive(Debug, Clone)]
 pub(crate) struct PlateModel<'a> {
-    pub(crate) body: Body,
+    pub body: Body,
     plate: &'a PlateDesign,
     /// Height of the lowest joint above the face.
     height: f64,
@@ -75,7 +73,7 @@ pub(crate) struct PlacedPlate<'a> {
 type Seen<P> = (f64, P);
 
 impl<'a> PlateModel<'a> {
-    pub(crate) fn new(
+    pub(super) fn new(
         plate: &'a PlateDesign,
         body: Body,
         hardware: &Hardware,
@@ -88,7 +86,7 @@ impl<'a> PlateModel<'a> {
     }
 
     /// The plate under joints; `towards` leads from it to the legs, in the frame of the body.
-    pub(crate) fn place(&'a self, ends: &JointEnds, towards: &Vector3<f64>) -> PlacedPlate<'a> {
+    pub(super) fn place(&'a self, ends: &JointEnds, towards: &Vector3<f64>) -> PlacedPlate<'a> {
         let at = self.body.of((&ends.base, &ends.platform));
         let own = self.legs.iter().map(|&leg| (Some(leg), at[leg]));
         let joints: Vec<(Option<usize>, Vector3<f64>)> =
@@ -221,7 +219,7 @@ impl PlacedPlate<'_> {
     }
 
     /// How much farther the holes are from the outline than they have to be, for each hole and each edge of the outline that bounds its depth.
-    pub(crate) fn edges<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(Item<P>)) {
+    pub(super) fn edges<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(Item<P>)) {
         let model = self.model;
         let kind = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
         let mut tell = |(seat, part): (usize, usize), (value, pull): Seen<P>| {
@@ -268,7 +266,7 @@ impl PlacedPlate<'_> {
     /// How much farther the holes and feet of two joints are apart than they have to be, and the holes of one.
     ///
     /// Of two joints those holes that are no farther apart than the nearest ones and the width of their pattern: others are not the nearest ones of a platform nearby.
-    pub(crate) fn gaps<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(Item<P>)) {
+    pub(super) fn gaps<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(Item<P>)) {
         let model = self.model;
         let plate = model.plate;
         let kind = model.body.of((TermKind::BaseHoleGap, TermKind::PlatformHoleGap));
@@ -370,7 +368,7 @@ impl PlacedPlate<'_> {
     }
 
     /// Gaps between a leg and the plate, signed: of a leg that runs into it, by how much it would have to be moved out of it.
-    pub(crate) fn clearances<P: Gradient>(
+    pub(super) fn clearances<P: Gradient>(
         &self,
         l: &LegLines,
         (body, leg, reach): (&LegBody, usize, f64),

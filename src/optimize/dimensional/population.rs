@@ -8,7 +8,7 @@ use super::leg_lines::{HeldPose, LegLines};
 use super::model::{Model, Task};
 use super::scp::PENALTY;
 use super::worst_pose::{Judging, PointValues};
-use crate::num::Rng;
+use num::Rng;
 
 /// What a point is worth.
 #[derive(Debug, Clone, Copy)]
@@ -27,30 +27,30 @@ impl Worth {
         }
     }
 
-    pub(crate) fn merit(&self, penalty: f64) -> f64 {
+    pub(super) fn merit(&self, penalty: f64) -> f64 {
         self.gain - penalty * self.violation
     }
 
     /// Whether values and violations agree, relatively.
-    pub(crate) fn is_close(&self, other: &Self, within: f64) -> bool {
+    pub(super) fn is_close(&self, other: &Self, within: f64) -> bool {
         is_close(self.gain, other.gain, within) && is_close(self.violation, other.violation, within)
     }
 
-    pub(crate) fn order(&self, other: &Self) -> std::cmp::Ordering {
+    pub(super) fn order(&self, other: &Self) -> std::cmp::Ordering {
         self.violation.total_cmp(&other.violation).then(other.gain.total_cmp(&self.gain))
     }
 }
 
 /// Whether two numbers agree, relatively.
-pub(crate) fn is_close(a: f64, b: f64, within: f64) -> bool {
+pub(super) fn is_close(a: f64, b: f64, within: f64) -> bool {
     (a - b).abs() <= within * a.abs().max(b.abs())
 }
 
 /// A member of a population.
 #[derive(Debug, Clone)]
 pub(crate) struct Member {
-    pub(crate) x: Vec<f64>,
-    pub(crate) worth: Worth,
+    pub x: Vec<f64>,
+    pub worth: Worth,
 }
 
 /// Members for each variable, and the least and greatest number of them.
@@ -73,16 +73,16 @@ const FEW: usize = 24;
 const REVIEW: usize = 10;
 
 impl<'m, 'a> Judge<'m, 'a> {
-    pub(crate) fn new(model: &'m Model<'a>, task: &'m Task) -> Self {
+    pub(super) fn new(model: &'m Model<'a>, task: &'m Task) -> Self {
         Self::over(model, task, model.first_poses())
     }
 
-    pub(crate) fn over(model: &'m Model<'a>, task: &'m Task, poses: Vec<HeldPose>) -> Self {
+    pub(super) fn over(model: &'m Model<'a>, task: &'m Task, poses: Vec<HeldPose>) -> Self {
         Self { model, task, poses }
     }
 
     /// The poses, those that refused points last first.
-    pub(crate) fn poses(&self) -> &[HeldPose] {
+    pub(super) fn poses(&self) -> &[HeldPose] {
         &self.poses
     }
 
@@ -101,7 +101,7 @@ impl<'m, 'a> Judge<'m, 'a> {
     }
 
     /// Up to `count` poses that bind at a point, the worst ones first.
-    pub(crate) fn worst(&self, x: &[f64], count: usize) -> Vec<HeldPose> {
+    pub(super) fn worst(&self, x: &[f64], count: usize) -> Vec<HeldPose> {
         self.binding(x).into_iter().rev().take(count).map(|k| self.poses[k]).collect()
     }
 
@@ -114,7 +114,7 @@ impl<'m, 'a> Judge<'m, 'a> {
     }
 
     /// The worth of a point over the first `count` poses, `None` as soon as it is no better than `bar`.
-    pub(crate) fn worth(&mut self, x: &[f64], count: usize, bar: Option<&Worth>) -> Option<Worth> {
+    pub(super) fn worth(&mut self, x: &[f64], count: usize, bar: Option<&Worth>) -> Option<Worth> {
         let worth = |judged: &PointValues| {
             let within = judged.violation() <= 0.5 * self.model.backoff;
             let violation = if within { 0.0 } else { judged.total_violation(self.task) };
@@ -238,14 +238,14 @@ fn trial(model: &Model<'_>, all: &[Member], i: usize, free: &[usize], rng: &mut 
 
 impl Model<'_> {
     /// Uniform within the bounds, axes along the legs at home.
-    pub(crate) fn random_point(&self, rng: &mut Rng) -> Vec<f64> {
+    pub(super) fn random_point(&self, rng: &mut Rng) -> Vec<f64> {
         let mut x: Vec<f64> = self.shape.bounds.iter().map(|b| rng.uniform(b.0, b.1)).collect();
         self.aim(&mut x);
         x
     }
 
     /// Turns the joint axes along the legs at home.
-    pub(crate) fn aim(&self, x: &mut [f64]) {
+    pub(super) fn aim(&self, x: &mut [f64]) {
         if self.shape.axes == [None; 2] {
             return;
         }

@@ -3,12 +3,10 @@
 use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
-use crate::machine::requirements::{
-    JointAxes, KeptSymmetry, Objective, PoseSpace, Requirements, VariableKind,
-};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator, NotOctahedral, Octahedral};
-use crate::synthesis::components::ComponentsError;
+use machine::requirements::{JointAxes, KeptSymmetry, Objective, PoseSpace, Requirements, VariableKind};
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator, NotOctahedral, Octahedral};
+use synthesis::components::ComponentsError;
 
 /// What may change about base and platform: the triangles of an octahedral design, whose centroids and planes stay, or the sizes of any design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -308,14 +306,14 @@ impl DimensionalProblem {
     /// Whether the axes of base and platform joints are chosen: asked for, and limited.
     pub(crate) fn axes_wanted(&self) -> [bool; 2] {
         let h = &self.requirements.hardware;
-        let wanted = |k: usize, swing: Option<crate::machine::requirements::Swing>| {
+        let wanted = |k: usize, swing: Option<machine::requirements::Swing>| {
             swing.is_some_and(|s| s.axes == JointAxes::Optimize || self.variables.joint_axes[k])
         };
         [wanted(0, h.base_swing), wanted(1, h.platform_swing)]
     }
 
     /// The single poses, and those along the trajectory.
-    pub(crate) fn listed(&self) -> Vec<Pose> {
+    pub fn listed(&self) -> Vec<Pose> {
         self.space.listed(4)
     }
 }

@@ -6,15 +6,15 @@ use nalgebra::{Rotation3, Vector3};
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rate {
     /// Leg, velocity of its base end (base frame) and of its platform end (platform frame).
-    pub(crate) ends: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
+    pub ends: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
     /// Velocity of home, and of every pose that is given relative to it.
-    pub(crate) lift: Vector3<f64>,
+    pub lift: Vector3<f64>,
     /// Joint axis: body (0 base, 1 platform), leg, component.
-    pub(crate) axis: Option<(usize, usize, usize)>,
+    pub axis: Option<(usize, usize, usize)>,
 }
 
 /// What a formula leaves of its gradient: a [`Pull`], or nothing where the value alone is wanted.
-pub(crate) trait Gradient: Copy {
+pub(super) trait Gradient: Copy {
     /// Whether anything is kept; formulas skip their derivatives otherwise.
     const KEPT: bool;
     fn none() -> Self;
@@ -52,13 +52,13 @@ impl Gradient for () {
 /// Gradient of a function of the legs at one pose with respect to base ends, arms `R b` and position.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pull {
-    pub(crate) base: [Vector3<f64>; 6],
-    pub(crate) arm: [Vector3<f64>; 6],
-    pub(crate) position: Vector3<f64>,
+    pub base: [Vector3<f64>; 6],
+    pub arm: [Vector3<f64>; 6],
+    pub position: Vector3<f64>,
     /// Leg and gradient with respect to its line at home.
-    pub(crate) home: Option<(usize, Vector3<f64>)>,
+    pub home: Option<(usize, Vector3<f64>)>,
     /// Body, leg and gradient with respect to the axis of the joint.
-    pub(crate) axis: Option<(usize, usize, Vector3<f64>)>,
+    pub axis: Option<(usize, usize, Vector3<f64>)>,
 }
 
 impl Gradient for Pull {
@@ -100,7 +100,7 @@ impl Gradient for Pull {
 
 impl Pull {
     /// Adds `factor` times another.
-    pub(crate) fn add(&mut self, other: &Self, factor: f64) {
+    pub(super) fn add(&mut self, other: &Self, factor: f64) {
         for i in 0..6 {
             self.base[i] += other.base[i] * factor;
             self.arm[i] += other.arm[i] * factor;
@@ -109,7 +109,7 @@ impl Pull {
     }
 
     /// Gradient with respect to the variables at a pose; `follows`: the pose moves with home.
-    pub(crate) fn gradient(
+    pub(super) fn gradient(
         &self,
         rates: &[Rate],
         rotation: &Rotation3<f64>,

@@ -12,19 +12,19 @@ use super::leg_lines::HeldPose;
 use super::linear::{AffineCone, LinearBound, LinearCluster, LinearItem, LinearPiece, Linearised};
 use super::model::{ConstraintGroup, Model, Task};
 use super::worst_pose::PointValues;
-use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, ConicRow, SolverFailure};
+use num::conic::{ConicAnswer, ConicPoint, ConicProgram, ConicRow, SolverFailure};
 
 /// How hard to try.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ShapeEffort {
-    pub(crate) iterations: usize,
+    pub iterations: usize,
     /// Stop when the model promises less.
-    pub(crate) tolerance: f64,
+    pub tolerance: f64,
 }
 
 impl ShapeEffort {
     /// Enough to compare starts.
-    pub(crate) const RANK: Self = Self { iterations: 30, tolerance: 1e-5 };
+    pub(super) const RANK: Self = Self { iterations: 30, tolerance: 1e-5 };
     /// To the accuracy of the conic solver.
     pub(crate) const POLISH: Self = Self { iterations: 80, tolerance: 1e-8 };
 }
@@ -47,13 +47,13 @@ pub struct HistoryStep {
 /// Where a run ended.
 #[derive(Debug, Clone)]
 pub(crate) struct ShapeRun {
-    pub(crate) x: Vec<f64>,
-    pub(crate) judged: PointValues,
-    pub(crate) converged: bool,
+    pub x: Vec<f64>,
+    pub judged: PointValues,
+    pub converged: bool,
     /// Gain still promised for a unit of the variables, less the violation.
-    pub(crate) stationarity: f64,
-    pub(crate) history: Vec<HistoryStep>,
-    pub(crate) failure: Option<SolverFailure>,
+    pub stationarity: f64,
+    pub history: Vec<HistoryStep>,
+    pub failure: Option<SolverFailure>,
 }
 
 /// Price of a violation that a climb begins with.
@@ -71,7 +71,7 @@ const PROBE_RADIUS: f64 = 1e-3;
 
 impl ShapeRun {
     /// The same with the steps that led to its start.
-    pub(crate) fn after(mut self, mut earlier: Vec<HistoryStep>) -> Self {
+    pub(super) fn after(mut self, mut earlier: Vec<HistoryStep>) -> Self {
         earlier.append(&mut self.history);
         Self { history: earlier, ..self }
     }
@@ -173,7 +173,7 @@ fn has_cluster(bound: &LinearBound) -> bool {
 }
 
 /// Climbs from `start`.
-pub(crate) fn climb(
+pub(super) fn climb(
     model: &Model<'_>,
     poses: &[HeldPose],
     task: &Task,
@@ -284,24 +284,24 @@ const FIRST: usize = 6;
 /// What a step is computed from.
 #[derive(Debug)]
 pub(crate) struct ShapeSubproblem<'a> {
-    pub(crate) model: &'a Model<'a>,
-    pub(crate) task: &'a Task,
-    pub(crate) x: &'a [f64],
-    pub(crate) near: &'a Linearised,
-    pub(crate) radius: f64,
+    pub model: &'a Model<'a>,
+    pub task: &'a Task,
+    pub x: &'a [f64],
+    pub near: &'a Linearised,
+    pub radius: f64,
     pub(crate) penalty: f64,
-    pub(crate) curvature: Option<&'a DMatrix<f64>>,
+    pub curvature: Option<&'a DMatrix<f64>>,
 }
 
 /// A step with what the model promises.
 #[derive(Debug, Clone)]
 pub(crate) struct ShapeStep {
-    pub(crate) d: Vec<f64>,
+    pub d: Vec<f64>,
     /// Weighted gain less penalised slacks, curvature included.
-    pub(crate) merit: f64,
+    pub merit: f64,
     /// Multipliers of the smooth constraints and pieces, by their position.
-    pub(crate) items: Vec<f64>,
-    pub(crate) pieces: Vec<f64>,
+    pub items: Vec<f64>,
+    pub pieces: Vec<f64>,
 }
 
 /// Which constraints and pieces are written into the program.
@@ -367,7 +367,7 @@ impl ShapeSubproblem<'_> {
     ///
     /// Few rows bind. The program is written with those that are nearest to it, and rows that its point violates are added until there are
     /// none: the point is then that of the program with all rows.
-    pub(crate) fn solve(&self) -> Result<ShapeStep, SolverFailure> {
+    pub(super) fn solve(&self) -> Result<ShapeStep, SolverFailure> {
         let mut held = Held::first(self.near);
         loop {
             let (draft, rows) = self.write(&held);

@@ -13,8 +13,8 @@ use super::population::{Judge, Worth, evolve, is_close, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::scp::{PENALTY, ShapeEffort, ShapeRun, climb};
 use super::worst_pose::worse_poses;
-use crate::num::Purpose;
-use crate::num::parallel::parallel;
+use num::Purpose;
+use num::parallel::parallel;
 
 /// Options of the search; none of them changes what is feasible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +41,6 @@ impl Default for ShapeSearchOptions {
 
 /// A stage of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Stage {
     /// Populations that evolve.
     Populations,
@@ -117,9 +116,9 @@ const SAME_END: f64 = 1e-3;
 /// A polished run with the poses it ended with.
 #[derive(Debug, Clone)]
 pub(crate) struct RefinedRun {
-    pub(crate) run: ShapeRun,
-    pub(crate) poses: Vec<HeldPose>,
-    pub(crate) complete: bool,
+    pub run: ShapeRun,
+    pub poses: Vec<HeldPose>,
+    pub complete: bool,
 }
 
 /// How long poses are added to a run.
@@ -132,7 +131,7 @@ pub(crate) enum Adding {
 }
 
 /// Climbs, adds the poses at which the result is worse, and climbs again.
-pub(crate) fn refine(
+pub(super) fn refine(
     model: &Model<'_>,
     task: &Task,
     start: &[f64],
@@ -174,12 +173,12 @@ pub(crate) fn refine_adding(
 
 /// A point with the poses that matter most near it.
 pub(crate) struct SearchStart {
-    pub(crate) x: Vec<f64>,
+    pub x: Vec<f64>,
     few: Vec<HeldPose>,
 }
 
 /// The best distinct members of a population.
-pub(crate) fn population(
+pub(super) fn population(
     model: &Model<'_>,
     task: &Task,
     given: &[Vec<f64>],
@@ -204,7 +203,7 @@ fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < within)
 }
 
-pub(crate) fn better(model: &Model<'_>, task: &Task, a: &ShapeRun, b: &ShapeRun) -> std::cmp::Ordering {
+pub(super) fn better(model: &Model<'_>, task: &Task, a: &ShapeRun, b: &ShapeRun) -> std::cmp::Ordering {
     let (fa, fb) = (a.is_feasible(model), b.is_feasible(model));
     fb.cmp(&fa).then(if fa && fb {
         b.judged.gain(task).total_cmp(&a.judged.gain(task))
@@ -226,9 +225,9 @@ fn first_task(p: &DimensionalProblem) -> Task {
 /// What a search for one task found.
 pub(crate) struct SearchedShape {
     /// Best first; feasible ones before the others.
-    pub(crate) refined: Vec<RefinedRun>,
-    pub(crate) starts: usize,
-    pub(crate) feasible: usize,
+    pub refined: Vec<RefinedRun>,
+    pub starts: usize,
+    pub feasible: usize,
 }
 
 /// A short climb over few poses, and again with those at which its end is worse.
@@ -257,7 +256,7 @@ pub(crate) struct Watch<'w, 'm, 'a> {
 }
 
 impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
-    pub(crate) fn new(
+    pub(super) fn new(
         model: &'m Model<'a>,
         progress: &'w mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Self {
@@ -272,7 +271,7 @@ impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
         self.violation = missed.filter(|(_, x)| is_less(*x)).or(self.violation);
     }
 
-    pub(crate) fn tell(&mut self, stage: Stage, (done, total): (usize, usize), run: Option<&ShapeRun>) {
+    pub(super) fn tell(&mut self, stage: Stage, (done, total): (usize, usize), run: Option<&ShapeRun>) {
         if let Some(run) = run.filter(|r| r.is_feasible(self.model))
             && let (Some(o), Some(gain)) = (self.model.objectives.first(), run.judged.gains.first())
         {
@@ -534,7 +533,7 @@ impl Search<'_, '_> {
 ///
 /// `given` are further starts, in the variables of [`super::DimensionalSolution::point`]. The answer is a local optimum, the best of all starts.
 /// Requirements hold at the held poses, to which the worst ones found between them were added until none was worse;
-/// [`crate::machine::requirements::assess`] checks that with formulas of its own.
+/// [`machine::requirements::assess`] checks that with formulas of its own.
 ///
 /// # Errors
 /// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
@@ -552,7 +551,7 @@ pub fn optimize(
 ///
 /// # Errors
 /// As [`optimize`].
-pub(crate) fn optimize_without_conflict(
+pub fn optimize_without_conflict(
     problem: &DimensionalProblem,
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
@@ -561,7 +560,7 @@ pub(crate) fn optimize_without_conflict(
 }
 
 /// Why a problem cannot be asked; `None` where it can.
-pub(crate) fn why_not(problem: &DimensionalProblem) -> Option<InvalidProblem> {
+pub fn why_not(problem: &DimensionalProblem) -> Option<InvalidProblem> {
     Model::new(problem).err()
 }
 
@@ -592,7 +591,7 @@ fn searched(
 ///
 /// # Errors
 /// As [`optimize`].
-pub(crate) fn meet(
+pub fn meet(
     problem: &DimensionalProblem,
     known: &[ChosenVariable],
     options: &ShapeSearchOptions,

@@ -7,9 +7,9 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::problem::{InvalidProblem, Triangles, Variables};
 use super::pull::Rate;
 use super::skeleton::{Fixed, OctahedralSides, OnFamilies, Room, ScaledBodies, Skeleton};
-use crate::num::small::symmetric_eigen3;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, InvalidManipulator, Manipulator, Octahedral};
+use num::small::symmetric_eigen3;
+use platform::geom::Pose;
+use platform::manipulator::{Body, InvalidManipulator, Manipulator, Octahedral};
 
 /// Variables of the joint axes of one body: three components for each leg.
 const AXIS_VARIABLES: usize = 18;
@@ -27,7 +27,7 @@ pub(crate) enum JointId {
 pub(crate) type LegJoints = [(JointId, JointId); 6];
 
 /// The joints of a design as they are.
-pub(crate) fn joints_of(m: &Manipulator) -> LegJoints {
+pub(super) fn joints_of(m: &Manipulator) -> LegJoints {
     m.pairs().map(|(base, platform)| (JointId::OfDesign(base), JointId::OfDesign(platform)))
 }
 
@@ -41,12 +41,12 @@ pub(crate) struct VariableLayout {
 
 impl VariableLayout {
     /// Index of the next variable.
-    pub(crate) fn next(&self) -> usize {
+    pub(super) fn next(&self) -> usize {
         self.start.len()
     }
 
     /// Adds a variable and returns its index.
-    pub(crate) fn add(&mut self, name: String, bounds: (f64, f64), start: f64) -> usize {
+    pub(super) fn add(&mut self, name: String, bounds: (f64, f64), start: f64) -> usize {
         self.names.push(name);
         self.bounds.push(bounds);
         self.start.push(start);
@@ -56,28 +56,28 @@ impl VariableLayout {
 
 /// The joints as functions of the variables.
 #[derive(Debug, Clone)]
-pub(crate) struct Shape {
+pub(super) struct Shape {
     skeleton: Arc<dyn Skeleton>,
     /// Names of the variables, for reports.
-    pub(crate) names: Vec<String>,
-    pub(crate) bounds: Vec<(f64, f64)>,
-    pub(crate) start: Vec<f64>,
+    pub names: Vec<String>,
+    pub bounds: Vec<(f64, f64)>,
+    pub start: Vec<f64>,
     /// Variable of the height, and the vector by which home moves for its unit.
     lift: Option<(usize, Vector3<f64>)>,
     /// First variable of the axes of base and platform joints.
-    pub(crate) axes: [Option<usize>; 2],
+    pub axes: [Option<usize>; 2],
     /// Joints of the legs.
-    pub(crate) joints: LegJoints,
+    pub joints: LegJoints,
     original: Manipulator,
 }
 
 /// Joints at the variables.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct JointEnds {
-    pub(crate) base: [Vector3<f64>; 6],
+    pub base: [Vector3<f64>; 6],
     /// Platform frame.
-    pub(crate) platform: [Vector3<f64>; 6],
-    pub(crate) lift: Vector3<f64>,
+    pub platform: [Vector3<f64>; 6],
+    pub lift: Vector3<f64>,
 }
 
 /// Unit normal of the plane that fits the base joints best, towards the platform at home.
@@ -118,7 +118,7 @@ fn skeleton(
 
 impl Shape {
     /// Lays out the variables.
-    pub(crate) fn new(m: &Manipulator, home: &Pose, v: &Variables) -> Result<Self, InvalidProblem> {
+    pub(super) fn new(m: &Manipulator, home: &Pose, v: &Variables) -> Result<Self, InvalidProblem> {
         let mut layout = VariableLayout::default();
         let skeleton = skeleton(m, v, &mut layout)?;
         let lift = v.home_height.then(|| {
@@ -146,12 +146,12 @@ impl Shape {
     }
 
     /// `det A` of the leg map from the design and its gradient, where the variables keep the class of the design.
-    pub(crate) fn determinant(&self, x: &[f64]) -> Option<(f64, Vec<f64>)> {
+    pub(super) fn determinant(&self, x: &[f64]) -> Option<(f64, Vec<f64>)> {
         self.skeleton.determinant(x)
     }
 
     /// How far the ends of sliding legs may still go out.
-    pub(crate) fn rooms(&self, ends: &JointEnds) -> Vec<Room> {
+    pub(super) fn rooms(&self, ends: &JointEnds) -> Vec<Room> {
         self.skeleton.rooms(&ends.base, &ends.platform)
     }
 
@@ -161,7 +161,7 @@ impl Shape {
     }
 
     /// Offsets of the octahedral hexagon in cyclic order, when they are variables.
-    pub(crate) fn offsets(&self, x: &[f64]) -> Option<[f64; 6]> {
+    pub(super) fn offsets(&self, x: &[f64]) -> Option<[f64; 6]> {
         self.offset_variables().map(|at| at.map(|k| x[k]))
     }
 
@@ -171,7 +171,7 @@ impl Shape {
     }
 
     /// The variables that are not a component of a joint axis.
-    pub(crate) fn free(&self) -> Vec<usize> {
+    pub(super) fn free(&self) -> Vec<usize> {
         (0..self.start.len()).filter(|j| !self.is_axis(*j)).collect()
     }
 
@@ -179,14 +179,14 @@ impl Shape {
         self.skeleton.offset_variables()
     }
 
-    pub(crate) fn ends(&self, x: &[f64]) -> JointEnds {
+    pub(super) fn ends(&self, x: &[f64]) -> JointEnds {
         let lift = self.lift.map_or_else(Vector3::zeros, |(k, v)| v * x[k]);
         let [base, platform] = self.skeleton.ends(x);
         JointEnds { base, platform, lift }
     }
 
     /// What each variable moves.
-    pub(crate) fn rates(&self, x: &[f64]) -> Vec<Rate> {
+    pub(super) fn rates(&self, x: &[f64]) -> Vec<Rate> {
         let mut out = self.skeleton.rates(x);
         if let Some((k, v)) = self.lift {
             out[k].lift = v;
@@ -210,7 +210,7 @@ impl Shape {
     }
 
     /// The platform at the variables: legs of the design in their order; shared joints stay shared unless offsets split them.
-    pub(crate) fn manipulator(&self, x: &[f64]) -> Result<Manipulator, InvalidManipulator> {
+    pub(super) fn manipulator(&self, x: &[f64]) -> Result<Manipulator, InvalidManipulator> {
         let ends = self.ends(x);
         let kept = self.joints == joints_of(&self.original);
         let (legs, mut base, mut platform) = if kept {

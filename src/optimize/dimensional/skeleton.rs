@@ -7,13 +7,13 @@ use nalgebra::{Matrix6, Point3, SMatrix, Vector3};
 use super::problem::{InvalidProblem, Triangles, Variables};
 use super::pull::Rate;
 use super::shape::{JointId, LegJoints, VariableLayout, joints_of};
-use crate::machine::requirements::KeptSymmetry;
-use crate::num::linalg::svd;
-use crate::platform::manipulator::{Body, Leg, LegIndex, Manipulator, Octahedral};
-use crate::synthesis::components::{
+use machine::requirements::KeptSymmetry;
+use num::linalg::svd;
+use platform::manipulator::{Body, Leg, LegIndex, Manipulator, Octahedral};
+use synthesis::components::{
     Component, ComponentOptions, ComponentsError, MovingPoint, Parametrisation, components,
 };
-use crate::synthesis::{Normalisation, determinant_gradient, leg_vector, offset_determinant};
+use synthesis::{Normalisation, determinant_gradient, leg_vector, offset_determinant};
 
 /// The ends of the legs as functions of the variables: what a kind of design has to say of itself.
 pub(crate) trait Skeleton: Debug + Send + Sync {
@@ -53,20 +53,20 @@ pub(crate) trait Skeleton: Debug + Send + Sync {
 
 /// How far the end of a leg may still go out, in reaches of its body.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Room {
-    pub(crate) leg: usize,
-    pub(crate) body: Body,
-    pub(crate) value: f64,
+pub(super) struct Room {
+    pub leg: usize,
+    pub body: Body,
+    pub value: f64,
     /// By the end.
-    pub(crate) gradient: Vector3<f64>,
+    pub gradient: Vector3<f64>,
 }
 
 /// Joints as they are.
 #[derive(Debug)]
-pub(crate) struct Fixed([Leg; 6]);
+pub(super) struct Fixed([Leg; 6]);
 
 impl Fixed {
-    pub(crate) fn of(m: &Manipulator) -> Self {
+    pub(super) fn of(m: &Manipulator) -> Self {
         Self(m.legs())
     }
 }
@@ -89,7 +89,7 @@ pub(crate) struct ScaledBodies {
 
 impl ScaledBodies {
     /// Lays out the two sizes.
-    pub(crate) fn of(m: &Manipulator, v: &Variables, layout: &mut VariableLayout) -> Self {
+    pub(super) fn of(m: &Manipulator, v: &Variables, layout: &mut VariableLayout) -> Self {
         let sizes = Body::BOTH.map(|body| {
             let free = !v.keeps_body(body);
             free.then(|| layout.add(format!("{body} size"), v.stretch_bounds, 0.0))
@@ -196,7 +196,7 @@ fn side(i: usize) -> [usize; 2] {
 
 impl OctahedralSides {
     /// Lays out offsets and stretches.
-    pub(crate) fn of(
+    pub(super) fn of(
         m: &Manipulator,
         v: &Variables,
         layout: &mut VariableLayout,
@@ -402,7 +402,7 @@ const SAME_JOINT: f64 = 1e-9;
 
 impl OnFamilies {
     /// The rational families of a design with a leg on each as far as there are any; lays out their parameters.
-    pub(crate) fn of(
+    pub(super) fn of(
         m: &Manipulator,
         v: &Variables,
         layout: &mut VariableLayout,
@@ -421,7 +421,7 @@ impl OnFamilies {
                 base: base.clone(),
                 platform: platform.clone(),
             }),
-            _ => None,
+            Parametrisation::Cubic(_) => None,
         };
         let stays = |s: &Sliding| {
             Body::BOTH.into_iter().all(|body| !v.fixed_ends[body.index()][s.leg] || s.is_fixed(body))

@@ -10,14 +10,14 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::leg_lines::LegLines;
 use super::pull::Gradient;
-use crate::machine::requirements::{VibratingMasses, mass_of, scaled_mass};
-use crate::num::small::{bounded_svd, symmetric_eigen3};
+use machine::requirements::{VibratingMasses, mass_of, scaled_mass};
+use num::small::{bounded_svd, symmetric_eigen3};
 
 /// A value no smaller than the one looked for, and equal to it for the softest load or motion.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RayleighQuotient<P> {
-    pub(crate) value: f64,
-    pub(crate) pull: P,
+    pub value: f64,
+    pub pull: P,
 }
 
 /// Motions next to the slowest one that are mixed with it.
@@ -27,7 +27,7 @@ const MIXED: usize = 3;
 const SOFT: f64 = 1e-12;
 
 /// Stiffness of legs of stiffness 1 against forces, or against torques, in design units and radians. `None` at a singular pose.
-pub(crate) fn stiffness<P: Gradient>(
+pub(super) fn stiffness<P: Gradient>(
     l: &LegLines,
     size: f64,
     against_torques: bool,
@@ -54,7 +54,7 @@ pub(crate) fn stiffness<P: Gradient>(
 }
 
 /// Squares of angular frequencies. `None` at a singular pose.
-pub(crate) fn frequencies<P: Gradient>(
+pub(super) fn frequencies<P: Gradient>(
     l: &LegLines,
     size: f64,
     masses: &VibratingMasses,

@@ -11,12 +11,12 @@ use super::plates::{PlacedPlate, PlateModel};
 use super::pull::Gradient;
 use super::shape::{JointEnds, LegJoints, Shape};
 use super::stiffness::{self, RayleighQuotient};
-use crate::machine::requirements;
-use crate::machine::requirements::{
+use machine::requirements;
+use machine::requirements::{
     Envelope, HingeAngle, Housing, JointAxes, KeepOut, Requirements, Swing, TermKind,
 };
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 /// Which requirement: kind, leg (joint), other leg (joint, keep-out, load), part.
 pub(crate) type TermId = (TermKind, usize, usize, usize);
@@ -32,23 +32,23 @@ pub(crate) enum ConvexForm {
 
 /// A requirement at a pose.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Item<P> {
-    pub(crate) id: TermId,
-    pub(crate) value: f64,
-    pub(crate) pull: P,
-    pub(crate) exact: Option<ConvexForm>,
+pub(super) struct Item<P> {
+    pub id: TermId,
+    pub value: f64,
+    pub pull: P,
+    pub exact: Option<ConvexForm>,
 }
 
 /// What the requirements are evaluated with besides the legs.
 #[derive(Debug, Clone)]
 pub(crate) struct RequirementTerms<'a> {
-    pub(crate) required: &'a Requirements,
-    pub(crate) size: f64,
-    pub(crate) home: Pose,
+    pub required: &'a Requirements,
+    pub size: f64,
+    pub home: Pose,
     /// Base and platform joint of each leg.
-    pub(crate) joints: LegJoints,
+    pub joints: LegJoints,
     /// First variables of chosen axes.
-    pub(crate) axes: [Option<usize>; 2],
+    pub axes: [Option<usize>; 2],
     plates: Vec<PlateModel<'a>>,
 }
 
@@ -56,7 +56,7 @@ pub(crate) struct RequirementTerms<'a> {
 const SINGULAR_FORCE: f64 = -10.0;
 
 impl<'a> RequirementTerms<'a> {
-    pub(crate) fn new(required: &'a Requirements, size: f64, home: Pose, shape: &Shape) -> Self {
+    pub(super) fn new(required: &'a Requirements, size: f64, home: Pose, shape: &Shape) -> Self {
         let plate = |body: Body| {
             let joints = shape.joints.map(|p| body.of(p));
             let plate = required.plates.of(body)?;
@@ -80,7 +80,7 @@ impl<'a> RequirementTerms<'a> {
     }
 
     /// Every requirement at a pose.
-    pub(crate) fn visit<P: Gradient>(
+    pub(super) fn visit<P: Gradient>(
         &self,
         l: &LegLines,
         ends: &JointEnds,
@@ -432,7 +432,7 @@ impl<'a> RequirementTerms<'a> {
     }
 
     /// Requirements without a pose: gaps of housings and distances of joint centres.
-    pub(crate) fn fixed<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+    pub(super) fn fixed<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
         for (kind, body) in [(TermKind::BaseSpacing, Body::Base), (TermKind::PlatformSpacing, Body::Platform)]
         {
             let reserve = self.required.reserve(kind);

@@ -11,8 +11,8 @@ use super::merit::{Merit, MeritPiece};
 use super::model::{ConstraintGroup, Model, Task};
 use super::shape::JointEnds;
 use super::terms::Item;
-use crate::machine::requirements::{Objective, TermKind};
-use crate::num::{Purpose, Rng};
+use machine::requirements::{Objective, TermKind};
+use num::{Purpose, Rng};
 
 /// Points looked at.
 const POINTS: usize = 150;
@@ -203,13 +203,13 @@ pub(crate) fn worse_poses(
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PointValues {
     /// Gain of each objective.
-    pub(crate) gains: Vec<f64>,
+    pub gains: Vec<f64>,
     /// Largest violation of each group (0 when met).
-    pub(crate) violations: BTreeMap<ConstraintGroup, f64>,
+    pub violations: BTreeMap<ConstraintGroup, f64>,
 }
 
 impl PointValues {
-    pub(crate) fn violation(&self) -> f64 {
+    pub(super) fn violation(&self) -> f64 {
         self.violations.values().fold(0.0, |m, v| m.max(*v))
     }
 
@@ -218,7 +218,7 @@ impl PointValues {
         self.violations.iter().map(|(g, v)| task.cost(*g) * v).sum()
     }
 
-    pub(crate) fn gain(&self, task: &Task) -> f64 {
+    pub(super) fn gain(&self, task: &Task) -> f64 {
         task.weights.iter().zip(&self.gains).filter(|(w, _)| **w > 0.0).map(|(w, g)| w * g).sum()
     }
 }
@@ -235,7 +235,7 @@ pub(crate) struct Judging<'m, 'a> {
 
 impl<'m, 'a> Judging<'m, 'a> {
     /// Begins with the requirements without a pose; `sign` of `det A` is to be kept.
-    pub(crate) fn new(model: &'m Model<'a>, x: &'m [f64], task: &'m Task, sign: f64) -> Self {
+    pub(super) fn new(model: &'m Model<'a>, x: &'m [f64], task: &'m Task, sign: f64) -> Self {
         let ends = model.shape.ends(x);
         let so_far =
             PointValues { gains: vec![f64::INFINITY; model.objectives.len()], violations: BTreeMap::new() };
@@ -261,7 +261,7 @@ impl<'m, 'a> Judging<'m, 'a> {
     }
 
     /// Looks at one more pose.
-    pub(crate) fn pose(&mut self, at: &HeldPose) {
+    pub(super) fn pose(&mut self, at: &HeldPose) {
         let (model, ends) = (self.model, self.ends);
         let l = LegLines::new(&ends, at);
         for (m, o) in model.wanted(self.task).filter(|(_, o)| Merit::is_over_poses(*o)) {
@@ -286,7 +286,7 @@ impl<'m, 'a> Judging<'m, 'a> {
     }
 
     /// The values after the last pose.
-    pub(crate) fn finish(mut self) -> PointValues {
+    pub(super) fn finish(mut self) -> PointValues {
         for (m, o) in self.model.wanted(self.task).filter(|(_, o)| !Merit::is_over_poses(*o)) {
             self.so_far.gains[m] = self.gain_without_pose(o);
         }
@@ -323,7 +323,7 @@ impl<'m, 'a> Judging<'m, 'a> {
 
 impl Model<'_> {
     /// Values at a point over the poses.
-    pub(crate) fn judge(&self, poses: &[HeldPose], x: &[f64], task: &Task, sign: f64) -> PointValues {
+    pub(super) fn judge(&self, poses: &[HeldPose], x: &[f64], task: &Task, sign: f64) -> PointValues {
         let mut judging = Judging::new(self, x, task, sign);
         for at in poses {
             judging.pose(at);

@@ -6,8 +6,8 @@ use super::limits::{OffsetLimits, OffsetRanges, SlidingPair};
 use super::problem::{OffsetModel, OffsetProblem};
 use super::scp::violation;
 use super::verdict::Conflict;
-use crate::num::Rng;
-use crate::synthesis::{HexagonSide, offset_determinant};
+use num::Rng;
+use synthesis::{HexagonSide, offset_determinant};
 
 /// Where a joint sits relative to its edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,7 +50,7 @@ impl Zone {
     }
 
     /// The offsets of the zone.
-    pub(crate) fn range(self) -> (f64, f64) {
+    pub fn range(self) -> (f64, f64) {
         match self {
             Self::Before => (f64::NEG_INFINITY, 0.0),
             Self::Inside => (0.0, 1.0),
@@ -72,7 +72,7 @@ impl Branch {
     }
 
     /// The branch of offsets; those on a vertex count as inside.
-    pub(crate) fn of(t: &[f64; 6]) -> Self {
+    pub fn of(t: &[f64; 6]) -> Self {
         let zone = |t: f64| {
             if t < 0.0 {
                 Zone::Before
@@ -86,7 +86,7 @@ impl Branch {
     }
 
     /// Place in [`Branch::all`].
-    pub(crate) fn index(self) -> usize {
+    pub fn index(self) -> usize {
         self.0.iter().fold(0, |n, z| 3 * n + *z as usize)
     }
 }
@@ -153,24 +153,24 @@ fn room(side: usize, zone: Zone, m: &OffsetModel, limits: &OffsetLimits) -> Zone
 /// sign of `det A`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BranchCell {
-    pub(crate) branch: usize,
+    pub branch: usize,
     /// Where the search moves: the back-off is kept from the vertices.
-    pub(crate) bounds: OffsetRanges,
+    pub bounds: OffsetRanges,
     /// The box that proofs are about: outside of it the limits are violated.
-    pub(crate) outer: OffsetRanges,
+    pub outer: OffsetRanges,
     /// Pairs whose spacing can be violated inside the box, with `true` when the first joint is farther out.
-    pub(crate) pairs: Vec<(SlidingPair, bool)>,
-    pub(crate) sign: f64,
+    pub pairs: Vec<(SlidingPair, bool)>,
+    pub sign: f64,
 }
 
 /// A branch with its cells and the conflicts that emptied the others.
 #[derive(Debug, Clone)]
-pub(crate) struct Division {
-    pub(crate) branch: Branch,
-    pub(crate) cells: Vec<BranchCell>,
-    pub(crate) conflicts: Vec<Conflict>,
+pub(super) struct Division {
+    pub branch: Branch,
+    pub cells: Vec<BranchCell>,
+    pub conflicts: Vec<Conflict>,
     /// Boxes that hold all offsets of the branch that may meet the limits: what is outside of them is proved not to.
-    pub(crate) boxes: Vec<OffsetRanges>,
+    pub boxes: Vec<OffsetRanges>,
 }
 
 impl BranchCell {
@@ -204,7 +204,7 @@ fn products(lists: &[Vec<Range>; 6]) -> Vec<OffsetRanges> {
 }
 
 /// All branches with their cells. Lengths in conflicts are in design units.
-pub(crate) fn divide(m: &OffsetModel, limits: &OffsetLimits) -> Vec<Division> {
+pub(super) fn divide(m: &OffsetModel, limits: &OffsetLimits) -> Vec<Division> {
     let rooms: Vec<[ZoneRoom; 3]> = (0..6).map(|i| Zone::ALL.map(|z| room(i, z, m, limits))).collect();
     let pairs = SlidingPair::all(&m.sides);
     let divide_one = |(index, branch): (usize, Branch)| {
@@ -271,15 +271,15 @@ fn split(
 /// A feasible point with its worst case.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FeasibleSample {
-    pub(crate) t: [f64; 6],
-    pub(crate) value: f64,
+    pub t: [f64; 6],
+    pub value: f64,
 }
 
 fn draw(cell: &BranchCell, rng: &mut Rng) -> [f64; 6] {
     cell.bounds.map(|(low, high)| rng.uniform(low, high).min(high))
 }
 
-pub(crate) fn in_order(cell: &BranchCell, t: &[f64; 6]) -> bool {
+pub(super) fn in_order(cell: &BranchCell, t: &[f64; 6]) -> bool {
     cell.order_rows().iter().all(|&(i, j, [c, x, y])| c + x * t[i] + y * t[j] >= 0.0)
 }
 

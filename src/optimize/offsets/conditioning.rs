@@ -5,10 +5,10 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use crate::num::small::bounded_svd;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
-use crate::synthesis::HexagonSide;
+use num::small::bounded_svd;
+use platform::geom::Pose;
+use platform::manipulator::Body;
+use synthesis::HexagonSide;
 
 /// One leg at one pose: `arm = R b` and `line = R b + p - a` are affine in the offset.
 #[derive(Debug, Clone, Copy)]
@@ -30,16 +30,16 @@ pub(crate) struct PoseLegs {
 /// Rows of `J`, of `dJ/dt` and of `d2J/dt2`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct JacobianRows {
-    pub(crate) value: Matrix6<f64>,
-    pub(crate) rate: Matrix6<f64>,
-    pub(crate) bend: Matrix6<f64>,
+    pub value: Matrix6<f64>,
+    pub rate: Matrix6<f64>,
+    pub bend: Matrix6<f64>,
 }
 
 /// Singular value decomposition at a pose together with `B = (dJ/dt) V` and `F = (d2J/dt2) V`.
 #[derive(Debug, Clone)]
 pub(crate) struct PoseSpectrum {
     /// Singular values, largest first.
-    pub(crate) sigma: [f64; 6],
+    pub sigma: [f64; 6],
     u: Matrix6<f64>,
     rate: Matrix6<f64>,
     bend: Matrix6<f64>,
@@ -73,7 +73,7 @@ impl LegLine {
 
 impl PoseLegs {
     /// `sides` and `characteristic_length` are already divided by `scale`, the pose is not.
-    pub(crate) fn new(sides: &[HexagonSide; 6], pose: &Pose, characteristic_length: f64, scale: f64) -> Self {
+    pub(super) fn new(sides: &[HexagonSide; 6], pose: &Pose, characteristic_length: f64, scale: f64) -> Self {
         let position = pose.position / scale;
         let legs = sides.map(|side| {
             let leg = side.leg(0.0);
@@ -87,7 +87,7 @@ impl PoseLegs {
         Self { legs, moment_scale: 1.0 / characteristic_length }
     }
 
-    pub(crate) fn jacobian(&self, t: &[f64; 6]) -> Matrix6<f64> {
+    pub(super) fn jacobian(&self, t: &[f64; 6]) -> Matrix6<f64> {
         let mut j = Matrix6::zeros();
         for i in 0..6 {
             j.set_row(i, &self.legs[i].row(t[i], self.moment_scale).transpose());
@@ -96,11 +96,11 @@ impl PoseLegs {
     }
 
     /// `sigma_6 / sigma_1`; 0 where a leg has no length.
-    pub(crate) fn inverse_condition(&self, t: &[f64; 6]) -> f64 {
-        crate::platform::manipulator::inverse_condition(&self.jacobian(t))
+    pub(super) fn inverse_condition(&self, t: &[f64; 6]) -> f64 {
+        platform::manipulator::inverse_condition(&self.jacobian(t))
     }
 
-    pub(crate) fn rows(&self, t: &[f64; 6]) -> JacobianRows {
+    pub(super) fn rows(&self, t: &[f64; 6]) -> JacobianRows {
         let mut rows =
             JacobianRows { value: Matrix6::zeros(), rate: Matrix6::zeros(), bend: Matrix6::zeros() };
         for i in 0..6 {
@@ -113,7 +113,7 @@ impl PoseLegs {
     }
 
     /// `None` when an entry is not finite or the decomposition does not converge.
-    pub(crate) fn spectrum(&self, t: &[f64; 6]) -> Option<PoseSpectrum> {
+    pub(super) fn spectrum(&self, t: &[f64; 6]) -> Option<PoseSpectrum> {
         let rows = self.rows(t);
         if rows.rate.iter().any(|x| !x.is_finite()) {
             return None; // the entries themselves are looked at below
@@ -127,7 +127,7 @@ impl PoseLegs {
 }
 
 impl PoseSpectrum {
-    pub(crate) fn inverse_condition(&self) -> f64 {
+    pub(super) fn inverse_condition(&self) -> f64 {
         if self.sigma[0] > 0.0 { self.sigma[5] / self.sigma[0] } else { 0.0 }
     }
 
@@ -214,8 +214,8 @@ pub(crate) fn worst_case_above(
 mod tests {
     use super::super::tests::{example, poses};
     use super::*;
-    use crate::platform::manipulator;
-    use crate::synthesis::sides;
+    use platform::manipulator;
+    use synthesis::sides;
 
     const T: [f64; 6] = [0.3, -0.4, 0.2, 1.3, 0.6, 0.8];
     const SCALE: f64 = 7.0;
@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn rows_are_those_of_the_manipulator_module() {
-        let (m, _) = crate::synthesis::joint_free(&example(), T).unwrap();
+        let (m, _) = synthesis::joint_free(&example(), T).unwrap();
         for (k, pose) in poses().iter().enumerate() {
             let j = manipulator::jacobian(&m, pose, 3.0);
             assert!((j - legs(k).jacobian(&T)).norm() < 1e-13);

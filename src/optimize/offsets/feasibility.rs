@@ -7,10 +7,10 @@ use nalgebra::Point3;
 
 use super::outcome::Margins;
 use super::problem::OffsetProblem;
-use crate::num::exact::{Rational, approximate, rational};
-use crate::platform::manipulator::Body;
-use crate::synthesis::{HexagonSide, sides};
-use crate::synthesis::{offset_determinant, offset_products};
+use num::exact::{Rational, approximate, rational};
+use platform::manipulator::Body;
+use synthesis::{HexagonSide, sides};
+use synthesis::{offset_determinant, offset_products};
 
 /// Margins in plain arithmetic above this share of the largest number involved have the sign of the exact ones.
 const CLEAR: f64 = 1e-9;
@@ -106,7 +106,7 @@ fn determinant_margin(t: &[f64; 6], plain: f64, required: f64) -> Option<f64> {
 
 impl OffsetProblem {
     /// Distances of the offsets from the limits; the sign of each is exact, zero is met exactly. `None` where a number is not finite.
-    pub(crate) fn margins(&self, t: &[f64; 6]) -> Option<Margins> {
+    pub fn margins(&self, t: &[f64; 6]) -> Option<Margins> {
         if !t.iter().all(|x| x.is_finite()) {
             return None;
         }
@@ -133,7 +133,7 @@ mod tests {
         let p = OffsetProblem::with_defaults(example(), poses());
         let t = [0.2, 0.3, -0.4, 0.1, 1.2, 0.6];
         let m = p.margins(&t).unwrap();
-        let (built, _) = crate::synthesis::joint_free(&p.octahedral, t).unwrap();
+        let (built, _) = synthesis::joint_free(&p.octahedral, t).unwrap();
         for (own, margin) in
             [(built.base_joints(), m.base_spacing), (built.platform_joints(), m.platform_spacing)]
         {

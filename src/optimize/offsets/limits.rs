@@ -11,10 +11,10 @@ use nalgebra::Vector3;
 use super::branch::BranchCell;
 use super::problem::OffsetProblem;
 use super::verdict::Conflict;
-use crate::num::conic::{Cone, ConicAnswer, ConicProgram};
-use crate::num::farkas::{EnclosedRow, refuted};
-use crate::num::interval::Interval;
-use crate::synthesis::{HexagonSide, offset_products, sides};
+use num::conic::{Cone, ConicAnswer, ConicProgram};
+use num::farkas::{EnclosedRow, refuted};
+use num::interval::Interval;
+use synthesis::{HexagonSide, offset_products, sides};
 
 /// An enclosure of one double. Infinite data never get here: the problem was validated.
 pub(super) fn point(x: f64) -> Interval {
@@ -123,7 +123,7 @@ impl Slide {
 }
 
 impl OffsetLimits {
-    pub(crate) fn new(p: &OffsetProblem) -> Self {
+    pub(super) fn new(p: &OffsetProblem) -> Self {
         Self {
             sides: sides(&p.octahedral, 1.0).map(|s| Slide::new(&s)),
             required: point(p.min_joint_distance).square(),
@@ -132,7 +132,7 @@ impl OffsetLimits {
         }
     }
 
-    pub(crate) fn bounds(&self) -> OffsetRanges {
+    pub(super) fn bounds(&self) -> OffsetRanges {
         self.bounds
     }
 
@@ -144,7 +144,7 @@ impl OffsetLimits {
     }
 
     /// Parts of a range of one offset outside of which some vertex is closer than required.
-    pub(crate) fn room(&self, side: usize, range: (f64, f64)) -> Vec<(f64, f64)> {
+    pub(super) fn room(&self, side: usize, range: (f64, f64)) -> Vec<(f64, f64)> {
         let mut left = vec![range];
         for vertex in 0..3 {
             if let Some((a, b)) = self.sides[side].too_close(vertex, self.required) {
@@ -200,7 +200,7 @@ impl OffsetLimits {
     }
 
     /// `true` when no offsets of the box meet the limits on `det A` and on the distances of sliding joints.
-    pub(crate) fn is_empty(&self, bounds: &OffsetRanges) -> bool {
+    pub(super) fn is_empty(&self, bounds: &OffsetRanges) -> bool {
         Self::determinant_reach(bounds).into_iter().all(|x| self.determinant_too_small(x))
             || self.pair_too_close(bounds).is_some()
     }
@@ -256,8 +256,8 @@ fn root_above(x: f64) -> f64 {
 /// `q(x, y) = |w + x e - y f|^2` with `x = t_first`, `y = t_second`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SlidingPair {
-    pub(crate) first: usize,
-    pub(crate) second: usize,
+    pub first: usize,
+    pub second: usize,
     w: Vector3<f64>,
     e: Vector3<f64>,
     f: Vector3<f64>,
@@ -267,7 +267,7 @@ pub(crate) type Box2 = [(f64, f64); 2];
 
 impl SlidingPair {
     /// The six pairs, three on each body.
-    pub(crate) fn all(sides: &[HexagonSide; 6]) -> [Self; 6] {
+    pub(super) fn all(sides: &[HexagonSide; 6]) -> [Self; 6] {
         std::array::from_fn(|first| {
             let second = (first + 2) % 6;
             let (a, b) = (&sides[first], &sides[second]);
@@ -279,22 +279,22 @@ impl SlidingPair {
         self.w + self.e * x - self.f * y
     }
 
-    pub(crate) fn squared(&self, t: &[f64; 6]) -> f64 {
+    pub(super) fn squared(&self, t: &[f64; 6]) -> f64 {
         self.gap(t[self.first], t[self.second]).norm_squared()
     }
 
     /// Derivatives by `t_first` and `t_second`.
-    pub(crate) fn gradient(&self, t: &[f64; 6]) -> [f64; 2] {
+    pub(super) fn gradient(&self, t: &[f64; 6]) -> [f64; 2] {
         let gap = self.gap(t[self.first], t[self.second]);
         [2.0 * gap.dot(&self.e), -2.0 * gap.dot(&self.f)]
     }
 
     /// Second derivatives: by first twice, mixed, by second twice. Constant.
-    pub(crate) fn hessian(&self) -> [f64; 3] {
+    pub(super) fn hessian(&self) -> [f64; 3] {
         [2.0 * self.e.norm_squared(), -2.0 * self.e.dot(&self.f), 2.0 * self.f.norm_squared()]
     }
 
-    pub(crate) fn edges(&self) -> (f64, f64) {
+    pub(super) fn edges(&self) -> (f64, f64) {
         (self.e.norm(), self.f.norm())
     }
 
@@ -303,7 +303,7 @@ impl SlidingPair {
     }
 
     /// Least value on a box: at the common vertex `(1, 0)` when inside, else on one of the four edges.
-    pub(crate) fn least(&self, [x, y]: Box2) -> f64 {
+    pub(super) fn least(&self, [x, y]: Box2) -> f64 {
         if x.0 <= 1.0 && 1.0 <= x.1 && y.0 <= 0.0 && 0.0 <= y.1 {
             return 0.0;
         }
@@ -359,7 +359,7 @@ mod tests {
     use super::super::problem::OffsetProblem;
     use super::super::tests::{example, poses};
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     #[test]
     fn the_least_value_on_a_box_is_that_of_samples() {

@@ -22,9 +22,9 @@ mod tests;
 mod verdict;
 
 pub use self::verdict::Conflict;
-pub use crate::num::conic::SolverFailure;
 pub use bound::GlobalBound;
 pub use branch::{Branch, Zone};
+pub use num::conic::SolverFailure;
 pub use outcome::{
     BranchCounts, BranchReport, BranchVerdict, LocalEvidence, Margins, OffsetOutcome, OffsetReport,
     OffsetSolution, Recheck,

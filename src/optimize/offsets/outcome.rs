@@ -7,10 +7,10 @@ use super::branch::Branch;
 use super::problem::OffsetProblem;
 use super::scp::OffsetHistoryStep;
 use super::verdict::Conflict;
-use crate::num::conic::SolverFailure;
-use crate::num::linalg::svd;
-use crate::platform::manipulator::{Manipulator, jacobian};
-use crate::synthesis::{AffineLegMap, joint_free, offset_determinant};
+use num::conic::SolverFailure;
+use num::linalg::svd;
+use platform::manipulator::{Manipulator, jacobian};
+use synthesis::{AffineLegMap, joint_free, offset_determinant};
 
 /// Distances from the limits; negative means violated. The signs are those of exact arithmetic on the offsets and the design as they are
 /// written: zero is met exactly.
@@ -122,7 +122,6 @@ pub struct OffsetSolution {
 
 /// The answer.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum OffsetOutcome {
     /// Feasible by the re-check, and no offsets exceed it by more than the gap asked for: proved ([`OffsetReport::bound`]).
     Optimal(Box<OffsetSolution>),
@@ -142,7 +141,6 @@ pub enum OffsetOutcome {
 
 /// What became of one branch.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum BranchVerdict {
     /// Holds the best solution.
     Best,

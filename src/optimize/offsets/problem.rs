@@ -3,9 +3,9 @@
 use thiserror::Error;
 
 use super::conditioning::PoseLegs;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Octahedral};
-use crate::synthesis::{HexagonSide, sides};
+use platform::geom::Pose;
+use platform::manipulator::{Body, Octahedral};
+use synthesis::{HexagonSide, sides};
 
 /// Default of [`OffsetProblem::min_joint_distance`] as a share of the smaller body's radius.
 pub const DEFAULT_SPACING_SHARE: f64 = 0.05;
@@ -151,15 +151,15 @@ impl OffsetProblem {
 #[derive(Debug, Clone)]
 pub(crate) struct OffsetModel {
     /// Design units in one unit of length of the model.
-    pub(crate) scale: f64,
-    pub(crate) sides: [HexagonSide; 6],
-    pub(crate) poses: Vec<PoseLegs>,
+    pub scale: f64,
+    pub sides: [HexagonSide; 6],
+    pub poses: Vec<PoseLegs>,
     /// Required spacing.
-    pub(crate) spacing: f64,
+    pub spacing: f64,
     /// Radii of the two triangles, base first: what the back-off from the spacing is relative to.
-    pub(crate) radii: [f64; 2],
+    pub radii: [f64; 2],
     /// Required `|det A|`, exact.
-    pub(crate) min_abs_det: f64,
+    pub min_abs_det: f64,
 }
 
 /// The search keeps this distance (relative to the radius of the body; absolute in `det A`) from the true limits, so that
@@ -167,7 +167,7 @@ pub(crate) struct OffsetModel {
 pub(crate) const BACKOFF: f64 = 1e-8;
 
 impl OffsetModel {
-    pub(crate) fn new(p: &OffsetProblem) -> Self {
+    pub(super) fn new(p: &OffsetProblem) -> Self {
         let scale = p.size();
         let sides = sides(&p.octahedral, scale);
         let length = p.characteristic_length / scale;
@@ -183,7 +183,7 @@ impl OffsetModel {
     }
 
     /// Radius of the body on which the joint of a side slides.
-    pub(crate) fn radius(&self, side: usize) -> f64 {
+    pub(super) fn radius(&self, side: usize) -> f64 {
         self.radii[side % 2]
     }
 

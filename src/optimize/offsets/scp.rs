@@ -9,20 +9,20 @@ use super::branch::BranchCell;
 use super::conditioning::{PoseSpectrum, worst_case, worst_case_above};
 use super::limits::SlidingPair;
 use super::problem::{BACKOFF, OffsetModel};
-use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, ConicRow, SolverFailure};
-use crate::synthesis::{determinant_gradient, determinant_hessian, offset_determinant};
+use num::conic::{ConicAnswer, ConicPoint, ConicProgram, ConicRow, SolverFailure};
+use synthesis::{determinant_gradient, determinant_hessian, offset_determinant};
 
 /// How hard to try.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OffsetEffort {
     max_iterations: usize,
     /// Stop when the model promises less than this, relative to the value.
-    pub(crate) tolerance: f64,
+    pub tolerance: f64,
 }
 
 impl OffsetEffort {
     /// Enough to rank a cell.
-    pub(crate) const RANK: Self = Self { max_iterations: 12, tolerance: 1e-3 };
+    pub(super) const RANK: Self = Self { max_iterations: 12, tolerance: 1e-3 };
     /// To the solver's accuracy.
     pub(crate) const POLISH: Self = Self { max_iterations: 80, tolerance: 2e-8 };
     /// Enough to get rid of a violation where sampling found no feasible point.
@@ -54,19 +54,19 @@ pub struct OffsetHistoryStep {
 /// Where a run ended.
 #[derive(Debug, Clone)]
 pub(crate) struct LocalResult {
-    pub(crate) t: [f64; 6],
-    pub(crate) value: f64,
-    pub(crate) violation: f64,
-    pub(crate) converged: bool,
+    pub t: [f64; 6],
+    pub value: f64,
+    pub violation: f64,
+    pub converged: bool,
     /// First-order gain the model still promises, relative to the value, for a unit of offset.
-    pub(crate) stationarity: f64,
-    pub(crate) history: Vec<OffsetHistoryStep>,
-    pub(crate) failure: Option<SolverFailure>,
+    pub stationarity: f64,
+    pub history: Vec<OffsetHistoryStep>,
+    pub failure: Option<SolverFailure>,
 }
 
 impl LocalResult {
     /// A feasible point that was drawn and not climbed from.
-    pub(crate) fn drawn(t: [f64; 6], value: f64) -> Self {
+    pub(super) fn drawn(t: [f64; 6], value: f64) -> Self {
         Self {
             t,
             value,
@@ -152,7 +152,7 @@ fn lowest_poses(m: &OffsetModel, t: &[f64; 6], count: usize) -> Vec<usize> {
 }
 
 /// Climbs from `start` within the cell.
-pub(crate) fn climb(
+pub(super) fn climb(
     m: &OffsetModel,
     cell: &BranchCell,
     start: [f64; 6],
@@ -275,8 +275,8 @@ const ACCEPTED_RESIDUAL: f64 = 1e-6;
 /// A pose in the working set with its decomposition at the current offsets.
 #[derive(Debug, Clone)]
 pub(crate) struct ActivePose {
-    pub(crate) pose: usize,
-    pub(crate) spectrum: PoseSpectrum,
+    pub pose: usize,
+    pub spectrum: PoseSpectrum,
 }
 
 impl ActivePose {
@@ -296,34 +296,34 @@ impl ActivePose {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Multipliers {
     /// (pose, weight); the weights add up to one at a solution.
-    pub(crate) poses: Vec<(usize, f64)>,
-    pub(crate) det: f64,
+    pub poses: Vec<(usize, f64)>,
+    pub det: f64,
     /// One a close pair of the cell.
-    pub(crate) pairs: Vec<f64>,
+    pub pairs: Vec<f64>,
 }
 
 /// A step with what the model promises.
 #[derive(Debug, Clone)]
 pub(crate) struct OffsetStep {
-    pub(crate) d: [f64; 6],
+    pub d: [f64; 6],
     /// Predicted worst case relative to the reference value, curvature included.
-    pub(crate) value: f64,
+    pub value: f64,
     /// Predicted violation that is left.
-    pub(crate) slack: f64,
-    pub(crate) multipliers: Multipliers,
+    pub slack: f64,
+    pub multipliers: Multipliers,
 }
 
 /// What a subproblem is made of. `reference` scales the objective to order one; `penalty` weighs the slack.
 #[derive(Debug)]
 pub(crate) struct OffsetSubproblem<'a> {
-    pub(crate) model: &'a OffsetModel,
-    pub(crate) cell: &'a BranchCell,
-    pub(crate) t: [f64; 6],
+    pub model: &'a OffsetModel,
+    pub cell: &'a BranchCell,
+    pub t: [f64; 6],
     active: &'a [ActivePose],
-    pub(crate) reference: f64,
-    pub(crate) radius: f64,
+    pub reference: f64,
+    pub radius: f64,
     pub(crate) penalty: f64,
-    pub(crate) curvature: Option<Matrix6<f64>>,
+    pub curvature: Option<Matrix6<f64>>,
 }
 
 /// `2 m` times the radius of the body: turns a difference of squared distances into a length relative to the body.
@@ -340,7 +340,7 @@ fn constraint_values(m: &OffsetModel, cell: &BranchCell, t: &[f64; 6]) -> Vec<f6
 }
 
 /// Largest violation of [`constraint_values`].
-pub(crate) fn violation(m: &OffsetModel, cell: &BranchCell, t: &[f64; 6]) -> f64 {
+pub(super) fn violation(m: &OffsetModel, cell: &BranchCell, t: &[f64; 6]) -> f64 {
     constraint_values(m, cell, t).into_iter().fold(0.0, |v, c| v.max(-c))
 }
 
@@ -387,7 +387,7 @@ fn lagrangian_curvature(
 
 impl OffsetSubproblem<'_> {
     /// Solves for the step; refuses a point whose plain residual is too large.
-    pub(crate) fn solve(&self) -> Result<OffsetStep, SolverFailure> {
+    pub(super) fn solve(&self) -> Result<OffsetStep, SolverFailure> {
         let mut p = ConicProgram { variables: 8, linear: vec![0.0; 8], ..Default::default() };
         p.linear[GAMMA] = -1.0;
         p.linear[SLACK] = self.penalty;

@@ -17,10 +17,10 @@ use super::outcome::OffsetReport;
 use super::problem::{InvalidOffsetProblem, OffsetModel, OffsetProblem};
 use super::scp::{LocalResult, OffsetEffort, climb, violation};
 use super::verdict::{Conflict, SearchedOffsets, assemble, nothing_fits, vertices_too_close};
-use crate::num::conic::SolverFailure;
-use crate::num::parallel::parallel;
-use crate::num::{Purpose, Rng};
-use crate::synthesis::offset_determinant;
+use num::conic::SolverFailure;
+use num::parallel::parallel;
+use num::{Purpose, Rng};
+use synthesis::offset_determinant;
 
 /// Options of the search; none of them changes what is feasible.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,7 +77,6 @@ impl std::fmt::Display for OffsetProgress {
 
 /// How far the search is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub enum OffsetProgress {
     /// Cells ranked so far.
     Ranking {
@@ -197,7 +196,7 @@ fn rank_cell(
     }
 }
 
-pub(crate) fn better(a: &LocalResult, b: &LocalResult) -> bool {
+pub(super) fn better(a: &LocalResult, b: &LocalResult) -> bool {
     a.is_feasible() && (!b.is_feasible() || a.value > b.value)
 }
 
@@ -440,9 +439,9 @@ fn keep_ranked(m: &OffsetModel, ranked: &[CellResult], polished: &mut [(usize, L
 /// Result of the search.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PolishedOffsets {
-    pub(crate) t: [f64; 6],
-    pub(crate) value: f64,
-    pub(crate) trials: usize,
+    pub t: [f64; 6],
+    pub value: f64,
+    pub trials: usize,
 }
 
 /// Tries steps along the axes, along pairs of axes and in random directions, at radii from 1e-2 down to 1e-6
@@ -493,12 +492,12 @@ fn direction(k: usize, rng: &mut Rng) -> [f64; 6] {
 }
 
 /// The whole problem: everything the bound compares with.
-pub(crate) struct Area<'a> {
-    pub(crate) problem: &'a OffsetProblem,
-    pub(crate) m: &'a OffsetModel,
-    pub(crate) limits: &'a OffsetLimits,
-    pub(crate) divisions: &'a [Division],
-    pub(crate) cells: &'a [&'a BranchCell],
+pub(super) struct Area<'a> {
+    pub problem: &'a OffsetProblem,
+    pub m: &'a OffsetModel,
+    pub limits: &'a OffsetLimits,
+    pub divisions: &'a [Division],
+    pub cells: &'a [&'a BranchCell],
 }
 
 impl Area<'_> {
@@ -523,7 +522,7 @@ impl Area<'_> {
     }
 
     /// Compares the best run with all offsets; better ones that turn up on the way are climbed from and put in front.
-    pub(crate) fn bound(
+    pub(super) fn bound(
         &self,
         polished: &mut Vec<(usize, LocalResult)>,
         o: &OffsetSearchOptions,

@@ -10,10 +10,10 @@ use super::limits::{OffsetLimits, OffsetRanges, proved_empty};
 use super::problem::OffsetModel;
 use super::tests::poses;
 use super::{OffsetOutcome, OffsetProblem, OffsetSearchOptions, optimize};
-use crate::num::Rng;
-use crate::num::exact::{Rational, approximate, rational};
-use crate::platform::manipulator::{Body, Manipulator, Octahedral};
-use crate::synthesis::sides;
+use num::Rng;
+use num::exact::{Rational, approximate, rational};
+use platform::manipulator::{Body, Manipulator, Octahedral};
+use synthesis::sides;
 
 fn exact(x: f64) -> Rational {
     rational(x).unwrap()
@@ -157,7 +157,7 @@ fn offsets_that_meet_the_limits_exactly_are_in_a_box_and_in_no_excluded_one() {
         let own = &divide(&m, &limits)[Branch::of(&t).index()];
         let inside = |b: &OffsetRanges| t.iter().zip(b).all(|(t, b)| (b.0..=b.1).contains(t));
         assert!(own.boxes.iter().any(inside), "{n}: {t:?} {:?}", own.conflicts);
-        let det = crate::synthesis::offset_determinant(&t);
+        let det = synthesis::offset_determinant(&t);
         let cells: Vec<_> =
             own.cells.iter().filter(|c| inside(&c.outer) && c.sign * det > 0.0 && in_order(c, &t)).collect();
         assert!(!cells.is_empty(), "{n}");

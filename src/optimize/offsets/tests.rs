@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::*;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Manipulator, Octahedral};
+use platform::geom::Pose;
+use platform::manipulator::{Manipulator, Octahedral};
 
 fn triangle(edge: f64) -> Vec<Point3<f64>> {
     let h = edge * 0.75f64.sqrt();
@@ -56,7 +56,7 @@ fn full_size_search_is_not_beaten_by_twenty_thousand_random_designs() {
             println!("{} {:?}", r.branches[k].branch, r.branches[k].verdict);
         }
         assert!(matches!(r.outcome, OffsetOutcome::Optimal(_) | OffsetOutcome::LocalOptimum(_)));
-        let mut rng = crate::num::Rng::new(23);
+        let mut rng = num::Rng::new(23);
         let (mut tried, mut greatest) = (0, 0.0f64);
         while tried < 20_000 {
             let t: [f64; 6] = std::array::from_fn(|_| rng.uniform(-1.0, 2.0));
@@ -108,7 +108,7 @@ fn random_feasible_designs_never_beat_the_optimum() {
     let p = small_problem();
     let best = optimum(&p);
     assert!(best.recheck.margins.all_met());
-    let mut rng = crate::num::Rng::new(17);
+    let mut rng = num::Rng::new(17);
     let (mut tried, mut close) = (0, 0);
     while tried < 1500 {
         // half of them anywhere, half near the optimum
@@ -175,7 +175,7 @@ fn leg_order_of_the_design_is_kept() {
     let mixed = m.reordered([4, 2, 0, 5, 1, 3]).unwrap();
     let o = Octahedral::recognise(&mixed).unwrap();
     let t = [0.2, 0.3, -0.4, 0.1, 1.2, 0.6];
-    let (built, _) = crate::synthesis::joint_free(&o, t).unwrap();
+    let (built, _) = synthesis::joint_free(&o, t).unwrap();
     // every new leg keeps one end of the design's leg with the same number
     for (new, old) in built.legs().iter().zip(mixed.legs()) {
         assert!(new.base == old.base || new.platform == old.platform);

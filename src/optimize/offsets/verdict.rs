@@ -10,8 +10,8 @@ use super::outcome::{
 use super::problem::{OffsetModel, OffsetProblem};
 use super::scp::LocalResult;
 use super::search::{CellResult, OffsetSearchOptions, better, pattern_search};
-use crate::num::Purpose;
-use crate::synthesis::joint_free;
+use num::Purpose;
+use synthesis::joint_free;
 
 /// A pattern search may gain this much (relative) before the solution counts as not converged.
 const PATTERN_LIMIT: f64 = 1e-6;
@@ -87,14 +87,14 @@ fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>, bounded
 /// What the search found.
 pub(crate) struct SearchedOffsets {
     /// One result for each cell.
-    pub(crate) ranked: Vec<CellResult>,
+    pub ranked: Vec<CellResult>,
     /// The best runs with their cells, best first.
-    pub(crate) polished: Vec<(usize, LocalResult)>,
-    pub(crate) bound: Option<GlobalBound>,
-    pub(crate) interrupted: bool,
+    pub polished: Vec<(usize, LocalResult)>,
+    pub bound: Option<GlobalBound>,
+    pub interrupted: bool,
 }
 
-pub(crate) fn assemble(
+pub(super) fn assemble(
     problem: &OffsetProblem,
     m: &OffsetModel,
     divisions: &[Division],

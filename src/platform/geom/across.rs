@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 /// A unit vector across `d`: the coordinate axis that is farthest from `d`, made normal to it.
-pub(crate) fn any_across(d: &Vector3<f64>) -> Vector3<f64> {
+pub fn any_across(d: &Vector3<f64>) -> Vector3<f64> {
     let axis = d.iamin();
     let mut e = Vector3::zeros();
     e[axis] = 1.0;

@@ -6,24 +6,24 @@ use super::enclosed::{IntervalVector, Rotation, exact_rotation};
 use super::rotation_vector::turn_between;
 use super::turn::radians;
 use super::{Pose, PoseSpace, Region};
-use crate::num::interval::Interval;
+use num::interval::Interval;
 
 /// A part of a pose space: `R = exp([w]x) R_0`, `p = p_0 + d` with `(d, w) = sum_k x_k column_k`, for all `x` of a cell that lie in the unit balls of some groups of
 /// coordinates.
 ///
 /// Everything is enclosed: angles given in degrees, and a home rotation that is orthogonal to the last digit only.
 #[derive(Debug, Clone)]
-pub(crate) struct Chart {
+pub struct Chart {
     /// `R_0`.
-    pub(crate) rotation: Rotation,
+    pub rotation: Rotation,
     /// `p_0`, design units.
-    pub(crate) position: IntervalVector,
+    pub position: IntervalVector,
     /// `d` (design units) and `w` (radians) by coordinate, six coordinates at most.
-    pub(crate) columns: Vec<[Interval; 6]>,
+    pub columns: Vec<[Interval; 6]>,
     /// Groups of coordinates with `|x| <= 1`.
-    pub(crate) balls: Vec<Vec<usize>>,
+    pub balls: Vec<Vec<usize>>,
     /// The cell of all coordinates.
-    pub(crate) root: ChartCell,
+    pub root: ChartCell,
     /// Rounded `R_0`, `p_0` and columns.
     home: Pose,
     steps: Vec<(Vector3<f64>, Vector3<f64>)>,
@@ -31,16 +31,16 @@ pub(crate) struct Chart {
 
 /// A box of coordinates; those that the chart does not have are 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ChartCell {
+pub struct ChartCell {
     /// Lower ends.
-    pub(crate) lo: [f64; 6],
+    pub lo: [f64; 6],
     /// Upper ends.
-    pub(crate) hi: [f64; 6],
+    pub hi: [f64; 6],
 }
 
 /// How a cell lies to the balls of its chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Covered {
+pub enum Covered {
     /// All of it is in them.
     Inside,
     /// None of it is.
@@ -54,28 +54,28 @@ const NARROW: f64 = 1e-12;
 
 impl ChartCell {
     /// A point.
-    pub(crate) fn point(x: [f64; 6]) -> Self {
+    pub fn point(x: [f64; 6]) -> Self {
         Self { lo: x, hi: x }
     }
 
     /// The interval of a coordinate.
-    pub(crate) fn side(&self, k: usize) -> Interval {
+    pub fn side(&self, k: usize) -> Interval {
         Interval::new(self.lo[k], self.hi[k]).unwrap_or(Interval::WHOLE)
     }
 
     /// A point about the middle.
-    pub(crate) fn centre(&self) -> [f64; 6] {
+    pub fn centre(&self) -> [f64; 6] {
         std::array::from_fn(|k| f64::midpoint(self.lo[k], self.hi[k]).clamp(self.lo[k], self.hi[k]))
     }
 
     /// The widest distance of a coordinate from that of a point of the cell, rounded up; 0 where there is no width.
-    pub(crate) fn reach(&self, x: &[f64; 6], k: usize) -> f64 {
+    pub fn reach(&self, x: &[f64; 6], k: usize) -> f64 {
         let from = Interval::from(x[k]);
         (self.side(k) - from).magnitude() * if self.lo[k] < self.hi[k] { 1.0 } else { 0.0 }
     }
 
     /// Cut in two across an axis; `None` where that side is too narrow.
-    pub(crate) fn halves(&self, axis: usize) -> Option<[Self; 2]> {
+    pub fn halves(&self, axis: usize) -> Option<[Self; 2]> {
         let middle = self.centre()[axis];
         if !(self.hi[axis] - self.lo[axis] > NARROW) {
             return None;
@@ -86,13 +86,13 @@ impl ChartCell {
     }
 
     /// `|x|^2` of some coordinates over the cell.
-    pub(crate) fn norm_squared(&self, group: &[usize]) -> Interval {
+    pub fn norm_squared(&self, group: &[usize]) -> Interval {
         group.iter().fold(Interval::ZERO, |sum, k| sum + self.side(*k).square())
     }
 }
 
 /// `sum_k x_k column_k` over a cell.
-pub(crate) fn combination(columns: &[[Interval; 6]], cell: &ChartCell) -> [Interval; 6] {
+pub fn combination(columns: &[[Interval; 6]], cell: &ChartCell) -> [Interval; 6] {
     let mut out = [Interval::ZERO; 6];
     for (k, column) in columns.iter().enumerate() {
         for (sum, c) in out.iter_mut().zip(column) {
@@ -104,7 +104,7 @@ pub(crate) fn combination(columns: &[[Interval; 6]], cell: &ChartCell) -> [Inter
 
 /// What cutting a chart into cells has shown.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Bisection {
+pub enum Bisection {
     /// Every cell is settled.
     Settled,
     /// This point refutes what was to be shown.
@@ -117,7 +117,7 @@ impl Chart {
     /// Cuts the chart in two until each cell is settled, on at most `cells` cells, and counts those looked at.
     ///
     /// `settled` says of a cell that it is, or across which axis to cut it; `refutes` is asked about a point of each cell that is not.
-    pub(crate) fn bisected(
+    pub fn bisected(
         &self,
         cells: usize,
         settled: impl Fn(&ChartCell) -> Result<(), usize>,
@@ -170,12 +170,12 @@ impl Chart {
     }
 
     /// One pose.
-    pub(crate) fn of_pose(pose: &Pose) -> Self {
+    pub fn of_pose(pose: &Pose) -> Self {
         Self::new(pose, Vec::new(), Vec::new(), ChartCell::point([0.0; 6]))
     }
 
     /// The region of a pose space, by the coordinates `x` of its half widths that are not 0: `[-1, 1]` each, and in unit balls for ellipsoids.
-    pub(crate) fn of_region(space: &PoseSpace) -> Self {
+    pub fn of_region(space: &PoseSpace) -> Self {
         let axes = space.axes();
         let width = |k: usize| {
             if k < 3 { Interval::from(space.translation[k]) } else { radians(space.rotation_deg[k - 3]) }
@@ -219,7 +219,7 @@ impl Chart {
     }
 
     /// All poses of a space: its region, its single poses, the steps of its trajectory.
-    pub(crate) fn all(space: &PoseSpace) -> Vec<Self> {
+    pub fn all(space: &PoseSpace) -> Vec<Self> {
         let mut out = vec![Self::of_region(space)];
         out.extend(space.poses.iter().chain(&space.trajectory).map(Self::of_pose));
         out.extend(space.trajectory.windows(2).map(|w| Self::of_step(&w[0], &w[1])));
@@ -227,12 +227,12 @@ impl Chart {
     }
 
     /// Number of coordinates.
-    pub(crate) fn len(&self) -> usize {
+    pub fn coordinates(&self) -> usize {
         self.columns.len()
     }
 
     /// The pose at a point, rounded.
-    pub(crate) fn pose(&self, x: &[f64; 6]) -> Pose {
+    pub fn pose(&self, x: &[f64; 6]) -> Pose {
         let (mut d, mut w) = (Vector3::zeros(), Vector3::zeros());
         for ((shift, turn), x) in self.steps.iter().zip(x) {
             d += shift * *x;
@@ -242,7 +242,7 @@ impl Chart {
     }
 
     /// Whether a cell lies in the balls of radius `scale`.
-    pub(crate) fn covers(&self, cell: &ChartCell, scale: f64) -> Covered {
+    pub fn covers(&self, cell: &ChartCell, scale: f64) -> Covered {
         let limit = Interval::from(scale).square();
         let mut all = Covered::Inside;
         for group in &self.balls {
@@ -258,7 +258,7 @@ impl Chart {
     }
 
     /// A scale whose balls and box hold the point, rounded up.
-    pub(crate) fn scale_of(&self, x: &[f64; 6]) -> f64 {
+    pub fn scale_of(&self, x: &[f64; 6]) -> f64 {
         let largest = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let point = ChartCell::point(*x);
         let norm = |g: &Vec<usize>| point.norm_squared(g).sqrt().map_or(f64::INFINITY, Interval::hi);
@@ -266,7 +266,7 @@ impl Chart {
     }
 
     /// The point moved into the balls of radius 1 where it lies outside, by shrinking: exactly inside.
-    pub(crate) fn pulled_inside(&self, mut x: [f64; 6]) -> [f64; 6] {
+    pub fn pulled_inside(&self, mut x: [f64; 6]) -> [f64; 6] {
         for group in &self.balls {
             let norm = ChartCell::point(x).norm_squared(group).sqrt().map_or(1.0, Interval::hi);
             if norm > 1.0 {
@@ -282,9 +282,9 @@ impl Chart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::enclosed::apply;
-    use crate::platform::geom::turn::turn;
+    use crate::geom::enclosed::apply;
+    use crate::geom::turn::turn;
+    use num::Rng;
 
     fn space(region: Region) -> PoseSpace {
         let rotation = Rotation3::from_euler_angles(0.3, -0.2, 1.1);
@@ -308,7 +308,7 @@ mod tests {
         for region in [Region::Box, Region::Ellipsoid] {
             let s = space(region);
             let charts = Chart::all(&s);
-            assert_eq!((charts.len(), charts[0].len(), charts[3].len()), (4, 5, 1));
+            assert_eq!((charts.len(), charts[0].coordinates(), charts[3].coordinates()), (4, 5, 1));
             for x in s.cube_points(200, &mut rng) {
                 let pose = s.pose(&x);
                 let d = pose.position - s.home.position;

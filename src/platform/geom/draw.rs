@@ -11,8 +11,8 @@
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 use super::{Pose, PoseSpace};
-use crate::num::{Purpose, Rng};
-use crate::platform::manipulator::Manipulator;
+use crate::manipulator::Manipulator;
+use num::{Purpose, Rng};
 
 /// Half width of the box of positions where no workspace is given, in sizes of the manipulator.
 const TRANSLATION: f64 = 0.25;
@@ -30,31 +30,33 @@ pub fn random_rotation(rng: &mut Rng) -> Rotation3<f64> {
 }
 
 /// Any rotation, and a position with normal coordinates of variance one.
-pub(crate) fn any_pose(rng: &mut Rng) -> Pose {
+pub fn any_pose(rng: &mut Rng) -> Pose {
     let rotation = random_rotation(rng);
     Pose { rotation, position: Vector3::from_fn(|_, _| rng.normal()) }
 }
 
 /// Poses of a manipulator by the offset of the middle of the platform's leg ends from that of the base's.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct CentredPoses {
+pub struct CentredPoses {
     base: Vector3<f64>,
     platform: Vector3<f64>,
     size: f64,
 }
 
 impl CentredPoses {
-    pub(crate) fn new(m: &Manipulator) -> Self {
+    /// For the centroids of the leg ends and the size of a platform.
+    pub fn new(m: &Manipulator) -> Self {
         let [base, platform] = m.mean_leg_ends();
         Self { base, platform, size: m.size() }
     }
 
-    pub(crate) fn pose(&self, rotation: Rotation3<f64>, offset: Vector3<f64>) -> Pose {
+    /// The pose that turns the platform about its centroid and moves the centroid to `offset` from that of the base.
+    pub fn pose(&self, rotation: Rotation3<f64>, offset: Vector3<f64>) -> Pose {
         Pose { rotation, position: self.base + offset - rotation * self.platform }
     }
 
     /// Any rotation, and an offset of which every coordinate is uniform within the size.
-    pub(crate) fn draw(&self, rng: &mut Rng) -> (Rotation3<f64>, Vector3<f64>) {
+    pub fn draw(&self, rng: &mut Rng) -> (Rotation3<f64>, Vector3<f64>) {
         let rotation = random_rotation(rng);
         (rotation, Vector3::from_fn(|_, _| rng.uniform(-self.size, self.size)))
     }
@@ -62,7 +64,7 @@ impl CentredPoses {
 
 impl PoseSpace {
     /// A random pose of the space: in the region, or one of the poses listed where there is no region.
-    pub(crate) fn draw(&self, listed: &[Pose], rng: &mut Rng) -> Pose {
+    pub fn draw(&self, listed: &[Pose], rng: &mut Rng) -> Pose {
         if self.axes().is_empty() && !listed.is_empty() {
             return listed[(rng.next_u64() % listed.len() as u64) as usize];
         }

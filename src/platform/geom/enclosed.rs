@@ -3,40 +3,43 @@
 use nalgebra::{Matrix6, UnitQuaternion};
 
 use super::Pose;
-use crate::num::interval::Interval;
+use num::interval::Interval;
 
 /// Three coordinates.
-pub(crate) type IntervalVector = [Interval; 3];
+pub type IntervalVector = [Interval; 3];
 /// A 3 x 3 matrix by rows.
-pub(crate) type Rotation = [IntervalVector; 3];
+pub type Rotation = [IntervalVector; 3];
 /// A 6 x 6 matrix by rows.
-pub(crate) type IntervalMatrix = [[Interval; 6]; 6];
+pub type IntervalMatrix = [[Interval; 6]; 6];
 
-pub(crate) fn dot(a: &IntervalVector, b: &IntervalVector) -> Interval {
+/// `a . b`.
+pub fn dot(a: &IntervalVector, b: &IntervalVector) -> Interval {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(crate) fn cross(a: &IntervalVector, b: &IntervalVector) -> IntervalVector {
+/// `a x b`.
+pub fn cross(a: &IntervalVector, b: &IntervalVector) -> IntervalVector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// `f(0..3, 0..3)`.
-pub(crate) fn matrix(f: impl Fn(usize, usize) -> Interval) -> Rotation {
+pub fn matrix(f: impl Fn(usize, usize) -> Interval) -> Rotation {
     std::array::from_fn(|i| std::array::from_fn(|j| f(i, j)))
 }
 
 /// `[c]x`.
-pub(crate) fn skew(c: &IntervalVector) -> Rotation {
+pub fn skew(c: &IntervalVector) -> Rotation {
     let z = Interval::ZERO;
     [[z, -c[2], c[1]], [c[2], z, -c[0]], [-c[1], c[0], z]]
 }
 
-pub(crate) fn apply(r: &Rotation, v: &IntervalVector) -> IntervalVector {
+/// `R v`.
+pub fn apply(r: &Rotation, v: &IntervalVector) -> IntervalVector {
     std::array::from_fn(|i| dot(&r[i], v))
 }
 
 /// The rotation of the pose's quaternion, which is one exactly whatever its norm.
-pub(crate) fn exact_rotation(home: &Pose) -> Rotation {
+pub fn exact_rotation(home: &Pose) -> Rotation {
     let q = UnitQuaternion::from_rotation_matrix(&home.rotation);
     let w = Interval::from(q.w);
     let v: IntervalVector = [q.i, q.j, q.k].map(Interval::from);
@@ -51,14 +54,14 @@ pub(crate) fn exact_rotation(home: &Pose) -> Rotation {
 }
 
 /// `Y J`.
-pub(crate) fn times(y: &Matrix6<f64>, j: &IntervalMatrix) -> IntervalMatrix {
+pub fn times(y: &Matrix6<f64>, j: &IntervalMatrix) -> IntervalMatrix {
     std::array::from_fn(|r| {
         std::array::from_fn(|c| (0..6).fold(Interval::ZERO, |sum, k| sum + j[k][c].scaled(y[(r, k)])))
     })
 }
 
 /// Encloses the determinant: Laplace expansion by complementary minors of the first three rows.
-pub(crate) fn determinant(m: &IntervalMatrix) -> Interval {
+pub fn determinant(m: &IntervalMatrix) -> Interval {
     let minor = |rows: [usize; 3], c: [usize; 3]| {
         let r = rows.map(|r| c.map(|k| m[r][k]));
         dot(&r[0], &cross(&r[1], &r[2]))
@@ -80,7 +83,7 @@ pub(crate) fn determinant(m: &IntervalMatrix) -> Interval {
 
 /// A positive vector `u`, found by power iteration, and a bound of `max (W u)_i / u_i` when that is below 1: then the spectral radius of every matrix with entries of at most the
 /// modulus of those of `W` is.
-pub(crate) fn contraction(w: &IntervalMatrix) -> Option<([f64; 6], f64)> {
+pub fn contraction(w: &IntervalMatrix) -> Option<([f64; 6], f64)> {
     let mut u = [1.0; 6];
     for _ in 0..6 {
         let next: [f64; 6] = std::array::from_fn(|i| (0..6).map(|k| w[i][k].hi() * u[k]).sum::<f64>());

@@ -8,7 +8,7 @@ fn turn_of(a: &Point2<f64>, b: &Point2<f64>, c: &Point2<f64>) -> f64 {
 
 /// Corners of the convex hull, counter-clockwise (monotone chain, Andrew 1979). A point nearer than `tolerance` to the line of its neighbours is not a corner.
 #[must_use]
-pub(crate) fn convex_hull(points: &[Point2<f64>], tolerance: f64) -> Vec<Point2<f64>> {
+pub fn convex_hull(points: &[Point2<f64>], tolerance: f64) -> Vec<Point2<f64>> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
     let mut apart: Vec<Point2<f64>> = Vec::new();
@@ -44,7 +44,7 @@ pub(crate) fn convex_hull(points: &[Point2<f64>], tolerance: f64) -> Vec<Point2<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     /// As many points as a silhouette has: the corners are on one side of every edge, and found at once.
     #[test]

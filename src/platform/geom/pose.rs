@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 use num_complex::Complex64;
 
-use crate::platform::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
+use crate::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
 
 /// A real pose of the platform in the base frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,7 +96,7 @@ impl ComplexPose {
     }
 
     /// [`residual`](Self::residual) of legs taken out of a manipulator of this size once, for many poses.
-    pub(crate) fn residual_of(&self, legs: &[Leg; 6], size: f64, s: &SquaredLegLengths) -> f64 {
+    pub fn residual_of(&self, legs: &[Leg; 6], size: f64, s: &SquaredLegLengths) -> f64 {
         let scale = size * size;
         let mut largest = 0.0_f64;
         for (leg, s) in legs.iter().zip(s.get()) {
@@ -129,7 +129,7 @@ impl ComplexPose {
 
     /// The pose less a step of Newton's method: rotation vector `turn` by its Cayley transform, exactly orthogonal over `C`, and `shift`; `None` when
     /// the rotation is too large for that.
-    pub(crate) fn less_step(&self, turn: &Vector3<Complex64>, shift: &Vector3<Complex64>) -> Option<Self> {
+    pub fn less_step(&self, turn: &Vector3<Complex64>, shift: &Vector3<Complex64>) -> Option<Self> {
         let w = turn * Complex64::new(-0.5, 0.0);
         let n = Complex64::ONE + w.dot(&w);
         if !(n.norm() > 0.1) {
@@ -142,7 +142,7 @@ impl ComplexPose {
     }
 
     /// Whether [`distance`](Self::distance) is below `limit`; far poses are told after an entry or two.
-    pub(crate) fn is_within(&self, other: &Self, size: f64, limit: f64) -> bool {
+    pub fn is_within(&self, other: &Self, size: f64, limit: f64) -> bool {
         let limits = (limit * limit, limit * limit * size * size);
         let entries = self.rotation.iter().zip(&other.rotation).all(|(x, y)| (x - y).norm_sqr() < limits.0);
         entries && self.position.iter().zip(&other.position).all(|(x, y)| (x - y).norm_sqr() < limits.1)
@@ -163,7 +163,7 @@ impl ComplexPose {
 /// regular matrix. A matrix with no positive determinant is near to none; it gives the rotation of its quaternion.
 ///
 /// The number of steps is bounded. `nalgebra`'s own iteration has no bound by default, and its angle can hover above the rounding of doubles without end.
-pub(crate) fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
+pub fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
     let of_quaternion =
         || UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*m)).to_rotation_matrix();
     if !(m.determinant() > 0.0) {
@@ -188,7 +188,7 @@ pub(super) const ROUNDED: f64 = 8.0 * f64::EPSILON;
 const POLAR_STEPS: usize = 60;
 
 /// One step of `R <- R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I` (over `C` as well).
-pub(crate) fn reorthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
+pub fn reorthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
     let gram = r.transpose() * r;
     let three = Matrix3::identity() * Complex64::new(3.0, 0.0);
     r * (three - gram) * Complex64::new(0.5, 0.0)
@@ -211,8 +211,8 @@ impl From<Pose> for ComplexPose {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::random_rotation;
+    use crate::geom::random_rotation;
+    use num::Rng;
 
     #[test]
     fn the_nearest_rotation_is_found_from_every_matrix_near_one() {

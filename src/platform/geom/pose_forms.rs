@@ -99,6 +99,7 @@ impl Pose {
     /// A pose from its position and anything that is a rotation: [`Angles`], a unit quaternion, a rotation matrix.
     ///
     /// ```
+    /// # mod equipod { pub mod methods { pub use equipod_platform::{geom, manipulator, topology}; } pub mod prelude { pub use equipod_platform::geom::*; } }
     /// use equipod::prelude::*;
     /// let pose = Pose::new([0.0, 0.0, 17.0], Angles::from_degrees([0.0, 10.0, 0.0]));
     /// let isometry: nalgebra::Isometry3<f64> = pose.into();
@@ -215,8 +216,8 @@ impl FromStr for Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::random_rotation;
+    use crate::geom::random_rotation;
+    use num::Rng;
 
     #[test]
     fn every_form_gives_the_pose_back() {

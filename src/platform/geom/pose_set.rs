@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3, Vector6};
 
 use super::Pose;
 use super::rotation_vector::turn_between;
-use crate::num::Rng;
+use num::Rng;
 
 /// The shape of a region of poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -220,7 +220,7 @@ impl PoseSpace {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::geom::rotation_vector;
+    use crate::geom::rotation_vector;
 
     fn space(region: Region) -> PoseSpace {
         let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 9.0) };

@@ -5,20 +5,20 @@ use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 /// `w` with `exp([w]x) = R`, `|w| <= pi`, with all its digits near zero and near half a turn.
 ///
 /// By the quaternion (Shepperd 1978). The arc cosine of the trace loses half of the digits near zero, is not a number where rounding makes the trace larger than 3, and the axis of a half turn has no place in the skew part of the matrix.
-pub(crate) fn rotation_vector(r: &Rotation3<f64>) -> Vector3<f64> {
+pub fn rotation_vector(r: &Rotation3<f64>) -> Vector3<f64> {
     UnitQuaternion::from_rotation_matrix(r).scaled_axis()
 }
 
 /// Rotation vector, in the base frame, that turns `from` into `to`.
-pub(crate) fn turn_between(from: &Rotation3<f64>, to: &Rotation3<f64>) -> Vector3<f64> {
+pub fn turn_between(from: &Rotation3<f64>, to: &Rotation3<f64>) -> Vector3<f64> {
     rotation_vector(&(to * from.inverse()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::random_rotation;
+    use crate::geom::random_rotation;
+    use num::Rng;
 
     #[test]
     fn a_rotation_is_that_of_its_vector_at_all_angles() {

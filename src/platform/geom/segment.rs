@@ -8,6 +8,7 @@ use nalgebra::{Point3, Vector3};
 /// that is inside, and on one of the four edges otherwise. All five are tried: for parallel segments, where the first does not exist, the edges decide.
 ///
 /// ```
+/// # mod equipod { pub mod methods { pub use equipod_platform::{geom, manipulator, topology}; } pub mod prelude { pub use equipod_platform::geom::*; } }
 /// use equipod::methods::geom::segment_distance;
 /// use nalgebra::Point3;
 /// let at = |x: f64, y: f64, z: f64| Point3::new(x, y, z);
@@ -70,7 +71,7 @@ pub fn segment_box_distance([x, y]: [Point3<f64>; 2], center: &Point3<f64>, half
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     fn point(rng: &mut Rng) -> Point3<f64> {
         Point3::new(rng.normal(), rng.normal(), rng.normal())

@@ -9,7 +9,7 @@
 //! The series is summed in outward-rounded intervals and closed by its first omitted term: sines of a mathematical library have no bound that could be relied on.
 
 use super::enclosed::{IntervalVector, Rotation, matrix, skew};
-use crate::num::interval::Interval;
+use num::interval::Interval;
 
 /// Terms of the series: from the last of them on the terms fall for every `s <= LARGEST`.
 const TERMS: usize = 30;
@@ -22,14 +22,16 @@ const LARGEST: f64 = 39.0;
 
 /// `C_1` and `C_2` with their first two derivatives over an interval of `s`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct TurnCoefficients {
-    pub(crate) first: [Interval; 3],
-    pub(crate) second: [Interval; 3],
+pub struct TurnCoefficients {
+    /// `C_1` and its derivatives.
+    pub first: [Interval; 3],
+    /// `C_2` and its derivatives.
+    pub second: [Interval; 3],
 }
 
 impl TurnCoefficients {
     /// Over an interval of numbers `s >= 0` (what lies below zero is left out).
-    pub(crate) fn over(s: Interval) -> Self {
+    pub fn over(s: Interval) -> Self {
         Self {
             first: std::array::from_fn(|n| stumpff(1, n, s)),
             second: std::array::from_fn(|n| stumpff(2, n, s)),
@@ -88,14 +90,14 @@ fn series(k: usize, n: usize, s: Interval) -> Interval {
 }
 
 /// An angle in radians.
-pub(crate) fn radians(degrees: f64) -> Interval {
+pub fn radians(degrees: f64) -> Interval {
     // pi lies between these neighbours
     let pi = Interval::new(std::f64::consts::PI, std::f64::consts::PI.next_up()).unwrap_or(Interval::WHOLE);
     (Interval::from(degrees) * pi).checked_div(Interval::from(180.0)).unwrap_or(Interval::WHOLE)
 }
 
 /// Cosine of angles of at most a turn; of all numbers, else.
-pub(crate) fn cosine(angle: Interval) -> Interval {
+pub fn cosine(angle: Interval) -> Interval {
     let square = angle.square();
     if square.hi() > LARGEST {
         return Interval::new(-1.0, 1.0).unwrap_or(Interval::WHOLE);
@@ -107,12 +109,12 @@ pub(crate) fn cosine(angle: Interval) -> Interval {
 }
 
 /// Sine of angles of at most a turn.
-pub(crate) fn sine(angle: Interval) -> Interval {
+pub fn sine(angle: Interval) -> Interval {
     angle * stumpff(1, 0, angle.square())
 }
 
 /// An angle in degrees.
-pub(crate) fn degrees(radians: Interval) -> Interval {
+pub fn degrees(radians: Interval) -> Interval {
     let pi = Interval::new(std::f64::consts::PI, std::f64::consts::PI.next_up()).unwrap_or(Interval::WHOLE);
     (radians * Interval::from(180.0)).checked_div(pi).unwrap_or(Interval::WHOLE)
 }
@@ -120,7 +122,7 @@ pub(crate) fn degrees(radians: Interval) -> Interval {
 /// The angles from 0 to pi whose cosine is in an interval; cosines beyond 1 and -1 are those of rounding.
 ///
 /// The library's angle is believed only where the series for the cosine confirms that it is too large, or too small.
-pub(crate) fn arc_cosine(cosine: Interval) -> Interval {
+pub fn arc_cosine(cosine: Interval) -> Interval {
     let cosine_of = |angle: f64| series(0, 0, Interval::from(angle).square());
     let slack = |k: i32| 1e-15 * 10f64.powi(k);
     let above = |x: f64| {
@@ -146,7 +148,7 @@ fn norm_squared(w: &IntervalVector) -> Interval {
 }
 
 /// Encloses `exp([w]x)`.
-pub(crate) fn turn(w: &IntervalVector) -> Rotation {
+pub fn turn(w: &IntervalVector) -> Rotation {
     let c = TurnCoefficients::over(norm_squared(w));
     let (once, twice) = (skew(w), double_cross(w));
     let identity = |i, j| if i == j { Interval::from(1.0) } else { Interval::ZERO };
@@ -154,7 +156,7 @@ pub(crate) fn turn(w: &IntervalVector) -> Rotation {
 }
 
 /// Encloses `d exp([w]x) / d w_k`: `2 w_k (C_1' [w]x + C_2' [w]x^2) + C_1 [e_k]x + C_2 (e_k w^T + w e_k^T - 2 w_k I)`.
-pub(crate) fn turn_slope(w: &IntervalVector, k: usize) -> Rotation {
+pub fn turn_slope(w: &IntervalVector, k: usize) -> Rotation {
     let c = TurnCoefficients::over(norm_squared(w));
     let (once, twice) = (skew(w), double_cross(w));
     let unit: IntervalVector =
@@ -172,8 +174,8 @@ pub(crate) fn turn_slope(w: &IntervalVector, k: usize) -> Rotation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
     use nalgebra::{Rotation3, Vector3};
+    use num::Rng;
 
     /// `C_k^(n)` from sines and cosines, away from 0.
     fn plain(k: usize, n: usize, s: f64) -> f64 {

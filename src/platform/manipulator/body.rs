@@ -7,13 +7,14 @@ use thiserror::Error;
 /// One of the two bodies.
 ///
 /// ```
+/// # mod equipod { pub mod methods { pub use equipod_platform::{geom, manipulator, topology}; } pub mod prelude { pub use equipod_platform::geom::*; } }
 /// use equipod::methods::manipulator::Body;
 /// assert_eq!("base".parse(), Ok(Body::Base));
 /// assert_eq!(Body::Base.other().to_string(), "platform");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]

@@ -6,40 +6,42 @@
 use nalgebra::Point3;
 
 use super::{Body, ExactEnds, JointKnowledge, Leg, Manipulator};
-use crate::num::algebraic::Algebraic;
-use crate::num::exact::{ExactNumber, ExactVector, Rational, product, rank, rational};
-use crate::num::modular::{Field, mantissa_and_exponent};
-use crate::num::split::{SplitField, common_bits, degree_of};
-use crate::num::surd::Surd;
+use num::algebraic::Algebraic;
+use num::exact::{ExactNumber, ExactVector, Rational, product, rank, rational};
+use num::modular::{Field, mantissa_and_exponent};
+use num::split::{SplitField, common_bits, degree_of};
+use num::surd::Surd;
 
 /// A vector of numbers of one field of square roots.
-pub(crate) type AlgebraicVector = Vec<Algebraic>;
+pub type AlgebraicVector = Vec<Algebraic>;
 
 /// A leg between two points in exact homogeneous coordinates, first coordinates 1.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ExactLeg {
-    pub(crate) base: ExactVector,
-    pub(crate) platform: ExactVector,
+pub struct ExactLeg {
+    /// The base end.
+    pub base: ExactVector,
+    /// The platform end.
+    pub platform: ExactVector,
 }
 
 /// The six legs.
 #[derive(Debug, Clone)]
-pub(crate) struct ExactLegs {
+pub struct ExactLegs {
     /// `(1, a_i)`.
-    pub(crate) base: Vec<AlgebraicVector>,
+    pub base: Vec<AlgebraicVector>,
     /// `(1, b_i)`.
-    pub(crate) platform: Vec<AlgebraicVector>,
+    pub platform: Vec<AlgebraicVector>,
     /// `(1, a_i) (x) (1, b_i)`.
-    pub(crate) vectors: Vec<AlgebraicVector>,
+    pub vectors: Vec<AlgebraicVector>,
 }
 
 /// `(1, x)`; `None` when a coordinate is not finite.
-pub(crate) fn homogeneous(p: &Point3<f64>) -> Option<ExactVector> {
+pub fn homogeneous(p: &Point3<f64>) -> Option<ExactVector> {
     [1.0, p.x, p.y, p.z].iter().map(|x| rational(*x)).collect()
 }
 
 /// Dimension of the flat of homogeneous points: 0 a point, 1 a line, 2 a plane, 3 space.
-pub(crate) fn flat_dimension<'a, N: ExactNumber + 'a>(points: impl IntoIterator<Item = &'a Vec<N>>) -> usize {
+pub fn flat_dimension<'a, N: ExactNumber + 'a>(points: impl IntoIterator<Item = &'a Vec<N>>) -> usize {
     rank(&points.into_iter().cloned().collect::<Vec<_>>()).saturating_sub(1)
 }
 
@@ -49,24 +51,24 @@ fn squares(a: &[Rational], b: &[Rational]) -> Rational {
 
 impl ExactLeg {
     /// `None` when a coordinate is not finite, which no manipulator has.
-    pub(crate) fn of(leg: &Leg) -> Option<Self> {
+    pub fn of(leg: &Leg) -> Option<Self> {
         Some(Self { base: homogeneous(&leg.base)?, platform: homogeneous(&leg.platform)? })
     }
 
     /// `(1, a) (x) (1, b)`.
-    pub(crate) fn vector(&self) -> ExactVector {
+    pub fn vector(&self) -> ExactVector {
         product(&self.base, &self.platform)
     }
 
     /// `|a|^2 + |b|^2`.
-    pub(crate) fn squares(&self) -> Rational {
+    pub fn squares(&self) -> Rational {
         squares(&self.base, &self.platform)
     }
 }
 
 /// Legs of which all joints are known exactly.
 #[derive(Debug, Clone)]
-pub(crate) enum ExactJoints {
+pub enum ExactJoints {
     /// As the doubles they are.
     Doubles(Box<[Leg; 6]>),
     /// As sums of square roots.
@@ -75,7 +77,7 @@ pub(crate) enum ExactJoints {
 
 impl ExactJoints {
     /// `None` for joints that are known between bounds only.
-    pub(crate) fn of(m: &Manipulator) -> Option<Self> {
+    pub fn of(m: &Manipulator) -> Option<Self> {
         match m.joint_knowledge() {
             JointKnowledge::Doubles => Some(Self::Doubles(Box::new(m.legs()))),
             JointKnowledge::Exact => Some(Self::Surds(Box::new(m.exact_ends()?))),
@@ -92,14 +94,14 @@ impl ExactJoints {
     }
 
     /// Degree of a field with all coordinates in it; `None` for too many square roots.
-    pub(crate) fn degree(&self) -> Option<usize> {
+    pub fn degree(&self) -> Option<usize> {
         degree_of(self.surds())
     }
 
     /// Residues of both ends of every leg modulo one prime after the other.
     ///
     /// Without end for all practical purposes; empty for too many square roots.
-    pub(crate) fn residues(&self) -> impl Iterator<Item = LegResidues> {
+    pub fn residues(&self) -> impl Iterator<Item = LegResidues> {
         let fields = SplitField::all(self.surds()).into_iter().flatten();
         fields.filter_map(|field| Some(LegResidues { ends: self.modulo(&field)?, field: field.field() }))
     }
@@ -122,7 +124,7 @@ impl ExactJoints {
     }
 
     /// Bits of a common denominator of all coordinates, and a power of two that none of their conjugates exceeds, as its exponent.
-    pub(crate) fn bits(&self) -> [i64; 2] {
+    pub fn bits(&self) -> [i64; 2] {
         match self {
             Self::Doubles(legs) => {
                 let all = legs.iter().flat_map(|l| l.base.iter().chain(l.platform.iter()));
@@ -141,15 +143,16 @@ impl ExactJoints {
 
 /// The ends of legs modulo a prime: ranks there are not greater than the true ones.
 #[derive(Debug, Clone)]
-pub(crate) struct LegResidues {
-    pub(crate) field: Field,
+pub struct LegResidues {
+    /// The field.
+    pub field: Field,
     /// Base and platform end of every leg.
-    pub(crate) ends: [[[u64; 3]; 2]; 6],
+    pub ends: [[[u64; 3]; 2]; 6],
 }
 
 impl ExactLegs {
     /// The legs as exactly as the joints are known; `None` for joints that are known between bounds only, and for coordinates with too many independent square roots.
-    pub(crate) fn of(m: &Manipulator) -> Option<Self> {
+    pub fn of(m: &Manipulator) -> Option<Self> {
         match ExactJoints::of(m)? {
             ExactJoints::Doubles(legs) => Self::of_doubles(&legs),
             ExactJoints::Surds(ends) => {
@@ -165,7 +168,7 @@ impl ExactLegs {
     }
 
     /// Legs as the rational numbers that their doubles are; `None` when a coordinate is not finite, which no manipulator has.
-    pub(crate) fn of_doubles(legs: &[Leg; 6]) -> Option<Self> {
+    pub fn of_doubles(legs: &[Leg; 6]) -> Option<Self> {
         let of = |p: &Point3<f64>| Some(homogeneous(p)?.into_iter().map(Algebraic::Rational).collect());
         let base = legs.iter().map(|l| of(&l.base)).collect::<Option<_>>()?;
         Some(Self::between(base, legs.iter().map(|l| of(&l.platform)).collect::<Option<_>>()?))
@@ -177,27 +180,27 @@ impl ExactLegs {
     }
 
     /// The ends on `body`.
-    pub(crate) fn ends(&self, body: Body) -> &[AlgebraicVector] {
+    pub fn ends(&self, body: Body) -> &[AlgebraicVector] {
         body.of((&self.base, &self.platform))
     }
 
     /// Dimension of the flat of the ends of some legs on `body`.
-    pub(crate) fn dimension(&self, body: Body, legs: &[usize]) -> usize {
+    pub fn dimension(&self, body: Body, legs: &[usize]) -> usize {
         flat_dimension(legs.iter().map(|i| &self.ends(body)[*i]))
     }
 
     /// `|a|^2 + |b|^2` of a leg.
-    pub(crate) fn squares(&self, leg: usize) -> Algebraic {
+    pub fn squares(&self, leg: usize) -> Algebraic {
         self.base[leg][1..].iter().chain(&self.platform[leg][1..]).map(|x| x * x).sum()
     }
 
     /// The vectors of some legs.
-    pub(crate) fn vectors_of(&self, legs: &[usize]) -> Vec<AlgebraicVector> {
+    pub fn vectors_of(&self, legs: &[usize]) -> Vec<AlgebraicVector> {
         legs.iter().map(|i| self.vectors[*i].clone()).collect()
     }
 
     /// Rank of the vectors of some legs.
-    pub(crate) fn rank(&self, legs: &[usize]) -> usize {
+    pub fn rank(&self, legs: &[usize]) -> usize {
         rank(&self.vectors_of(legs))
     }
 }

@@ -1,8 +1,8 @@
-//! Platforms of tests.
+//! Platforms of the tests of `synthesis` and `machine`, which include this file.
 
 use nalgebra::Point3;
 
-use super::leg::{Leg, Manipulator};
+use platform::manipulator::{Leg, Manipulator};
 
 /// A hexapod with joints in pairs 20 degrees apart on two circles, at the corners of turned triangles.
 pub(crate) fn symmetric_hexapod(base_radius: f64, platform_radius: f64) -> Manipulator {

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 use super::Manipulator;
-use crate::num::small::symmetric_eigen3;
-use crate::platform::geom::Pose;
+use crate::geom::Pose;
+use num::small::symmetric_eigen3;
 
 /// Centroid and centred copies of six leg ends (a joint with two legs counts twice).
 fn centred(points: [Vector3<f64>; 6]) -> (Vector3<f64>, [Vector3<f64>; 6]) {
@@ -87,7 +87,7 @@ pub fn default_home(m: &Manipulator) -> Pose {
 
 /// Height of the centre of the platform above the base, design units: with `n` the normal of the best-fit plane of the base leg ends, which points to positive z of the base
 /// frame, and the means `a`, `b` of the leg ends, it is `n . (R b + p - a)`.
-pub(crate) fn height_above_base(m: &Manipulator, pose: &Pose) -> f64 {
+pub fn height_above_base(m: &Manipulator, pose: &Pose) -> f64 {
     let (base_centre, a) = centred(m.legs().map(|l| l.base.coords));
     let (platform_centre, _) = centred(m.legs().map(|l| l.platform.coords));
     plane_normal(&a, m.size()).dot(&(pose.rotation * platform_centre + pose.position - base_centre))
@@ -96,10 +96,10 @@ pub(crate) fn height_above_base(m: &Manipulator, pose: &Pose) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::random_rotation;
-    use crate::platform::manipulator::Leg;
+    use crate::geom::random_rotation;
+    use crate::manipulator::Leg;
     use nalgebra::Point3;
+    use num::Rng;
 
     fn cost(m: &Manipulator, pose: &Pose) -> f64 {
         m.legs().iter().map(|l| pose.squared_length(l)).sum()

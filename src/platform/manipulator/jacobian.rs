@@ -3,8 +3,8 @@
 use nalgebra::Matrix6;
 
 use super::{Leg, Manipulator};
-use crate::num::small::singular_values;
-use crate::platform::geom::Pose;
+use crate::geom::Pose;
+use num::small::singular_values;
 
 /// The matrix of normalised leg lines at a pose: row `i` is `[u_i, ((R b_i) x u_i) / L]`.
 ///
@@ -19,7 +19,7 @@ pub fn jacobian(m: &Manipulator, pose: &Pose, characteristic_length: f64) -> Mat
 
 /// As [`jacobian()`], for legs that are not put together.
 #[inline]
-pub(crate) fn jacobian_of_legs(legs: &[Leg; 6], pose: &Pose, characteristic_length: f64) -> Matrix6<f64> {
+pub fn jacobian_of_legs(legs: &[Leg; 6], pose: &Pose, characteristic_length: f64) -> Matrix6<f64> {
     let mut j = Matrix6::zeros();
     for (i, leg) in legs.iter().enumerate() {
         let arm = pose.rotation * leg.platform.coords;
@@ -49,7 +49,7 @@ pub fn plucker_matrix(m: &Manipulator, pose: &Pose, characteristic_length: f64) 
 }
 
 /// `det J` of the leg lines with all lengths over the size, without unit: its zeros are the singular poses.
-pub(crate) fn leg_determinant(m: &Manipulator, pose: &Pose) -> f64 {
+pub fn leg_determinant(m: &Manipulator, pose: &Pose) -> f64 {
     let unit = m.size();
     plucker_matrix(m, pose, unit).determinant() / unit.powi(6)
 }
@@ -65,7 +65,7 @@ pub fn inverse_condition(j: &Matrix6<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::Leg;
+    use crate::manipulator::Leg;
     use nalgebra::{Point3, Rotation3, Vector3};
 
     #[test]

@@ -13,7 +13,8 @@ use super::values::JointValues;
 pub struct LegIndex(u8);
 
 impl LegIndex {
-    pub(crate) const FIRST: Self = Self(0);
+    /// Leg 1.
+    pub const FIRST: Self = Self(0);
 
     /// The leg with the 0-based index `i`, or `None` unless `i < 6`.
     #[must_use]
@@ -70,6 +71,7 @@ impl Leg {
 /// legs) is told from two joints that happen to lie at the same place.
 ///
 /// ```
+/// # mod equipod { pub mod methods { pub use equipod_platform::{geom, manipulator, topology}; } pub mod prelude { pub use equipod_platform::geom::*; } }
 /// use equipod::methods::manipulator::{Leg, Manipulator};
 /// use nalgebra::Point3;
 /// let legs = std::array::from_fn(|i| {
@@ -261,7 +263,7 @@ impl Manipulator {
     }
 
     /// How many joints of base and platform carry more than one leg.
-    pub(crate) fn shared_joints(&self) -> usize {
+    pub fn shared_joints(&self) -> usize {
         let shared = |end: fn(&(usize, usize)) -> usize| {
             let mut ends: Vec<usize> = self.legs.iter().map(end).collect();
             ends.sort_unstable();
@@ -290,7 +292,7 @@ impl Manipulator {
     }
 
     /// Means of the six leg ends on the base and on the platform, each in the frame of its body: a joint with two legs counts twice.
-    pub(crate) fn mean_leg_ends(&self) -> [Vector3<f64>; 2] {
+    pub fn mean_leg_ends(&self) -> [Vector3<f64>; 2] {
         let legs = self.legs();
         let mean = |end: fn(&Leg) -> Vector3<f64>| legs.iter().map(end).sum::<Vector3<f64>>() / 6.0;
         [mean(|l| l.base.coords), mean(|l| l.platform.coords)]

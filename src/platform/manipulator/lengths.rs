@@ -1,8 +1,8 @@
 //! Leg lengths and squared leg lengths are different types: leg maps are affine in the squares only.
 
 use super::LegIndex;
-use crate::num::double_double::DoubleDouble;
-use crate::num::interval::Interval;
+use num::double_double::DoubleDouble;
+use num::interval::Interval;
 use thiserror::Error;
 
 /// Leg lengths `l_1..l_6`, design units, finite and not negative.

@@ -6,8 +6,6 @@
 
 mod body;
 mod exact_legs;
-#[cfg(test)]
-pub(crate) mod fixtures;
 mod home;
 mod jacobian;
 mod leg;
@@ -17,19 +15,18 @@ mod octahedral;
 mod values;
 
 pub use body::{Body, NoSuchBody};
-pub(crate) use exact_legs::{
+pub use exact_legs::{
     AlgebraicVector, ExactJoints, ExactLeg, ExactLegs, LegResidues, flat_dimension, homogeneous,
 };
 pub use home::default_home;
-pub(crate) use home::height_above_base;
-pub(crate) use jacobian::jacobian_of_legs;
-pub(crate) use jacobian::leg_determinant;
+pub use home::height_above_base;
+pub use jacobian::jacobian_of_legs;
+pub use jacobian::leg_determinant;
 pub use jacobian::{inverse_condition, jacobian, plucker_matrix};
 pub use leg::{BaseJoint, InvalidManipulator, Leg, LegIndex, Manipulator, PlatformJoint};
 pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};
 pub use level::Level;
-pub(crate) use octahedral::is_collinear;
+pub use octahedral::is_collinear;
 pub use octahedral::{NotOctahedral, Octahedral};
-pub(crate) use values::{ExactEnds, JointKnowledge, squares_of_ends, vector_of_ends};
-#[cfg(any(feature = "files", test))]
-pub(crate) use values::{JointValues, SurdPoint};
+pub use values::{ExactEnds, JointKnowledge, squares_of_ends, vector_of_ends};
+pub use values::{JointValues, SurdPoint};

@@ -55,7 +55,7 @@ pub enum NotOctahedral {
 }
 
 /// `true` when the triangle's height is below `1e-9` of its longest side.
-pub(crate) fn is_collinear(t: &[Point3<f64>; 3]) -> bool {
+pub fn is_collinear(t: &[Point3<f64>; 3]) -> bool {
     let sides = [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let longest = sides.iter().map(nalgebra::Matrix::norm_squared).fold(0.0, f64::max);
     sides[0].cross(&sides[1]).norm() <= 1e-9 * longest
@@ -152,7 +152,7 @@ impl Octahedral {
     }
 
     /// How far, at most, the coordinates of the corners of `body` are from those of [`base`](Self::base) or [`platform`](Self::platform).
-    pub(crate) fn corner_radii(&self, body: Body) -> [f64; 3] {
+    pub fn corner_radii(&self, body: Body) -> [f64; 3] {
         self.radii[body.index()]
     }
 }

@@ -5,33 +5,33 @@ use std::sync::Arc;
 use nalgebra::Point3;
 
 use super::{Body, InvalidManipulator, Leg, Level, Manipulator};
-use crate::num::interval::Interval;
-use crate::num::surd::Surd;
+use num::interval::Interval;
+use num::surd::Surd;
 
 /// The coordinates of a joint as numbers of one field of square roots.
-pub(crate) type SurdPoint = [Surd; 3];
+pub type SurdPoint = [Surd; 3];
 
 /// A leg by the exact coordinates of its ends, on the base and on the platform.
-pub(crate) type ExactEnds = [SurdPoint; 2];
+pub type ExactEnds = [SurdPoint; 2];
 
 /// `(1, a) (x) (1, b)`; `None` when it becomes too long.
-pub(crate) fn vector_of_ends(leg: &ExactEnds) -> Option<Vec<Surd>> {
+pub fn vector_of_ends(leg: &ExactEnds) -> Option<Vec<Surd>> {
     let [a, b] = leg.each_ref().map(|p| [Surd::integer(1), p[0].clone(), p[1].clone(), p[2].clone()]);
     a.iter().flat_map(|x| b.iter().map(move |y| x.times(y))).collect()
 }
 
 /// `|a|^2 + |b|^2`; `None` when it becomes too long.
-pub(crate) fn squares_of_ends(leg: &ExactEnds) -> Option<Surd> {
+pub fn squares_of_ends(leg: &ExactEnds) -> Option<Surd> {
     leg.iter().flatten().try_fold(Surd::zero(), |sum, x| sum.plus(&x.times(x)?))
 }
 
 /// The joints behind the doubles of a [`Manipulator`].
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct JointValues {
+pub struct JointValues {
     /// For base and platform the coordinates of every joint; `None` when one of them is known between bounds only.
-    pub(crate) exact: Option<[Vec<SurdPoint>; 2]>,
+    pub exact: Option<[Vec<SurdPoint>; 2]>,
     /// For base and platform how far, at most, a coordinate of a joint is from its double.
-    pub(crate) radius: [Vec<f64>; 2],
+    pub radius: [Vec<f64>; 2],
     /// For base and platform what the doubles leave of the coordinates of every joint, as the nearest doubles again; zeros where that is not known.
     low: [Vec<[f64; 3]>; 2],
     /// How far, at most, a coordinate is from both doubles together.
@@ -40,7 +40,7 @@ pub(crate) struct JointValues {
 
 impl JointValues {
     /// The joints of which `doubles` are the nearest doubles, or the middles.
-    pub(crate) fn new(
+    pub fn new(
         exact: Option<[Vec<SurdPoint>; 2]>,
         radius: [Vec<f64>; 2],
         doubles: [&[Point3<f64>]; 2],
@@ -67,7 +67,7 @@ impl JointValues {
 
 /// What a double leaves of a number, as a double, and an upper bound of what both leave.
 fn low_part(x: &Surd, double: f64) -> Option<(f64, f64)> {
-    let left = x.minus(&Surd::rational(&crate::num::exact::rational(double)?)?)?;
+    let left = x.minus(&Surd::rational(&num::exact::rational(double)?)?)?;
     let low = left.nearest();
     Some((low, left.distance_from(low)))
 }
@@ -84,7 +84,7 @@ fn significant_digits(x: f64) -> usize {
 
 /// How the joints of a [`Manipulator`] are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum JointKnowledge {
+pub enum JointKnowledge {
     /// They are the doubles as written.
     Doubles,
     /// They are numbers of a field of square roots, near the doubles.
@@ -98,7 +98,7 @@ impl Manipulator {
     ///
     /// # Errors
     /// As [`Manipulator::try_new`].
-    pub(crate) fn from_exact_ends(ends: &[ExactEnds; 6]) -> Result<Self, InvalidManipulator> {
+    pub fn from_exact_ends(ends: &[ExactEnds; 6]) -> Result<Self, InvalidManipulator> {
         let (mut exact, mut radius) = ([Vec::<SurdPoint>::new(), Vec::new()], [Vec::new(), Vec::new()]);
         let mut points = [Vec::new(), Vec::new()];
         let mut joint = |body: Body, end: &SurdPoint| {
@@ -121,7 +121,10 @@ impl Manipulator {
     /// The same doubles with what they stand for.
     ///
     /// `values` belong to the joints of this manipulator, in their order.
-    pub(crate) fn with_values(mut self, values: JointValues) -> Self {
+    ///
+    /// # Panics
+    /// For values of another number of joints.
+    pub fn with_values(mut self, values: JointValues) -> Self {
         let counts = [self.base_joints().len(), self.platform_joints().len()];
         assert_eq!(values.radius.each_ref().map(Vec::len), counts);
         let plain = values.radius.iter().flatten().all(|r| *r <= 0.0);
@@ -138,7 +141,7 @@ impl Manipulator {
     }
 
     /// The platform for a base and the base for a platform, joints as exact as they are.
-    pub(crate) fn exchanged(&self) -> Self {
+    pub fn exchanged(&self) -> Self {
         let pairs = self.pairs().map(|(a, b)| (b, a));
         let mut out = Self::try_new(self.platform_joints().to_vec(), self.base_joints().to_vec(), pairs)
             .unwrap_or_else(|_| unreachable!("the joints and pairs of a design, the other way round"));
@@ -157,7 +160,7 @@ impl Manipulator {
     }
 
     /// The same doubles, taken as the joints.
-    pub(crate) fn without_values(&self) -> Self {
+    pub fn without_values(&self) -> Self {
         let mut doubles = self.clone();
         (doubles.values, doubles.constructed) = (None, false);
         doubles
@@ -165,7 +168,7 @@ impl Manipulator {
 
     /// The same legs with ends that are at one place at one joint: by their doubles where these are the joints, by their exact coordinates where these are known, and
     /// not at all where joints are known between bounds only.
-    pub(crate) fn with_merged_joints(&self) -> Self {
+    pub fn with_merged_joints(&self) -> Self {
         let first = |body: Body, joint: usize| {
             let doubles = self.joints(body);
             let same = |other: &usize| match &self.values {
@@ -184,7 +187,7 @@ impl Manipulator {
     }
 
     /// How the joints are known.
-    pub(crate) fn joint_knowledge(&self) -> JointKnowledge {
+    pub fn joint_knowledge(&self) -> JointKnowledge {
         match &self.values {
             None => JointKnowledge::Doubles,
             Some(values) if values.exact.is_some() => JointKnowledge::Exact,
@@ -193,18 +196,18 @@ impl Manipulator {
     }
 
     /// What a proof about these joints is about, where there is one.
-    pub(crate) fn level(&self) -> Level {
+    pub fn level(&self) -> Level {
         if self.constructed { Level::ExactJoints } else { Level::DoublesAsWritten }
     }
 
     /// How far, at most, the coordinates of the ends of leg `i` on `body` are from their doubles.
-    pub(crate) fn end_radius(&self, leg: usize, body: Body) -> f64 {
+    pub fn end_radius(&self, leg: usize, body: Body) -> f64 {
         let joint = body.of(self.pairs()[leg]);
         self.values.as_ref().map_or(0.0, |v| v.radius[body.index()][joint])
     }
 
     /// What the doubles leave of the coordinates of the end of leg `i` on `body`, and how far the coordinates are, at most, from both together.
-    pub(crate) fn end_low(&self, leg: usize, body: Body) -> ([f64; 3], f64) {
+    pub fn end_low(&self, leg: usize, body: Body) -> ([f64; 3], f64) {
         let joint = body.of(self.pairs()[leg]);
         self.values
             .as_ref()
@@ -212,7 +215,7 @@ impl Manipulator {
     }
 
     /// The ends of leg `i` on base and platform, coordinate by coordinate: the doubles where these are the joints, else intervals that hold the joints.
-    pub(crate) fn enclosed_ends(&self, leg: usize) -> [[Interval; 3]; 2] {
+    pub fn enclosed_ends(&self, leg: usize) -> [[Interval; 3]; 2] {
         Body::BOTH.map(|body| {
             let (end, radius) = (self.joints(body)[body.of(self.pairs()[leg])], self.end_radius(leg, body));
             [end.x, end.y, end.z].map(|x| {
@@ -225,7 +228,7 @@ impl Manipulator {
     }
 
     /// The ends of the legs as exact numbers; `None` when one of them is known between bounds only.
-    pub(crate) fn exact_ends(&self) -> Option<[ExactEnds; 6]> {
+    pub fn exact_ends(&self) -> Option<[ExactEnds; 6]> {
         let ends: Vec<ExactEnds> = match &self.values {
             None => self.legs().iter().map(exact_doubles).collect::<Option<_>>()?,
             Some(values) => {
@@ -237,10 +240,9 @@ impl Manipulator {
     }
 }
 
-#[cfg(test)]
 impl Manipulator {
     /// The same doubles, of which nothing is known but that the joints are within a radius of them.
-    pub(crate) fn enclosed_within(self, radius: f64) -> Self {
+    pub fn enclosed_within(self, radius: f64) -> Self {
         let radius = [self.base_joints(), self.platform_joints()].map(|joints| vec![radius; joints.len()]);
         let doubles = [self.base_joints().to_vec(), self.platform_joints().to_vec()];
         self.with_values(JointValues::new(None, radius, [&doubles[0], &doubles[1]]))
@@ -249,7 +251,7 @@ impl Manipulator {
 
 /// The doubles of a leg as the rational numbers they are.
 fn exact_doubles(leg: &Leg) -> Option<ExactEnds> {
-    let one = |x: f64| crate::num::exact::rational(x).and_then(|x| Surd::rational(&x));
+    let one = |x: f64| num::exact::rational(x).and_then(|x| Surd::rational(&x));
     let point = |p: &Point3<f64>| Some([one(p.x)?, one(p.y)?, one(p.z)?]);
     Some([point(&leg.base)?, point(&leg.platform)?])
 }

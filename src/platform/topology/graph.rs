@@ -1,6 +1,6 @@
 //! The graph of joints and legs.
 
-use crate::platform::manipulator::Manipulator;
+use crate::manipulator::Manipulator;
 
 /// The bipartite graph of joints and legs up to isomorphism: joints are nodes, legs are edges; base and platform are told apart.
 ///
@@ -8,6 +8,7 @@ use crate::platform::manipulator::Manipulator;
 /// as they appear. Equal graphs are equal values.
 ///
 /// ```
+/// # mod equipod { pub mod methods { pub use equipod_platform::{geom, manipulator, topology}; } pub mod prelude { pub use equipod_platform::geom::*; } }
 /// use equipod::methods::topology::Topology;
 /// // the octahedral zigzag, from wherever one starts
 /// let one = Topology::of_legs([0, 1, 1, 2, 2, 0], [0, 0, 1, 1, 2, 2]);
@@ -58,7 +59,7 @@ impl Topology {
 
     /// The graph with the legs in the order given: for [`is_merger_of`](Self::is_merger_of) and
     /// [`always_singular`](Self::always_singular), which need no least form, and take less time than finding it.
-    pub(crate) fn unordered(base: [usize; 6], platform: [usize; 6]) -> Self {
+    pub fn unordered(base: [usize; 6], platform: [usize; 6]) -> Self {
         Self { base: by_appearance(base), platform: by_appearance(platform) }
     }
 

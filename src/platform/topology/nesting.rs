@@ -115,7 +115,7 @@ impl Nesting {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::topology::{Topology, catalogue};
+    use crate::topology::{Topology, catalogue};
 
     #[test]
     fn a_joint_of_three_legs_gives_a_constant_radical() {

@@ -91,7 +91,7 @@ impl Topology {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::topology::catalogue;
+    use crate::topology::catalogue;
 
     #[test]
     fn the_search_finds_the_five_classes_of_porta_and_thomas() {

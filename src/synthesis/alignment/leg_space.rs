@@ -11,11 +11,11 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::TOLERANCE;
 use super::rotations::{Axes, Candidates, Projector, candidates, turned};
-use crate::num::Purpose;
-use crate::num::linalg::{LinalgError, svd};
-use crate::platform::manipulator::{Leg, Manipulator};
-use crate::synthesis::components::spectrum::{Spectrum, unit, without};
-use crate::synthesis::leg_vector::{Normalisation, leg_vector};
+use crate::components::spectrum::{Spectrum, unit, without};
+use crate::leg_vector::{Normalisation, leg_vector};
+use num::Purpose;
+use num::linalg::{LinalgError, svd};
+use platform::manipulator::{Leg, Manipulator};
 
 /// Where the entries `1, a, b` of an element stand.
 const HEAD: [usize; 7] = [0, 4, 8, 12, 1, 2, 3];

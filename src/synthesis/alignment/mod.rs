@@ -18,9 +18,9 @@ use self::leg_space::{Canonical, ShiftSensitivity};
 use self::rotations::{Fit, refine};
 use super::leg_map::{LegMapTolerances, Relation, leg_map};
 use super::leg_vector::Normalisation;
-use crate::num::linalg::LinalgError;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{InvalidManipulator, Manipulator};
+use num::linalg::LinalgError;
+use platform::geom::Pose;
+use platform::manipulator::{InvalidManipulator, Manipulator};
 
 /// Singular values of unit vectors below this count as zero.
 const TOLERANCE: f64 = 1e-9;

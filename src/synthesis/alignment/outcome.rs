@@ -4,8 +4,8 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::leg_space::Canonical;
 use super::{CLEAR, RoundingBounds, SAME};
-use crate::platform::geom::{Pose, rotation_vector};
-use crate::synthesis::leg_map::LegMapOutcome;
+use crate::leg_map::LegMapOutcome;
+use platform::geom::{Pose, rotation_vector};
 
 /// A pair of rigid motions that makes B equivalent to A.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +55,7 @@ pub struct NearestMotion {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -108,7 +108,7 @@ pub struct Difference {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]

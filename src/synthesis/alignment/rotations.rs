@@ -12,13 +12,13 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, DMatrix, Matrix3, Point3, Rotation3, SMatrix, Vector3};
 
 use super::leg_space::LegSpace;
-use crate::num::Rng;
-use crate::num::linalg::{LinalgError, svd};
-use crate::num::small::symmetric_eigen3;
-use crate::platform::geom::{Pose, nearest_rotation, random_rotation};
-use crate::platform::manipulator::Leg;
-use crate::synthesis::components::spectrum::{Spectrum, dot, norm, unit};
-use crate::synthesis::leg_vector::leg_vector;
+use crate::components::spectrum::{Spectrum, dot, norm, unit};
+use crate::leg_vector::leg_vector;
+use num::Rng;
+use num::linalg::{LinalgError, svd};
+use num::small::symmetric_eigen3;
+use platform::geom::{Pose, nearest_rotation, random_rotation};
+use platform::manipulator::Leg;
 
 /// Projector on a span, entry `(4 i + j, 4 k + l)`.
 pub(super) type Projector = SMatrix<f64, 16, 16>;

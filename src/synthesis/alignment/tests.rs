@@ -1,9 +1,9 @@
 use nalgebra::{Point3, Vector3};
 
 use super::*;
-use crate::num::Rng;
-use crate::platform::geom::random_rotation;
-use crate::platform::manipulator::Leg;
+use num::Rng;
+use platform::geom::random_rotation;
+use platform::manipulator::Leg;
 
 fn motion(rng: &mut Rng) -> Pose {
     Pose { rotation: random_rotation(rng), position: Vector3::from_fn(|_, _| 3.0 * rng.normal()) }
@@ -141,7 +141,7 @@ fn members_of_the_octahedral_class_are_matched_by_their_triangles() {
 
 #[test]
 fn legs_from_the_cubics_of_two_planes_are_an_equivalent_platform() {
-    use crate::synthesis::components::{ComponentOptions, components};
+    use crate::components::{ComponentOptions, components};
     let mut rng = Rng::new(12);
     let a = planar(&general(&mut rng));
     let found = components(&a, ComponentOptions::default()).unwrap();

@@ -2,10 +2,10 @@
 
 use super::shape::Parametrisation;
 use super::spectrum::{Decision, real_roots};
-use crate::num::Rng;
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::{Leg, LegIndex};
-use crate::synthesis::leg_vector::LegSpan;
+use crate::leg_vector::LegSpan;
+use num::Rng;
+use num::linalg::LinalgError;
+use platform::manipulator::{Leg, LegIndex};
 
 /// The name of a flat by its dimension.
 #[must_use]

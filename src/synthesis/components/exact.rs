@@ -1,8 +1,8 @@
 //! Which legs and which partners of a point lie in the span of legs, exactly.
 
-use crate::num::algebraic::Algebraic;
-use crate::num::exact::{product, rank, relations};
-use crate::platform::manipulator::{AlgebraicVector, Body, ExactLeg, ExactLegs, Leg};
+use num::algebraic::Algebraic;
+use num::exact::{product, rank, relations};
+use platform::manipulator::{AlgebraicVector, Body, ExactLeg, ExactLegs, Leg};
 
 /// `sum_k c_k rows_k`, the coefficients being small integers.
 pub(super) fn combination(rows: &[&AlgebraicVector], c: &[i32]) -> AlgebraicVector {
@@ -14,52 +14,50 @@ pub(super) fn combination(rows: &[&AlgebraicVector], c: &[i32]) -> AlgebraicVect
     out
 }
 
-impl ExactLegs {
-    /// Whether a leg's vector is a combination of those of the six, as rational numbers.
-    pub(super) fn contains(&self, leg: &Leg) -> bool {
-        let Some(leg) = ExactLeg::of(leg) else { return false };
-        let mut rows = self.vectors.clone();
-        rows.push(leg.vector().into_iter().map(Algebraic::Rational).collect());
-        relations(&rows).iter().any(|c| !c[self.vectors.len()].is_zero())
-    }
+/// Whether a leg's vector is a combination of those of the six, as rational numbers.
+pub(super) fn contains(six: &ExactLegs, leg: &Leg) -> bool {
+    let Some(leg) = ExactLeg::of(leg) else { return false };
+    let mut rows = six.vectors.clone();
+    rows.push(leg.vector().into_iter().map(Algebraic::Rational).collect());
+    relations(&rows).iter().any(|c| !c[six.vectors.len()].is_zero())
+}
 
-    /// Dimension of the space of `y` in the span of the other ends of `legs` for which `x (x) y` lies in the span of
-    /// the vectors of `legs`; `x` is a point of `body`.
-    pub(super) fn fibre(&self, body: Body, x: &AlgebraicVector, legs: &[usize]) -> usize {
-        self.partners(body, x, legs, independent(&self.other_ends(body, legs)))
-    }
+/// Dimension of the space of `y` in the span of the other ends of `legs` for which `x (x) y` lies in the span of
+/// the vectors of `legs`; `x` is a point of `body`.
+pub(super) fn fibre(six: &ExactLegs, body: Body, x: &AlgebraicVector, legs: &[usize]) -> usize {
+    partners(six, body, x, legs, independent(&other_ends(six, body, legs)))
+}
 
-    /// The part of [`fibre`](Self::fibre) at infinity: with first entry 0.
-    pub(super) fn fibre_at_infinity(&self, body: Body, x: &AlgebraicVector, legs: &[usize]) -> usize {
-        let ends = independent(&self.other_ends(body, legs));
-        // all ends have first entry 1: the vectors of their span with first entry 0 are spanned by differences
-        let differences = ends.iter().skip(1).map(|e| e.iter().zip(&ends[0]).map(|(x, y)| x - y).collect());
-        let differences = differences.collect();
-        self.partners(body, x, legs, differences)
-    }
+/// The part of [`fibre`] at infinity: with first entry 0.
+pub(super) fn fibre_at_infinity(six: &ExactLegs, body: Body, x: &AlgebraicVector, legs: &[usize]) -> usize {
+    let ends = independent(&other_ends(six, body, legs));
+    // all ends have first entry 1: the vectors of their span with first entry 0 are spanned by differences
+    let differences = ends.iter().skip(1).map(|e| e.iter().zip(&ends[0]).map(|(x, y)| x - y).collect());
+    let differences = differences.collect();
+    partners(six, body, x, legs, differences)
+}
 
-    fn other_ends(&self, body: Body, legs: &[usize]) -> Vec<AlgebraicVector> {
-        let others = body.other().of((&self.base, &self.platform));
-        legs.iter().map(|i| others[*i].clone()).collect()
-    }
+fn other_ends(six: &ExactLegs, body: Body, legs: &[usize]) -> Vec<AlgebraicVector> {
+    let others = body.other().of((&six.base, &six.platform));
+    legs.iter().map(|i| others[*i].clone()).collect()
+}
 
-    /// Dimension of the `y` in the span of independent `directions` for which `x (x) y` lies in the span of the vectors of `legs`.
-    fn partners(
-        &self,
-        body: Body,
-        x: &AlgebraicVector,
-        legs: &[usize],
-        directions: Vec<AlgebraicVector>,
-    ) -> usize {
-        let mut rows = self.vectors_of(legs);
-        let leg_rank = rank(&rows);
-        let count = directions.len();
-        rows.extend(directions.into_iter().map(|y| match body {
-            Body::Base => product(x, &y),
-            Body::Platform => product(&y, x),
-        }));
-        leg_rank + count - rank(&rows)
-    }
+/// Dimension of the `y` in the span of independent `directions` for which `x (x) y` lies in the span of the vectors of `legs`.
+fn partners(
+    six: &ExactLegs,
+    body: Body,
+    x: &AlgebraicVector,
+    legs: &[usize],
+    directions: Vec<AlgebraicVector>,
+) -> usize {
+    let mut rows = six.vectors_of(legs);
+    let leg_rank = rank(&rows);
+    let count = directions.len();
+    rows.extend(directions.into_iter().map(|y| match body {
+        Body::Base => product(x, &y),
+        Body::Platform => product(&y, x),
+    }));
+    leg_rank + count - rank(&rows)
 }
 
 /// A maximal independent part of the rows, the first ones preferred.
@@ -90,7 +88,7 @@ mod tests {
         assert_eq!(e.dimension(Body::Platform, &[0, 1, 2]), 0);
         // all legs meet the one platform point: every base point of the plane is replaceable
         assert_eq!(e.rank(&[0, 1, 2, 3, 4, 5]), 3);
-        assert_eq!(e.fibre(Body::Platform, &e.platform[0], &[0, 1, 2, 3, 4, 5]), 3);
-        assert_eq!(e.fibre(Body::Base, &e.base[0], &[0, 1, 2, 3, 4, 5]), 1);
+        assert_eq!(fibre(&e, Body::Platform, &e.platform[0], &[0, 1, 2, 3, 4, 5]), 3);
+        assert_eq!(fibre(&e, Body::Base, &e.base[0], &[0, 1, 2, 3, 4, 5]), 1);
     }
 }

@@ -8,8 +8,8 @@ use super::exact_form::{
     rationals, split,
 };
 use super::form::{SingularKind, exponents, laplace, power};
-use crate::num::exact::{ExactVector, rank, relations};
-use crate::platform::manipulator::{AlgebraicVector, Body, ExactLegs};
+use num::exact::{ExactVector, rank, relations};
+use platform::manipulator::{AlgebraicVector, Body, ExactLegs};
 
 /// Bits of coefficients up to which greatest common divisors of minors are computed.
 const LONG: u64 = 300;
@@ -278,9 +278,9 @@ pub(super) fn place(point: &AlgebraicVector) -> Option<Vector3<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::manipulator::Leg;
     use nalgebra::Point3;
+    use num::Rng;
+    use platform::manipulator::Leg;
 
     fn base(legs: &[Leg; 6]) -> ExactCurve {
         ExactCurve::of(&ExactLegs::of_doubles(legs).unwrap(), &[0, 1, 2, 3, 4, 5], Body::Base).unwrap()

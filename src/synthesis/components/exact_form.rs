@@ -7,9 +7,9 @@
 use num_bigint::BigInt;
 
 use super::form::{exponents, index, laplace};
-use crate::num::exact::{ExactVector, Rational, approximate, primitive, rank, relations};
-use crate::num::modular::Field;
-use crate::num::poly::{IntPoly, real_roots};
+use num::exact::{ExactVector, Rational, approximate, primitive, rank, relations};
+use num::modular::Field;
+use num::poly::{IntPoly, real_roots};
 
 /// As [`Form`](super::form::Form), in the same order of the monomials.
 #[derive(Debug, Clone, PartialEq, Eq)]

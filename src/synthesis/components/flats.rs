@@ -10,9 +10,9 @@ use nalgebra::Vector3;
 
 use super::form::Form;
 use super::spectrum::{Decision, Question, Spectrum, unit};
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::{Body, ExactLegs, Leg};
-use crate::synthesis::leg_vector::Normalisation;
+use crate::leg_vector::Normalisation;
+use num::linalg::LinalgError;
+use platform::manipulator::{Body, ExactLegs, Leg};
 
 /// Below this ratio of the spreads of the joints the axes follow the joints, with a unit for each.
 const NARROW: f64 = 1e-2;

@@ -5,9 +5,9 @@
 use nalgebra::Matrix3;
 
 use super::spectrum::{SAME, Spectrum, dot, least_squares, norm, orthonormal, real_roots, unit, without};
-use crate::num::Rng;
-use crate::num::linalg::LinalgError;
-use crate::num::small::symmetric_eigen3;
+use num::Rng;
+use num::linalg::LinalgError;
+use num::small::symmetric_eigen3;
 
 /// `sum c_ijk x0^i x1^j x2^k` with `i + j + k = degree`; `i` falls first, then `j`.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,9 +11,9 @@ use super::shape::{Curve, FamilyShape};
 use super::spectrum::{
     APART, COMPUTED, Decision, NO_DIMENSION, Question, Spectrum, nearness, norm, orthonormal, unit, without,
 };
-use crate::num::Rng;
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::Body;
+use num::Rng;
+use num::linalg::LinalgError;
+use platform::manipulator::Body;
 
 /// `sum_e t^e vectors[e]`.
 pub(super) type Polynomial = Vec<Vec<f64>>;

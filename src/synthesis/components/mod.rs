@@ -39,10 +39,10 @@ pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
 use self::flats::{BothReadings, ClosedPair, closed_pairs};
 use self::search::Search;
 use super::leg_vector::{LegSpan, Normalisation};
-use crate::num::Rng;
-use crate::num::algebraic::Algebraic;
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::{
+use num::Rng;
+use num::algebraic::Algebraic;
+use num::linalg::LinalgError;
+use platform::manipulator::{
     AlgebraicVector, Body, ExactLegs, Leg, LegIndex, Level, Manipulator, homogeneous,
 };
 
@@ -127,6 +127,7 @@ pub struct Components {
 /// [`ComponentsError`].
 ///
 /// ```
+/// # mod equipod { pub mod methods { pub use equipod_synthesis as synthesis; pub use platform::manipulator; } }
 /// use equipod::methods::manipulator::{Leg, Manipulator};
 /// use equipod::methods::synthesis::components::{ComponentOptions, components};
 /// use nalgebra::Point3;
@@ -207,7 +208,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
 /// Whether the vector of a leg is a combination of those of six, all coordinates taken as the rational numbers they are.
 #[must_use]
 pub fn exactly_replaceable(legs: &[Leg; 6], leg: &Leg) -> bool {
-    ExactLegs::of_doubles(legs).is_some_and(|e| e.contains(leg))
+    ExactLegs::of_doubles(legs).is_some_and(|six| exact::contains(&six, leg))
 }
 
 /// Homogeneous partners of a point of one body: the `y` for which point and `y` are a leg that is a combination of some of the six. Exact.
@@ -229,8 +230,8 @@ pub(super) fn exact_partners(
     let x: AlgebraicVector = homogeneous(point)?.into_iter().map(Algebraic::Rational).collect();
     let exact = ExactLegs::of_doubles(legs)?;
     Some(ExactPartners {
-        dimension: exact.fibre(body, &x, among),
-        at_infinity: exact.fibre_at_infinity(body, &x, among),
+        dimension: exact::fibre(&exact, body, &x, among),
+        at_infinity: exact::fibre_at_infinity(&exact, body, &x, among),
     })
 }
 

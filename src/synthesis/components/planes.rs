@@ -16,10 +16,10 @@ use super::spectrum::{
     APART, AT_INFINITY, COMPUTED, Decision, NO_DIMENSION, Question, SAME, Spectrum, dot, least_squares,
     nearness, norm, unit,
 };
-use crate::num::Rng;
-use crate::num::linalg::{LinalgError, eigenvalues};
-use crate::platform::manipulator::Body;
-use crate::synthesis::leg_vector::Normalisation;
+use crate::leg_vector::Normalisation;
+use num::Rng;
+use num::linalg::{LinalgError, eigenvalues};
+use platform::manipulator::Body;
 
 /// What was found over the plane of one body.
 #[derive(Debug, Clone)]

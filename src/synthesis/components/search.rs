@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::component::{Component, FamilyKind, SampledLeg, infinite_parameters};
-use super::exact::combination;
+use super::exact::{combination, fibre as exact_fibre};
 use super::exact_curve::{ExactCurve, NoExactCurve, meeting, place};
 use super::exact_form::ExactKind;
 use super::flats::{BothReadings, ClosedPair, Flat, Reading};
@@ -15,11 +15,11 @@ use super::found::{FoundComponents, View};
 use super::planes::{PlaneSide, joints_on_line, line_points, plane_side, points_of};
 use super::shape::FamilyShape;
 use super::spectrum::{APART, AT_INFINITY, COMPUTED, Question, SAME, nearness, unit};
-use crate::num::Rng;
-use crate::platform::manipulator::{AlgebraicVector, Body, LegIndex};
+use num::Rng;
+use platform::manipulator::{AlgebraicVector, Body, LegIndex};
 
-use crate::num::linalg::LinalgError;
-use crate::synthesis::leg_vector::{LegSpan, Normalisation};
+use crate::leg_vector::{LegSpan, Normalisation};
+use num::linalg::LinalgError;
 
 /// Base and platform end in normalised coordinates.
 type NormalisedLeg = (Vector3<f64>, Vector3<f64>);
@@ -242,7 +242,7 @@ impl Search<'_> {
                 let of_joint: Vec<Vector3<f64>> =
                     (0..6).filter(|k| near[*k] == near[i]).chain(0..6).map(|k| far[k]).collect();
                 let view = View { product, carrying, near, far: &of_joint, tolerance: ends.tolerance };
-                let exact = ends.exact.fibre(carrying, &exact_ends[i], &whole.legs);
+                let exact = exact_fibre(&ends.exact, carrying, &exact_ends[i], &whole.legs);
                 if let Some(found) = view.over_point(&near[i], None)? {
                     let dimension = found.shape.dimension();
                     // within a larger family every joint has such a flat, and it says nothing new
@@ -413,7 +413,7 @@ impl Search<'_> {
         for i in &pair.legs {
             let mut rows: Vec<AlgebraicVector> = kept.iter().map(|r| (*r).clone()).collect();
             rows.push(ends[*i].clone());
-            if crate::num::exact::rank(&rows) == rows.len() {
+            if num::exact::rank(&rows) == rows.len() {
                 kept.push(&ends[*i]);
             }
         }
@@ -425,7 +425,7 @@ impl Search<'_> {
                 .collect(),
             _ => return None,
         };
-        points.iter().map(|x| self.ends.exact.fibre(view.carrying, x, &pair.legs)).min()
+        points.iter().map(|x| exact_fibre(&self.ends.exact, view.carrying, x, &pair.legs)).min()
     }
 
     /// Whether the exact data have a family over the line through two joints on it.
@@ -446,7 +446,7 @@ impl Search<'_> {
         let q = on.iter().map(|k| &ends[pair.legs[*k]]).find(|q| *q != p)?;
         let generic = generic?;
         let points = [0, 1, 2, 3, 5].map(|s| combination(&[p, q], &[1, s]));
-        let fibres = points.iter().map(|x| self.ends.exact.fibre(view.carrying, x, &pair.legs));
+        let fibres = points.iter().map(|x| exact_fibre(&self.ends.exact, view.carrying, x, &pair.legs));
         Some(fibres.min()? > generic)
     }
 
@@ -516,7 +516,7 @@ impl Search<'_> {
             }
         }
         let (distance, point) = best?;
-        let fibre = self.ends.exact.fibre(view.carrying, &point, &pair.legs);
+        let fibre = exact_fibre(&self.ends.exact, view.carrying, &point, &pair.legs);
         (distance < 1e-6).then_some(fibre == dimension + 1)
     }
 }

@@ -6,9 +6,9 @@ use super::flats::{BothReadings, Flat, Product};
 use super::form::{Form, exponents, power};
 use super::found::{Polynomial, value};
 use super::spectrum::{Spectrum, dot, norm, orthonormal, unit, without};
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::{Body, Leg};
-use crate::synthesis::leg_vector::Normalisation;
+use crate::leg_vector::Normalisation;
+use num::linalg::LinalgError;
+use platform::manipulator::{Body, Leg};
 
 /// A curve in a flat, given by its parametrisation in homogeneous local coordinates.
 #[derive(Debug, Clone)]
@@ -312,7 +312,6 @@ pub struct CubicPencil {
 
 /// Formulas for the legs of a family.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum Parametrisation {
     /// Both ends are rational functions of the parameters.
     Rational {

@@ -1,6 +1,6 @@
 //! Ranks, kernels and least squares by singular values, and the record of what a singular value or a residual decided.
 
-use crate::num::linalg::{LinalgError, svd};
+use num::linalg::{LinalgError, svd};
 
 /// Kernels of computed polynomials and minors know a digit less than the data: what counts as zero there, over the tolerance of the data.
 pub(super) const COMPUTED: f64 = 10.0;
@@ -20,16 +20,16 @@ pub(super) fn nearness(tolerance: f64) -> f64 {
 
 /// Singular values and right singular vectors of a matrix with `n` columns.
 #[derive(Debug, Clone)]
-pub(in crate::synthesis) struct Spectrum {
+pub(crate) struct Spectrum {
     /// Singular values, largest first, padded with zeros to `n` entries.
-    pub(in crate::synthesis) values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     /// Right singular vectors, one an entry, in the order of `values`: an orthonormal basis of `R^n`.
-    pub(in crate::synthesis) vectors: Vec<Vec<f64>>,
+    pub(crate) vectors: Vec<Vec<f64>>,
 }
 
 impl Spectrum {
     /// Of the matrix with these rows; none at all is the zero matrix.
-    pub(in crate::synthesis) fn of(rows: &[Vec<f64>], n: usize) -> Result<Self, LinalgError> {
+    pub(crate) fn of(rows: &[Vec<f64>], n: usize) -> Result<Self, LinalgError> {
         if rows.is_empty() || n == 0 {
             let unit = |k: usize| (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
             return Ok(Self { values: vec![0.0; n], vectors: (0..n).map(unit).collect() });
@@ -42,39 +42,39 @@ impl Spectrum {
     }
 
     /// Number of singular values above `limit`.
-    pub(in crate::synthesis) fn rank(&self, limit: f64) -> usize {
+    pub(crate) fn rank(&self, limit: f64) -> usize {
         self.values.iter().filter(|s| **s > limit).count()
     }
 
     /// Vectors that belong to all but the first `rank` singular values.
-    pub(in crate::synthesis) fn kernel(&self, rank: usize) -> &[Vec<f64>] {
+    pub(crate) fn kernel(&self, rank: usize) -> &[Vec<f64>] {
         &self.vectors[rank.min(self.vectors.len())..]
     }
 
     /// Vectors that belong to the first `rank` singular values.
-    pub(in crate::synthesis) fn image(&self, rank: usize) -> &[Vec<f64>] {
+    pub(crate) fn image(&self, rank: usize) -> &[Vec<f64>] {
         &self.vectors[..rank.min(self.vectors.len())]
     }
 }
 
 /// Inner product.
-pub(in crate::synthesis) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// Euclidean norm.
-pub(in crate::synthesis) fn norm(a: &[f64]) -> f64 {
+pub(crate) fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// `a` over its norm; zero stays zero.
-pub(in crate::synthesis) fn unit(a: &[f64]) -> Vec<f64> {
+pub(crate) fn unit(a: &[f64]) -> Vec<f64> {
     let n = norm(a);
     if n > 0.0 { a.iter().map(|x| x / n).collect() } else { a.to_vec() }
 }
 
 /// What is left of `a` without its parts along an orthonormal system.
-pub(in crate::synthesis) fn without(a: &[f64], system: &[Vec<f64>]) -> Vec<f64> {
+pub(crate) fn without(a: &[f64], system: &[Vec<f64>]) -> Vec<f64> {
     let mut rest = a.to_vec();
     for _ in 0..2 {
         for e in system {
@@ -86,7 +86,7 @@ pub(in crate::synthesis) fn without(a: &[f64], system: &[Vec<f64>]) -> Vec<f64> 
 }
 
 /// An orthonormal basis of the span of `vectors`, leaving out what is shorter than `limit` of its vector.
-pub(in crate::synthesis) fn orthonormal(vectors: &[Vec<f64>], limit: f64) -> Vec<Vec<f64>> {
+pub(crate) fn orthonormal(vectors: &[Vec<f64>], limit: f64) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for v in vectors {
         let rest = without(&unit(v), &basis);
@@ -98,10 +98,7 @@ pub(in crate::synthesis) fn orthonormal(vectors: &[Vec<f64>], limit: f64) -> Vec
 }
 
 /// The shortest `x` that minimises `|sum_k x_k columns_k - target|`, and that distance over `|target|`.
-pub(in crate::synthesis) fn least_squares(
-    columns: &[Vec<f64>],
-    target: &[f64],
-) -> Result<(Vec<f64>, f64), LinalgError> {
+pub(crate) fn least_squares(columns: &[Vec<f64>], target: &[f64]) -> Result<(Vec<f64>, f64), LinalgError> {
     // rows of the transposed system: left singular vectors of it are the coefficients
     let d = svd(columns)?;
     let top = d.s.first().copied().unwrap_or(0.0);
@@ -119,7 +116,7 @@ pub(in crate::synthesis) fn least_squares(
 }
 
 /// Real roots of `c[0] + c[1] x + ..`, those of a leading coefficient below `1e-13` of the largest left out.
-pub(in crate::synthesis) fn real_roots(c: &[f64]) -> Result<Vec<f64>, LinalgError> {
+pub(crate) fn real_roots(c: &[f64]) -> Result<Vec<f64>, LinalgError> {
     let size = c.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     let Some(degree) = c.iter().rposition(|x| x.abs() > 1e-13 * size) else { return Ok(Vec::new()) };
     if degree == 0 || size <= 0.0 {
@@ -132,7 +129,7 @@ pub(in crate::synthesis) fn real_roots(c: &[f64]) -> Result<Vec<f64>, LinalgErro
             row
         })
         .collect();
-    let roots = crate::num::linalg::eigenvalues(&companion)?;
+    let roots = num::linalg::eigenvalues(&companion)?;
     // a double root comes out as a pair with imaginary parts of the square root of rounding
     let near = |z: &f64, im: f64| im.abs() <= 1e-6 * (1.0 + z.abs());
     let mut real: Vec<f64> = roots.iter().filter(|z| near(&z.re, z.im)).map(|z| z.re).collect();

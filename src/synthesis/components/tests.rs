@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::*;
-use crate::platform::manipulator::Leg;
-use crate::synthesis::{LegMapTolerances, leg_map};
+use crate::{LegMapTolerances, leg_map};
+use platform::manipulator::Leg;
 
 /// A multiple of 1/64: sums and products of a few of them are exact.
 fn dyadic(x: f64) -> f64 {
@@ -260,14 +260,13 @@ fn six_sampled_legs_are_an_equivalent_platform_and_a_point_off_the_cubic_is_not_
     let d = off.base - planes.base.origin;
     let x = planes.base.axes.map(|a| a.dot(&d) / a.norm_squared());
     assert!(curve_value(&planes.base, [1.0, x[0], x[1]]).abs() > 1e-6);
-    let partners =
-        planes.partners(crate::platform::manipulator::Body::Base, [1.0, x[0], x[1]], 1e-8).unwrap();
+    let partners = planes.partners(platform::manipulator::Body::Base, [1.0, x[0], x[1]], 1e-8).unwrap();
     assert_eq!(partners, Partners::None);
     // and on it the partner is the platform end
     let d = new[0].base - planes.base.origin;
     let x = planes.base.axes.map(|a| a.dot(&d) / a.norm_squared());
     let Partners::Point(b) =
-        planes.partners(crate::platform::manipulator::Body::Base, [1.0, x[0], x[1]], 1e-8).unwrap()
+        planes.partners(platform::manipulator::Body::Base, [1.0, x[0], x[1]], 1e-8).unwrap()
     else {
         panic!("a point")
     };

@@ -4,10 +4,10 @@
 //! (`docs/theory/octahedral-class.md`). They are those of every equivalent design, so that anything else among them is a proof that there is no octahedral one.
 
 use super::pieces::{Piece, PlaneGroups, scroll};
-use super::sample::{Arrangement, DesignSample};
-use crate::num::exact::{ExactVector, rank};
-use crate::platform::manipulator::{Body, ExactLeg};
-use crate::platform::topology::Topology;
+use super::sample::{Arrangement, DesignSample, leg_through};
+use num::exact::{ExactVector, rank};
+use platform::manipulator::{Body, ExactLeg};
+use platform::topology::Topology;
 
 /// The answer.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +87,7 @@ fn corners(sample: &DesignSample, pieces: &[Piece]) -> Option<Arrangement> {
     let mut legs = Vec::new();
     for a in fixed(true) {
         for b in fixed(false) {
-            let leg = ExactLeg::through(a, b)?;
+            let leg = leg_through(a, b)?;
             if rank(&[own.clone(), vec![leg.vector()]].concat()) == 6 {
                 legs.push(leg);
             }

@@ -16,10 +16,10 @@
 //! `M(alpha) beta = 0` are the three equations of the span of six legs. A line through two points of the cubic `det M = 0`
 //! meets it once more, so that six rational legs lead to further rational ones.
 
-use super::sample::{DesignSample, finite, integer, meet, subsets, weighted};
-use crate::num::Rng;
-use crate::num::exact::{ExactVector, Rational, rank, relations};
-use crate::platform::manipulator::{Body, ExactLeg};
+use super::sample::{DesignSample, finite, integer, leg_through, meet, subsets, weighted};
+use num::Rng;
+use num::exact::{ExactVector, Rational, rank, relations};
+use platform::manipulator::{Body, ExactLeg};
 
 /// How the ends of the legs of a [`Piece`] are paired.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,7 +113,7 @@ impl Piece {
             PieceKind::AllPairs => weights(self.platform.len(), rng),
             PieceKind::Pairing => base.clone(),
         };
-        ExactLeg::through(&weighted(&self.base, &base), &weighted(&self.platform, &platform))
+        leg_through(&weighted(&self.base, &base), &weighted(&self.platform, &platform))
     }
 }
 
@@ -440,8 +440,8 @@ impl PlaneGroups {
             end = end.iter().zip(next).map(|(x, y)| (integer(5) * x - y) / integer(4)).collect();
         }
         match body {
-            Body::Base => ExactLeg::through(point, &end),
-            Body::Platform => ExactLeg::through(&end, point),
+            Body::Base => leg_through(point, &end),
+            Body::Platform => leg_through(&end, point),
         }
     }
 

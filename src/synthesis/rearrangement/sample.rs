@@ -3,9 +3,9 @@
 
 use nalgebra::Point3;
 
-use crate::num::Rng;
-use crate::num::exact::{ExactVector, Rational, rank, relations};
-use crate::platform::manipulator::{Body, ExactLeg, InvalidManipulator, Manipulator, flat_dimension};
+use num::Rng;
+use num::exact::{ExactVector, Rational, rank, relations};
+use platform::manipulator::{Body, ExactLeg, InvalidManipulator, Manipulator, flat_dimension};
 
 /// Joints and legs of one design. Joints are homogeneous: `(1, x, y, z)`.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,11 +40,9 @@ pub(super) fn weighted(rows: &[ExactVector], c: &[Rational]) -> ExactVector {
     out
 }
 
-impl ExactLeg {
-    /// Both ends normalised; `None` when one is at infinity.
-    pub(super) fn through(base: &ExactVector, platform: &ExactVector) -> Option<Self> {
-        Some(Self { base: finite(base)?, platform: finite(platform)? })
-    }
+/// Both ends normalised; `None` when one is at infinity.
+pub(super) fn leg_through(base: &ExactVector, platform: &ExactVector) -> Option<ExactLeg> {
+    Some(ExactLeg { base: finite(base)?, platform: finite(platform)? })
 }
 
 impl DesignSample {
@@ -110,7 +108,7 @@ impl DesignSample {
 
 /// The nearest doubles of a finite point.
 fn rounded(x: &ExactVector) -> Point3<f64> {
-    let near = crate::num::exact::approximate;
+    let near = num::exact::approximate;
     Point3::new(near(&x[1]), near(&x[2]), near(&x[3]))
 }
 

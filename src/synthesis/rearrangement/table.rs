@@ -7,11 +7,11 @@ use thiserror::Error;
 use super::octahedral::{Reduction, from_cubics, from_families, in_space};
 use super::pieces::{Outcome, Piece, PieceKind, PlaneGroups, Split, at_joints, split};
 use super::sample::{Arrangement, DesignSample};
-use crate::num::exact::{ExactVector, rank};
-use crate::num::{Purpose, Rng};
-use crate::platform::manipulator::{Body, ExactLeg};
-use crate::platform::topology::{NamedTopology, catalogue};
-use crate::synthesis::components::flat_name;
+use crate::components::flat_name;
+use num::exact::{ExactVector, rank};
+use num::{Purpose, Rng};
+use platform::manipulator::{Body, ExactLeg};
+use platform::topology::{NamedTopology, catalogue};
 
 /// Which bodies have all their joints in a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

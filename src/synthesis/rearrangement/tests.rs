@@ -3,10 +3,10 @@
 use super::sample::{finite, subsets};
 use super::table::from_seed;
 use super::*;
-use crate::num::Rng;
-use crate::num::exact::{ExactVector, rank};
-use crate::platform::manipulator::ExactLeg;
-use crate::synthesis::components::{ComponentOptions, components};
+use crate::components::{ComponentOptions, components};
+use num::Rng;
+use num::exact::{ExactVector, rank};
+use platform::manipulator::ExactLeg;
 
 /// Dimension of a family and of the flats of its ends.
 type Kind = (usize, usize, usize);
@@ -108,7 +108,7 @@ fn fewer_shared_joints_are_refuted_by_ranks_and_the_least_number_is_not() {
 #[test]
 fn designs_that_are_not_equivalent_are_told_apart() {
     let sample = |k: usize| {
-        let t = crate::platform::topology::catalogue()[k - 1];
+        let t = platform::topology::catalogue()[k - 1];
         rearrangement(t, PlanarBodies::of(t)[0]).unwrap()
     };
     let mut rng = Rng::new(5);

@@ -22,8 +22,8 @@ pub use self::names::{counted_from, family_between, spanning_joints};
 pub use self::singular::SingularParameters;
 use super::components::{Component, Components, Parametrisation, exactly_replaceable};
 use super::leg_map::{AffineLegMap, LegMapOutcome, LegMapTolerances, leg_map_to_legs};
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::{InvalidManipulator, Leg, LegIndex, Manipulator};
+use num::linalg::LinalgError;
+use platform::manipulator::{InvalidManipulator, Leg, LegIndex, Manipulator};
 
 /// One leg and where it is to go.
 #[derive(Debug, Clone, PartialEq)]
@@ -135,6 +135,7 @@ pub enum RelocateError {
 /// depend at all is refused.
 ///
 /// ```
+/// # mod equipod { pub mod methods { pub use equipod_synthesis as synthesis; pub use platform::manipulator; } }
 /// use equipod::methods::manipulator::{Leg, LegIndex, Manipulator};
 /// use equipod::methods::synthesis::components::{ComponentOptions, components};
 /// use equipod::methods::synthesis::relocate::{LegMove, relocate};

@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector, Point3, Vector3};
 
-use crate::num::Purpose;
-use crate::num::linalg::LinalgError;
-use crate::num::small::bounded_svd;
-use crate::platform::manipulator::Manipulator;
-use crate::synthesis::components::{Component, Components, MovingPoint, Parametrisation};
+use crate::components::{Component, Components, MovingPoint, Parametrisation};
+use num::Purpose;
+use num::linalg::LinalgError;
+use num::small::bounded_svd;
+use platform::manipulator::Manipulator;
 
 /// Orthonormal directions of the flat through the points, and one of them; what is within `limit` of the flat of the points before adds nothing.
 struct Through {
@@ -238,9 +238,9 @@ fn times(p: &BTreeMap<[u8; 3], f64>, factor: &[f64; 4]) -> BTreeMap<[u8; 3], f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::manipulator::{Leg, Manipulator};
-    use crate::synthesis::components::{ComponentOptions, FamilyKind, components};
+    use crate::components::{ComponentOptions, FamilyKind, components};
+    use num::Rng;
+    use platform::manipulator::{Leg, Manipulator};
 
     #[test]
     fn the_legs_are_those_of_the_family_and_the_joints_are_at_zero_and_one() {

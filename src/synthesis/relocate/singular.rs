@@ -3,10 +3,10 @@
 use nalgebra::Matrix6;
 
 use super::LegMove;
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::Leg;
-use crate::synthesis::components::spectrum::real_roots;
-use crate::synthesis::components::{Components, Parametrisation};
+use crate::components::spectrum::real_roots;
+use crate::components::{Components, Parametrisation};
+use num::linalg::LinalgError;
+use platform::manipulator::Leg;
 
 /// Parameters at which `det A = 0`.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +62,7 @@ pub(super) fn singular_parameters(
     let along = Along { found, step, rest };
     match step.formulas(&found.components[step.family]) {
         Parametrisation::Rational { base, platform, .. } => {
-            let degree = |p: &crate::synthesis::components::MovingPoint| {
+            let degree = |p: &crate::components::MovingPoint| {
                 p.terms.iter().map(|(e, _)| usize::from(e[0])).max().unwrap_or(0)
             };
             rational(&along, degree(base) + degree(platform))

@@ -3,11 +3,11 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::*;
-use crate::num::Rng;
-use crate::platform::geom::{Pose, random_rotation};
-use crate::platform::manipulator::Octahedral;
-use crate::synthesis::components::{ComponentOptions, components};
-use crate::synthesis::{AffineLegMap, Relation, joint_free, leg_map};
+use crate::components::{ComponentOptions, components};
+use crate::{AffineLegMap, Relation, joint_free, leg_map};
+use num::Rng;
+use platform::geom::{Pose, random_rotation};
+use platform::manipulator::Octahedral;
 
 pub(super) fn corner(r: f64, k: usize) -> Point3<f64> {
     let (s, c) = (std::f64::consts::TAU * k as f64 / 3.0).sin_cos();
@@ -193,9 +193,8 @@ fn all_six_together_are_the_joint_free_platform_of_the_paper() {
     // Delta1 = 12/5, Delta2 = 6/5
     let done = together(0.2, 0.2);
     assert!((done.map.determinant - (0.8f64.powi(6) - 0.2f64.powi(6))).abs() < 1e-12);
-    let s = crate::platform::manipulator::LegLengths::try_new([19.8, 18.0, 18.0, 17.0, 14.9, 17.8])
-        .unwrap()
-        .squared();
+    let s =
+        platform::manipulator::LegLengths::try_new([19.8, 18.0, 18.0, 17.0, 14.9, 17.8]).unwrap().squared();
     let l = done.map.closest.apply(&s).unwrap().lengths().get();
     let published = [
         18.851843411189265,

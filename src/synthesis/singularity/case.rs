@@ -7,10 +7,10 @@ use nalgebra::{Point3, Vector3};
 
 use super::dependency::{Dependency, subsets_by_size};
 use super::griffis_duffy::GriffisDuffy;
-use crate::num::algebraic::Algebraic;
-use crate::num::exact::{product, rank, relations};
-use crate::num::linalg::{LinalgError, svd};
-use crate::platform::manipulator::{AlgebraicVector, Body, ExactLegs, Manipulator};
+use num::algebraic::Algebraic;
+use num::exact::{product, rank, relations};
+use num::linalg::{LinalgError, svd};
+use platform::manipulator::{AlgebraicVector, Body, ExactLegs, Manipulator};
 
 /// A geometric reason for which the leg lines are dependent at every pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -405,8 +405,8 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::num::exact::rational;
-    use crate::platform::manipulator::{Leg, homogeneous};
+    use num::exact::rational;
+    use platform::manipulator::{Leg, homogeneous};
 
     /// The names for singular designs with independent leg vectors that are not of the known kinds; no such design is known, so that the names
     /// are tested on designs that are not singular.

@@ -1,10 +1,10 @@
 //! Figures that show how near a design is to being singular everywhere.
 
-use crate::num::Rng;
-use crate::num::linalg::LinalgError;
-use crate::platform::geom::CentredPoses;
-use crate::platform::manipulator::{Manipulator, inverse_condition, jacobian};
-use crate::synthesis::LegSpan;
+use crate::LegSpan;
+use num::Rng;
+use num::linalg::LinalgError;
+use platform::geom::CentredPoses;
+use platform::manipulator::{Manipulator, inverse_condition, jacobian};
 
 /// Singular values of the leg vectors, and inverse condition numbers of the Jacobian at random poses.
 #[derive(Debug, Clone, Copy, PartialEq)]

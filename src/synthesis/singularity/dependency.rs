@@ -1,8 +1,8 @@
 //! Exact linear relations between the leg vectors `v = (1, a) (x) (1, b)`.
 
-use crate::num::algebraic::Algebraic;
-use crate::num::exact::{Rational, approximate, relations};
-use crate::platform::manipulator::{Body, ExactLegs, SquaredLegLengths};
+use num::algebraic::Algebraic;
+use num::exact::{Rational, approximate, relations};
+use platform::manipulator::{Body, ExactLegs, SquaredLegLengths};
 
 /// A smallest set of legs with dependent vectors: `sum c_i v_i = 0`, and no proper part of it is dependent.
 ///
@@ -35,41 +35,39 @@ fn one() -> Rational {
     Rational::from_integer(1.into())
 }
 
-impl ExactLegs {
-    /// All smallest dependent sets, fewest legs first.
-    pub(super) fn dependencies(&self) -> Vec<Dependency> {
-        let mut found: Vec<Dependency> = Vec::new();
-        for legs in subsets_by_size(2) {
-            if found.iter().any(|d| d.legs.iter().all(|i| legs.contains(i))) {
-                continue;
-            }
-            // no part is dependent: there is at most one relation
-            if let Some(c) = relations(&self.vectors_of(&legs)).first() {
-                found.push(self.dependency(&legs, c));
-            }
+/// All smallest dependent sets, fewest legs first.
+pub(super) fn dependencies(six: &ExactLegs) -> Vec<Dependency> {
+    let mut found: Vec<Dependency> = Vec::new();
+    for legs in subsets_by_size(2) {
+        if found.iter().any(|d| d.legs.iter().all(|i| legs.contains(i))) {
+            continue;
         }
-        found
+        // no part is dependent: there is at most one relation
+        if let Some(c) = relations(&six.vectors_of(&legs)).first() {
+            found.push(dependency(six, &legs, c));
+        }
     }
+    found
+}
 
-    fn dependency(&self, legs: &[usize], c: &[Algebraic]) -> Dependency {
-        let fractions: Option<Vec<Rational>> = c.iter().map(|x| x.as_rational().cloned()).collect();
-        let c = match fractions {
-            Some(fractions) => scaled(&fractions).into_iter().map(Algebraic::Rational).collect(),
-            None => scaled_to_one(c),
-        };
-        let mut coefficients = [0.0; 6];
-        let mut constant = Algebraic::integer(0);
-        for (i, c) in legs.iter().zip(&c) {
-            coefficients[*i] = c.approximate();
-            constant = &constant + &(c * &self.squares(*i));
-        }
-        Dependency {
-            legs: legs.to_vec(),
-            coefficients,
-            constant: constant.approximate(),
-            base_dimension: self.dimension(Body::Base, legs),
-            platform_dimension: self.dimension(Body::Platform, legs),
-        }
+fn dependency(six: &ExactLegs, legs: &[usize], c: &[Algebraic]) -> Dependency {
+    let fractions: Option<Vec<Rational>> = c.iter().map(|x| x.as_rational().cloned()).collect();
+    let c = match fractions {
+        Some(fractions) => scaled(&fractions).into_iter().map(Algebraic::Rational).collect(),
+        None => scaled_to_one(c),
+    };
+    let mut coefficients = [0.0; 6];
+    let mut constant = Algebraic::integer(0);
+    for (i, c) in legs.iter().zip(&c) {
+        coefficients[*i] = c.approximate();
+        constant = &constant + &(c * &six.squares(*i));
+    }
+    Dependency {
+        legs: legs.to_vec(),
+        coefficients,
+        constant: constant.approximate(),
+        base_dimension: six.dimension(Body::Base, legs),
+        platform_dimension: six.dimension(Body::Platform, legs),
     }
 }
 
@@ -116,8 +114,8 @@ fn scaled(c: &[Rational]) -> Vec<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::{Leg, Manipulator};
     use nalgebra::Point3;
+    use platform::manipulator::{Leg, Manipulator};
 
     fn legs(list: &[([f64; 3], [f64; 3]); 6]) -> Manipulator {
         let leg = |(a, b): &([f64; 3], [f64; 3])| Leg { base: Point3::from(*a), platform: Point3::from(*b) };
@@ -135,7 +133,7 @@ mod tests {
             ([2.0, 3.0, 0.0], [-1.0, 2.0, 0.5]),
             ([0.0, -3.0, 2.0], [1.0, -2.0, 0.0]),
         ]);
-        let found = ExactLegs::of(&m).unwrap().dependencies();
+        let found = dependencies(&ExactLegs::of(&m).unwrap());
         assert_eq!(found.len(), 1);
         let d = &found[0];
         assert_eq!((d.legs.as_slice(), d.base_dimension, d.platform_dimension), (&[0, 1, 2][..], 1, 0));

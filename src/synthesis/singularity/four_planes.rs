@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix4, Vector3, Vector4};
 
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Octahedral;
+use platform::geom::Pose;
+use platform::manipulator::Octahedral;
 
 /// The plane through three points, `(n, -n.p)` with `n = (q - p) x (r - p)`.
 fn plane(p: &Vector3<f64>, q: &Vector3<f64>, r: &Vector3<f64>) -> Vector4<f64> {
@@ -30,10 +30,10 @@ pub fn four_planes(octahedral: &Octahedral, pose: &Pose) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::random_rotation;
-    use crate::platform::manipulator::{Manipulator, plucker_matrix};
     use nalgebra::Point3;
+    use num::Rng;
+    use platform::geom::random_rotation;
+    use platform::manipulator::{Manipulator, plucker_matrix};
 
     #[test]
     fn both_determinants_are_that_of_the_leg_lines() {

@@ -21,11 +21,11 @@
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use crate::num::algebraic::Algebraic;
-use crate::num::linalg::{LinalgError, svd};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{ExactLegs, Manipulator, SquaredLegLengths, flat_dimension, is_collinear};
-use crate::synthesis::{hexagon_orders, offset_determinant, offset_products};
+use crate::{hexagon_orders, offset_determinant, offset_products};
+use num::algebraic::Algebraic;
+use num::linalg::{LinalgError, svd};
+use platform::geom::Pose;
+use platform::manipulator::{ExactLegs, Manipulator, SquaredLegLengths, flat_dimension, is_collinear};
 
 /// A platform recognised as one of Griffis-Duffy type.
 #[derive(Debug, Clone, PartialEq)]
@@ -234,9 +234,8 @@ pub fn assembly(g: &GriffisDuffy, m: &Manipulator, s: &SquaredLegLengths) -> Res
         let o = std::array::from_fn(|i| corners.origin[i] + x * corners.direction[i]);
         if let Some(pose) = frame.search(&o) {
             let size = m.size() * m.size();
-            let error = |(leg, s): (&crate::platform::manipulator::Leg, f64)| {
-                (pose.squared_length(leg) - s).abs() / size
-            };
+            let error =
+                |(leg, s): (&platform::manipulator::Leg, f64)| (pose.squared_length(leg) - s).abs() / size;
             let residual = m.legs().iter().zip(s.get()).map(error).fold(0.0, f64::max);
             return Ok(Assembly::Real { pose, residual, corners });
         }
@@ -403,10 +402,10 @@ impl TriangleFrame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::{Pose, random_rotation};
-    use crate::platform::manipulator::Leg;
-    use crate::synthesis::singular_offset;
+    use crate::singular_offset;
+    use num::Rng;
+    use platform::geom::{Pose, random_rotation};
+    use platform::manipulator::Leg;
 
     fn point(rng: &mut Rng) -> Point3<f64> {
         Point3::new(rng.normal(), rng.normal(), rng.normal())

@@ -8,10 +8,10 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::path::{ControlPoint, PathPiece, Sign, SignsAlong, signs_along, signs_on_curve};
-use crate::num::exact::{ExactVector, rank, rational};
-use crate::num::surd::{Surd, combination, eliminate};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{ExactEnds, Manipulator};
+use num::exact::{ExactVector, rank, rational};
+use num::surd::{Surd, combination, eliminate};
+use platform::geom::Pose;
+use platform::manipulator::{ExactEnds, Manipulator};
 
 /// What shows that a pose is singular.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,11 +11,11 @@
 
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 
-use crate::num::Rng;
-use crate::num::modular::PRIME_BITS;
-use crate::num::small::singular_values;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{ExactJoints, LegResidues, Manipulator, plucker_matrix};
+use num::Rng;
+use num::modular::PRIME_BITS;
+use num::small::singular_values;
+use platform::geom::Pose;
+use platform::manipulator::{ExactJoints, LegResidues, Manipulator, plucker_matrix};
 
 /// A pose whose numbers are integers: `R` of the quaternion `(q0, q1, q2, q3)`, `p` in powers of two of the design unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,7 +79,7 @@ const CANDIDATES: u64 = 96;
 
 /// The generic rank of the lines of some legs of `m`, whose joints are `joints`; `leg_rank` is the exact rank of their leg vectors. `None` for coordinates with too many square
 /// roots.
-pub(crate) fn generic_rank(
+pub(super) fn generic_rank(
     m: &Manipulator,
     joints: &ExactJoints,
     chosen: &[usize],
@@ -133,7 +133,7 @@ fn principal_lattice(degree: i64) -> impl Iterator<Item = [i64; 3]> {
         .flat_map(move |i| (0..=degree - i).flat_map(move |j| (0..=degree - i - j).map(move |k| [i, j, k])))
 }
 
-pub(crate) fn lattice(unit: i32) -> impl Iterator<Item = RationalPose> {
+pub(super) fn lattice(unit: i32) -> impl Iterator<Item = RationalPose> {
     principal_lattice(DEGREES[0]).flat_map(move |[x, y, z]| {
         let quaternion = [1, x, y, z];
         principal_lattice(DEGREES[1]).map(move |steps| RationalPose { quaternion, steps, unit })
@@ -212,9 +212,9 @@ fn rows_at(legs: &LegResidues, chosen: &[usize], pose: &RationalPose) -> Vec<[u6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::modular::{Field, fields};
-    use crate::platform::manipulator::Leg;
     use nalgebra::Point3;
+    use num::modular::{Field, fields};
+    use platform::manipulator::Leg;
 
     /// The rank of the lines of some legs of a design in doubles.
     fn generic(m: &Manipulator, chosen: &[usize], leg_rank: usize) -> GenericRank {

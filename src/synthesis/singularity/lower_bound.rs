@@ -14,12 +14,12 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use crate::num::Rng;
-use crate::num::interval::Interval;
-use crate::num::small::singular_values;
-use crate::platform::geom::enclosed::{IntervalMatrix, IntervalVector, apply, cross, exact_rotation, times};
-use crate::platform::geom::{CentredPoses, Pose};
-use crate::platform::manipulator::Manipulator;
+use num::Rng;
+use num::interval::Interval;
+use num::small::singular_values;
+use platform::geom::enclosed::{IntervalMatrix, IntervalVector, apply, cross, exact_rotation, times};
+use platform::geom::{CentredPoses, Pose};
+use platform::manipulator::Manipulator;
 
 /// Random poses that are looked at.
 const POSES: usize = 300;
@@ -173,9 +173,9 @@ fn is_positive_definite(mut m: IntervalMatrix) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::platform::manipulator::Leg;
-    use crate::synthesis::singularity::nearest_singular;
+    use crate::singularity::nearest_singular;
     use nalgebra::Point3;
+    use platform::manipulator::Leg;
 
     #[test]
     fn below_the_upper_bound_and_within_a_decade_or_two() {

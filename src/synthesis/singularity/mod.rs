@@ -42,7 +42,7 @@ pub use self_motion::{
 
 use self::dependency::subsets_by_size;
 use self::lattice::{candidate_poses, generic_rank, rank_at_least};
-use crate::platform::manipulator::{ExactJoints, ExactLegs, Level, Manipulator};
+use platform::manipulator::{ExactJoints, ExactLegs, Level, Manipulator};
 
 /// The answer for a design as it is written, with what proves it.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,7 +94,7 @@ impl Architecture {
         let jacobian = generic_rank(m, joints, &all, leg_rank)?;
         // with all joints at corners it is the octahedral platform itself
         let griffis_duffy = GriffisDuffy::recognise(m).filter(|g| !g.is_octahedral());
-        let dependencies = if leg_rank < 6 { legs.dependencies() } else { Vec::new() };
+        let dependencies = if leg_rank < 6 { dependency::dependencies(legs) } else { Vec::new() };
         let mut findings = Vec::new();
         if jacobian.rank < 6 {
             findings = case::positional(legs);
@@ -123,8 +123,7 @@ impl Architecture {
 }
 
 /// Whether a regular design has doubles that are singular: what follows its legs in doubles follows those of another design.
-#[cfg(feature = "cli")]
-pub(crate) fn rounds_to_singular(m: &Manipulator) -> bool {
+pub fn rounds_to_singular(m: &Manipulator) -> bool {
     m.level() == Level::ExactJoints
         && Architecture::of(m).is_singular() == Some(false)
         && Architecture::of(&m.without_values()).is_singular() == Some(true)

@@ -13,11 +13,11 @@ use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
 
 use super::lattice::candidate_poses;
 use super::lower_bound::proved_at_pose;
-use crate::num::Purpose;
-use crate::num::linalg::LinalgError;
-use crate::num::small::{bounded_svd, symmetric_eigen3};
-use crate::platform::manipulator::{Body, InvalidManipulator, Level, Manipulator};
-use crate::synthesis::LegSpan;
+use crate::LegSpan;
+use num::Purpose;
+use num::linalg::LinalgError;
+use num::small::{bounded_svd, symmetric_eigen3};
+use platform::manipulator::{Body, InvalidManipulator, Level, Manipulator};
 
 /// A singular design near a given one.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,7 +11,7 @@ use crate::app::cli::progress::ProgressLine;
 use crate::app::cli::requirements;
 use crate::app::entrance::Error;
 use crate::app::records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
-use crate::machine::requirements::AssessOptions;
+use machine::requirements::AssessOptions;
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]

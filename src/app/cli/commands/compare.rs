@@ -19,10 +19,10 @@ use crate::app::report::{Comparison, comparison_page};
 use crate::files::design::Design;
 use crate::files::export::LengthUnit;
 use crate::files::plot::thumbnail;
-use crate::machine::dynamics::Manoeuvre;
-use crate::machine::manufacture::ErrorBound;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use machine::dynamics::Manoeuvre;
+use machine::manufacture::ErrorBound;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]

@@ -14,7 +14,7 @@ use crate::app::records::{
     FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, PoseQuaternionRecord,
     StraightWayRecord, WorkspaceSizeRecord,
 };
-use crate::machine::reach::NearestPoseOptions;
+use machine::reach::NearestPoseOptions;
 
 /// Arguments of `limits`.
 #[derive(Debug, clap::Args)]

@@ -17,7 +17,7 @@ use crate::app::page::{CORE, Session, page as view};
 use crate::app::records::{AssessAnswer, ReportAnswer};
 use crate::app::report::{Comparison, Report, ReportFile, html};
 use crate::files::design::{Design, Format, parse};
-use crate::synthesis::Pattern;
+use synthesis::Pattern;
 
 /// The page in its folder.
 pub(super) const PAGE: &str = "report.html";

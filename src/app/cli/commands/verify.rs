@@ -10,9 +10,9 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::entrance::{SAMPLES, sample_plan};
 use crate::app::records::{SampleRecord, VerifyAnswer};
-use crate::fk::FkOptions;
-use crate::synthesis::Relation;
-use crate::verify::{Verdict, VerifyError, verify_mapped};
+use fk::FkOptions;
+use synthesis::Relation;
+use verify::{Verdict, VerifyError, verify_mapped};
 
 /// Arguments of `verify`.
 #[derive(Debug, clap::Args)]
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return Ok(Answer::new(exit, record, text));
     }
     let plan = sample_plan(&a, args.samples, context.seed());
-    let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
+    let options = FkOptions::new().seed(context.seed());
     let found = verify_mapped(a.manipulator(), &second.manipulator, map, &plan, &options)
         .map_err(|e| failure_of(&e))?;
     let record = VerifyAnswer::new(&found, &plan, second.record());

@@ -4,11 +4,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::app::records::{ComplexRecord, Number};
-use crate::fk::solve::certify::octahedral::OctahedralCertificate;
-use crate::fk::solve::certify::{
+use fk::solve::certify::octahedral::OctahedralCertificate;
+use fk::solve::certify::{
     CentrePrecision, Certificate, ClusterCertificate, PoseEnclosure, ProvedReality, RootCertificate,
 };
-use crate::num::ball::Disc;
+use num::ball::Disc;
 
 /// The proof that a root exists and is alone, with all its numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

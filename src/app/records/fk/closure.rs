@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::app::records::Number;
 use crate::files::design::Design;
-use crate::fk::distance::SingularFactor;
-use crate::fk::{Closure, NoClosure};
-use crate::num::poly::{Dyadic, RealRoot};
-use crate::platform::topology::{JointIndex, Step};
+use fk::distance::SingularFactor;
+use fk::{Closure, NoClosure};
+use num::poly::{Dyadic, RealRoot};
+use platform::topology::{JointIndex, Step};
 
 /// The exact closure polynomial beside the poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

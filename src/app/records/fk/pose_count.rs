@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::fk::solve::pose_count::{CountUndecided, CountedLengths, PoseCount, PoseSet};
-use crate::fk::{Completeness, FkSolutions};
+use fk::solve::pose_count::{CountUndecided, CountedLengths, PoseCount, PoseSet};
+use fk::{Completeness, FkSolutions};
 
 /// The finite poses of the design, counted without finding them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::platform::ZONES;
 use crate::app::records::Number;
-use crate::optimize::offsets::{BranchReport, BranchVerdict, Conflict, GlobalBound, OffsetReport};
+use optimize::offsets::{BranchReport, BranchVerdict, Conflict, GlobalBound, OffsetReport};
 
 /// What became of the branches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::{BranchRecord, BranchWord};
 use crate::app::records::Number;
 use crate::files::design::Design;
-use crate::machine::requirements::{Objective, TermKind};
-use crate::optimize::dimensional::{ConstraintConflict, Demand, Give};
-use crate::optimize::offsets::Conflict;
+use machine::requirements::{Objective, TermKind};
+use optimize::dimensional::{ConstraintConflict, Demand, Give};
+use optimize::offsets::Conflict;
 
 /// Requirements that cannot be met together; without any one of them the others were met.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

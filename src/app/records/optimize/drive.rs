@@ -8,8 +8,8 @@ use crate::app::entrance::drive_search::{
     DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive,
 };
 use crate::app::records::{MarginRecord, Number};
-use crate::machine::requirements::TermKind;
-use crate::optimize::dimensional::DimensionalOutcome;
+use machine::requirements::TermKind;
+use optimize::dimensional::DimensionalOutcome;
 
 /// The search over the drives of a table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

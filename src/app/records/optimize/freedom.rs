@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::app::entrance::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
 use crate::app::records::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
 use crate::files::design::Design;
-use crate::optimize::offsets::DEFAULT_MIN_ABS_DET;
+use optimize::offsets::DEFAULT_MIN_ABS_DET;
 
 /// A freedom that the design does not have, and what came of the search with it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -30,10 +30,10 @@ use crate::app::entrance::OptimizeStatus;
 use crate::app::entrance::optimizing::{Checked, dimensional_status, offset_status};
 use crate::app::records::{DesignRecord, Number, SourceWord};
 use crate::files::design::Design;
-use crate::optimize::dimensional::{
+use optimize::dimensional::{
     DimensionalOutcome, DimensionalProblem, DimensionalReport, ParetoPoint, ParetoReport,
 };
-use crate::optimize::offsets::{OffsetOutcome, OffsetProblem, OffsetReport};
+use optimize::offsets::{OffsetOutcome, OffsetProblem, OffsetReport};
 
 /// Runners-up that are listed.
 const RUNNERS_UP: usize = 5;

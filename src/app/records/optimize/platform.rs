@@ -12,12 +12,12 @@ use crate::app::records::{
     VerdictWord, leg_number,
 };
 use crate::files::design::Design;
-use crate::machine::requirements::Objective;
-use crate::optimize::dimensional::{ChosenVariable, DimensionalSolution, HistoryStep};
-use crate::optimize::offsets::{Branch, OffsetHistoryStep, OffsetProblem, OffsetSolution};
-use crate::platform::manipulator::Octahedral;
-use crate::synthesis::edge_lengths;
-use crate::verify::Verification;
+use machine::requirements::Objective;
+use optimize::dimensional::{ChosenVariable, DimensionalSolution, HistoryStep};
+use optimize::offsets::{Branch, OffsetHistoryStep, OffsetProblem, OffsetSolution};
+use platform::manipulator::Octahedral;
+use synthesis::edge_lengths;
+use verify::Verification;
 
 /// How the zones of the six offsets are written.
 pub(super) const ZONES: &str = "^[-0+]{6}$";

@@ -8,7 +8,7 @@ use crate::app::entrance::optimizing::Checked;
 use crate::app::records::nearest::short;
 use crate::app::records::{MarginRecord, Number};
 use crate::files::design::Design;
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 /// Part of a limit below which nothing is left of it.
 const NOTHING: f64 = 1e-3;

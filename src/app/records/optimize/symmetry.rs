@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::machine::requirements::StartSymmetry;
+use machine::requirements::StartSymmetry;
 
 /// What became of the three-fold symmetry that a design has at home and does not ask for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

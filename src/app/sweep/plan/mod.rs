@@ -8,8 +8,8 @@ mod tests;
 mod values;
 
 use crate::files::design::Format;
-use crate::machine::manufacture::ErrorBound;
-use crate::platform::geom::Pose;
+use machine::manufacture::ErrorBound;
+use platform::geom::Pose;
 
 pub(crate) use condition::KeepCondition;
 pub(crate) use place::BasePlan;

@@ -8,8 +8,8 @@ use crate::files::design::spanned::{Findings, Node, Value, find, nearest_help, r
 use crate::files::design::{
     Design, Drive, DriveTable, Format, InvalidDriveTable, InvalidSeries, SeriesKind, Violation, parse,
 };
-use crate::machine::requirements::{TermKind, Terms};
-use crate::platform::geom::{InvalidPose, Pose};
+use machine::requirements::{TermKind, Terms};
+use platform::geom::{InvalidPose, Pose};
 
 /// Where a design names its table of poses.
 pub(super) const TRAJECTORY: &str = "workspace.trajectory";

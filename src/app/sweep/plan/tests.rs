@@ -74,7 +74,7 @@ fn blocks_are_multiplied_and_lists_go_side_by_side() {
 
 #[test]
 fn the_whole_class_may_be_listed() {
-    let family = crate::synthesis::Family::octahedral();
+    let family = synthesis::Family::octahedral();
     for (word, count) in [("all", family.counts().patterns), ("classes", family.counts().classes)] {
         let plan = with(&format!(
             "[[vary]]\nby = 'grid'\nvalues = {{ pattern = '{word}' }}\n[[vary]]\nby = 'sobol'\ncount = 2\nvalues = {{ offsets = {{ from = 0.1, to = 0.9 }} }}\n"
@@ -228,7 +228,7 @@ fn mutated_plans_are_read_or_refused_and_nothing_else() {
         "{HEAD}keep = ['conditioning >= 0.1']\nposes = {{ region = 10 }}\nassess = {{ points = 5 }}\n[[vary]]\nby = 'sobol'\ncount = 8\n[vary.values]\noffsets = {{ from = 0.1, to = 0.9 }}\n[[vary]]\nby = 'grid'\nvalues = {{ 'home.position.3' = {{ from = 1, to = 2, count = 3, scale = 'log' }} }}\n"
     );
     assert!(plan(&good).is_ok(), "{:?}", plan(&good));
-    let mut rng = crate::num::Rng::new(11);
+    let mut rng = num::Rng::new(11);
     let pieces =
         ["[", "]", "{", "}", "'", "=", "1e99", "-1", "\n", "nan", ".", "vary", "0", "\u{e9}", "from", ","];
     let (mut read, mut refused) = (0, 0);

@@ -2,7 +2,7 @@
 
 mod sobol;
 
-use crate::num::{Purpose, Rng};
+use num::{Purpose, Rng};
 
 pub(super) use sobol::DIMENSIONS;
 use sobol::scrambled;

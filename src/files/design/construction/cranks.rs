@@ -5,8 +5,8 @@ use nalgebra::{Unit, Vector3};
 use super::resolve::{Fault, Owner, ordered};
 use super::{Constructions, CoordinatePlane, WrittenNumber};
 use crate::files::design::Code;
-use crate::machine::rotary::Elbow;
-use crate::num::real::RealNumber;
+use machine::rotary::Elbow;
+use num::real::RealNumber;
 
 /// Greatest magnitude of a length: its fourth power still fits a double.
 const LARGEST: f64 = 1e60;

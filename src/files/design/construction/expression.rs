@@ -10,8 +10,8 @@
 
 use std::ops::Range;
 
-use crate::num::exact::{Rational, decimal};
-use crate::num::real::{NoReal, RealNumber};
+use num::exact::{Rational, decimal};
+use num::real::{NoReal, RealNumber};
 
 /// Most bytes of an expression.
 const MAX_LENGTH: usize = 2000;

@@ -2,7 +2,6 @@
 
 mod cranks;
 pub(super) mod expression;
-#[cfg(feature = "synthesis")]
 mod origins;
 pub(super) mod resolve;
 #[cfg(test)]
@@ -15,13 +14,12 @@ use nalgebra::Point3;
 pub use self::cranks::CrankLimits;
 pub(super) use self::cranks::{CrankCopy, PARTS, WrittenCrank, WrittenCranks};
 use self::expression::{Expression, Slip};
-#[cfg(feature = "synthesis")]
 pub(crate) use self::origins::Origin;
-use crate::num::exact::rational;
-use crate::num::real::RealNumber;
-use crate::num::surd::{Surd, generators};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use num::exact::rational;
+use num::real::RealNumber;
+use num::surd::{Surd, generators};
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 /// How well the coordinates of a joint are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -98,7 +96,6 @@ impl WrittenNumber {
     }
 
     /// The decimal with the fewest digits that is read to a finite double.
-    #[cfg(feature = "synthesis")]
     pub(crate) fn shortest(x: f64) -> Option<Self> {
         Some(Self { written: Spelling::Number(x), tree: Expression::parse(&format!("{x:?}")).ok()? })
     }
@@ -293,7 +290,7 @@ impl ExactJoint {
             RealNumber::Exact(x) => x.to_string(),
             RealNumber::Within(e) => {
                 let (low, high) = e.ends();
-                let ends = (crate::num::exact::nearest(low), crate::num::exact::nearest(high));
+                let ends = (num::exact::nearest(low), num::exact::nearest(high));
                 format!("[{:?}, {:?}]", ends.0.next_down(), ends.1.next_up())
             }
         };

@@ -3,8 +3,8 @@
 use super::resolve::on_line;
 use super::{Construction, Constructions, LinePlace, RealPoint, WrittenHome, WrittenNumber};
 use crate::files::design::Design;
-use crate::num::real::RealNumber;
-use crate::platform::manipulator::Body;
+use num::real::RealNumber;
+use platform::manipulator::Body;
 
 /// Where a joint comes from, in the joints of the same body of the design before.
 #[derive(Debug, Clone, Copy, PartialEq)]

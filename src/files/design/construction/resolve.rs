@@ -12,8 +12,8 @@ use super::{
 };
 use crate::files::design::Code;
 use crate::files::design::validate::nearest_help;
-use crate::num::real::{NoReal, RealNumber};
-use crate::platform::manipulator::Body;
+use num::real::{NoReal, RealNumber};
+use platform::manipulator::Body;
 
 /// Most operations of all constructions of a design, square roots counted as twenty.
 const MAX_WORK: usize = 12_000;

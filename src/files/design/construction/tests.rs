@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::Exactness;
 use crate::files::design::{Code, Design, Format, JointError, Violation, parse};
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 /// A design with these lines in `[parameters]` and `[base]`.
 fn text(parameters: &str, base: &str) -> String {
@@ -93,7 +93,7 @@ fn an_equilateral_triangle_is_equilateral() {
     );
     let points = d.exact_points(Body::Base);
     let square = |i: usize, j: usize| {
-        (0..3).fold(crate::num::real::RealNumber::integer(0), |sum, k| {
+        (0..3).fold(num::real::RealNumber::integer(0), |sum, k| {
             let x = points[i][k].minus(&points[j][k]).unwrap();
             sum.plus(&x.times(&x).unwrap()).unwrap()
         })

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::as_map;
 use crate::files::design::{CalibrationTable, Correlations, Design};
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 /// `[calibration]`.
 #[derive(Serialize)]

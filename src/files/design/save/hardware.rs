@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::machine::requirements::{Hardware, Housing, JointAxes, JointType, LegPart, LengthLimits};
-use crate::platform::manipulator::Body;
+use machine::requirements::{Hardware, Housing, JointAxes, JointType, LegPart, LengthLimits};
+use platform::manipulator::Body;
 
 /// A diameter, or three edge lengths.
 #[derive(Serialize)]

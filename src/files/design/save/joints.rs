@@ -6,7 +6,7 @@ use serde::ser::{SerializeMap, Serializer};
 use super::as_map;
 use crate::files::design::construction::{CrankCopy, Spelling, WrittenCrank, WrittenCranks};
 use crate::files::design::{Construction, LinePlace, WrittenNumber};
-use crate::machine::rotary::Elbow;
+use machine::rotary::Elbow;
 
 /// `[cranks]`: what is said of all cranks, and of single ones by name.
 #[derive(Serialize)]

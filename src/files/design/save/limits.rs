@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::machine::requirements::{Envelope, Envelopes, Reserve, Reserves, TermKind};
+use machine::requirements::{Envelope, Envelopes, Reserve, Reserves, TermKind};
 
 /// A percentage, or an amount.
 #[derive(Serialize)]

@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 
-use crate::machine::requirements::{KeepOut, KeepOutShape, Load, Payload, PlateMass};
+use machine::requirements::{KeepOut, KeepOutShape, Load, Payload, PlateMass};
 
 /// `[payload]`.
 #[derive(Serialize)]

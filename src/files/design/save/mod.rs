@@ -22,8 +22,8 @@ use self::optimize::OptimizeFile;
 use self::plates::{HolesTable, PlatesTable};
 use self::poses::{HomeTable, PoseTable, WorkspaceTable};
 use super::{Design, SearchTable, WrittenNumber};
-use crate::machine::requirements::{ForceUnit, ListedFrom, MassUnit, Region};
-use crate::platform::manipulator::Body;
+use machine::requirements::{ForceUnit, ListedFrom, MassUnit, Region};
+use platform::manipulator::Body;
 
 /// The structure of a file, in the order it is written.
 #[derive(Serialize)]

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::files::design::{Combination, OptimizeTable, SearchTable};
-use crate::machine::requirements::KeptSymmetry;
+use machine::requirements::KeptSymmetry;
 
 #[derive(Serialize, PartialEq)]
 pub(super) struct WeightedObjective {

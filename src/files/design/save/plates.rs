@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::machine::requirements::{Grid, HolePattern, PlateDesign, Plates};
-use crate::platform::manipulator::Body;
+use machine::requirements::{Grid, HolePattern, PlateDesign, Plates};
+use platform::manipulator::Body;
 
 /// A grid of `[holes]`.
 #[derive(Serialize)]

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::files::design::construction::WrittenHome;
 use crate::files::design::{Design, WrittenNumber};
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 #[derive(Serialize)]
 pub(super) struct PoseTable {

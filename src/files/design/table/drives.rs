@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::sheet::{InvalidSheet, Sheet, SheetRow};
 use crate::files::design::{micrometres, nearest_word};
-use crate::machine::requirements::{ForceUnit, LengthLimits, MassUnit};
+use machine::requirements::{ForceUnit, LengthLimits, MassUnit};
 
 /// A linear drive, in the units of a design.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,8 +3,8 @@
 use nalgebra::Point3;
 
 use super::points::InvalidPointTable;
-use crate::platform::geom::{Angles, Pose};
-use crate::platform::manipulator::Leg;
+use platform::geom::{Angles, Pose};
+use platform::manipulator::Leg;
 
 /// What the settings say.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::points::PointTable;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Leg;
+use platform::geom::Pose;
+use platform::manipulator::Leg;
 
 /// A length unit for a design that comes out of a file.
 #[derive(Debug, Clone, PartialEq)]

@@ -17,8 +17,8 @@ use thiserror::Error;
 
 use super::text::decode;
 use crate::files::design::{Design, HexapodSizes};
-use crate::machine::rotary::{Elbow, RotaryPlatform};
-use crate::num::names::{UnknownName, named};
+use machine::rotary::{Elbow, RotaryPlatform};
+use num::names::{UnknownName, named};
 
 /// Whose sheet it is: it says which of `L3` and `L4` is the long side of the base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,8 +7,8 @@ use super::tables::is_normal;
 use crate::files::design::Design;
 use crate::files::design::tree::{Entry, Node, Value, find};
 use crate::files::design::violation::Findings;
-use crate::machine::requirements::{JointAxes, plate_normal};
-use crate::platform::manipulator::Body;
+use machine::requirements::{JointAxes, plate_normal};
+use platform::manipulator::Body;
 
 /// Puts the normals in where the file names them, and checks the axes of universal joints once more.
 pub(super) fn turn_to_normals(report: &mut Findings<'_>, top: &[Entry], design: &mut Design) {

@@ -7,7 +7,7 @@ use super::{check_keys, element_span, elements, nearest_help, number, numbers, s
 use crate::files::design::tree::{Entry, Node, Value, find};
 use crate::files::design::violation::Findings;
 use crate::files::design::{CalibratedNumber, CalibrationTable, Code, Correlations};
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
 pub(super) const CALIBRATION_KEYS: [&str; 5] =
     ["offsets", "offset_deviations", "base_deviations", "platform_deviations", "correlations"];

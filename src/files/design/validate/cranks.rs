@@ -10,7 +10,7 @@ use crate::files::design::construction::{
 use crate::files::design::tree::{Entry, Node, Span, Value, find};
 use crate::files::design::violation::Findings;
 use crate::files::design::{Code, Design};
-use crate::machine::rotary::Elbow;
+use machine::rotary::Elbow;
 
 /// Keys of all cranks and of single ones.
 pub(super) const CRANK_KEYS: [&str; 6] = ["length", "rod_length", "axis", "zero", "elbow", "angle_deg"];

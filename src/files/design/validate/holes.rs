@@ -5,7 +5,7 @@ use super::{check_keys, nearest_help, number, numbers, shown, table, text};
 use crate::files::design::Code;
 use crate::files::design::tree::{Entry, Node, Span, Value, find};
 use crate::files::design::violation::Findings;
-use crate::machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern};
+use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern};
 
 /// The plates, base first.
 pub(super) const PLATE_KEYS: [&str; 2] = ["base", "platform"];

@@ -8,8 +8,8 @@ use super::{check_keys, element_span, number, numbers, shown, table, text};
 use crate::files::design::Code;
 use crate::files::design::tree::{Entry, Node, Value, find};
 use crate::files::design::violation::Findings;
-use crate::machine::requirements::{Hardware, Housing, JointAxes, UniversalJoint};
-use crate::platform::manipulator::Body;
+use machine::requirements::{Hardware, Housing, JointAxes, UniversalJoint};
+use platform::manipulator::Body;
 
 /// What the joints of a body are, leg by leg.
 #[derive(Debug, Clone, Copy, Default)]

@@ -10,7 +10,7 @@ use crate::files::design::construction::{Construction, Constructions};
 use crate::files::design::tree::{Entry, Node, Span, Value};
 use crate::files::design::violation::Findings;
 use crate::files::design::{Code, Warning};
-use crate::platform::manipulator::{Body, is_collinear};
+use platform::manipulator::{Body, is_collinear};
 
 /// A joint of the file. One with bad coordinates is kept so that legs still find its name.
 #[derive(Debug)]

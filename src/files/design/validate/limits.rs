@@ -8,7 +8,7 @@ use crate::files::design::Code;
 use crate::files::design::scale::micrometres;
 use crate::files::design::tree::{Entry, Node, Value, find};
 use crate::files::design::violation::Findings;
-use crate::machine::requirements::{
+use machine::requirements::{
     Envelope, Envelopes, ForceUnit, GRAVITY, MassUnit, Payload, PlateMass, Reserve, Reserves, TermKind,
 };
 

@@ -20,7 +20,7 @@ use self::joints::{Legs, NamedJoints};
 use super::tree::{Entry, Node, Span, Value, find};
 use super::violation::Findings;
 use super::{Code, Design, Warning, nearest_word};
-use crate::platform::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
+use platform::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 
 /// Words less similar than this are no help.
 const NEAR: f64 = 0.7;

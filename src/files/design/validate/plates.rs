@@ -6,10 +6,8 @@ use crate::files::design::scale::micrometres;
 use crate::files::design::tree::{Entry, find};
 use crate::files::design::violation::Findings;
 use crate::files::design::{Code, Design};
-use crate::machine::requirements::{
-    BoltPattern, BoltsFrom, Hardware, MATERIALS, PlateDesign, PlateMass, Plates,
-};
-use crate::platform::manipulator::Body;
+use machine::requirements::{BoltPattern, BoltsFrom, Hardware, MATERIALS, PlateDesign, PlateMass, Plates};
+use platform::manipulator::Body;
 
 /// The plates, base first.
 pub(super) const PLATES_KEYS: [&str; 2] = ["base", "platform"];

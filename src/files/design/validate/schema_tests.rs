@@ -10,7 +10,7 @@ use super::plates::{BOLT_KEYS, PLATE_TABLE_KEYS, PLATES_KEYS};
 use super::search::SEARCH_KEYS;
 use super::tables::{HARDWARE_KEYS, LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
 use crate::files::design::SCHEMA;
-use crate::machine::requirements::{HolePattern, Objective, TermKind, VariableKind};
+use machine::requirements::{HolePattern, Objective, TermKind, VariableKind};
 
 fn sorted<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let mut names: Vec<&str> = names.into_iter().collect();

@@ -7,7 +7,7 @@ use super::{check_keys, nearest_help, number, numbers, shown, table};
 use crate::files::design::tree::{Entry, Node, Value, find};
 use crate::files::design::violation::Findings;
 use crate::files::design::{Code, Combination, SearchTable};
-use crate::machine::requirements::{KeptSymmetry, Objective, VariableKind};
+use machine::requirements::{KeptSymmetry, Objective, VariableKind};
 
 /// The keys read here.
 pub(super) const SEARCH_KEYS: [&str; 11] = [

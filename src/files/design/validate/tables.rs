@@ -11,12 +11,12 @@ use crate::files::design::construction::WrittenHome;
 use crate::files::design::tree::{Entry, Node, Value, find};
 use crate::files::design::violation::Findings;
 use crate::files::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
-use crate::machine::requirements::{
+use machine::requirements::{
     Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits,
     ListedFrom, Load, PlatformSpeed, PlatformStiffness, Region, Swing,
 };
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 pub(super) const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
 pub(super) const WORKSPACE_KEYS: [&str; 7] =

@@ -14,10 +14,10 @@ use nalgebra::{Point3, Vector3};
 
 use super::text::{ascii, commented};
 use super::{Export, ExportedFile, Unsupported, Writer};
-use crate::fk::{NearNumbers, NearSolver};
-use crate::machine::requirements::{Hardware, JointAxes, Swing};
-use crate::platform::geom::{Pose, any_across};
-use crate::platform::manipulator::{Body, Manipulator};
+use fk::{NearNumbers, NearSolver};
+use machine::requirements::{Hardware, JointAxes, Swing};
+use platform::geom::{Pose, any_across};
+use platform::manipulator::{Body, Manipulator};
 
 /// The format `c`.
 #[derive(Debug)]

@@ -6,13 +6,13 @@ use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
 use super::{EquivalentOctahedral, braces, heading, number};
 use crate::files::export::Export;
-use crate::fk::{NearOptions, NearOutcome, NearSolver, WhyLost};
-use crate::machine::reach::{PoseAxis, Reach, StraightWay};
-use crate::machine::requirements::{Hardware, Limit, Requirements, TermKind, Terms};
-use crate::num::Rng;
-use crate::num::double_double::DoubleDouble;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{SquaredLegLengths, jacobian};
+use fk::{NearOptions, NearOutcome, NearSolver, WhyLost};
+use machine::reach::{PoseAxis, Reach, StraightWay};
+use machine::requirements::{Hardware, Limit, Requirements, TermKind, Terms};
+use num::Rng;
+use num::double_double::DoubleDouble;
+use platform::geom::Pose;
+use platform::manipulator::{SquaredLegLengths, jacobian};
 
 /// Seed of the poses.
 const SEED: u64 = 21;

@@ -1,6 +1,6 @@
 //! Hole plans of the plates as DXF R12 in millimetres.
 
-use crate::num::shown::fixed;
+use num::shown::fixed;
 mod dimension;
 mod page;
 

@@ -8,7 +8,7 @@ use super::swing::{self, SwingTendon};
 use super::{Export, ModelMasses, Scale, Unsupported, opening, platform, quat, shape};
 use crate::files::export::model::ExportCranks;
 use crate::files::export::text::{real, reals};
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// Natural gains of the actuators over those of legs that change their lengths, times the square of the length of the crank.
 fn gains(scale: &Scale, length: f64) -> (f64, f64) {

@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 use crate::files::export::Export;
 use crate::files::export::text::{real, reals};
-use crate::machine::requirements::{LegMasses, LegPart};
+use machine::requirements::{LegMasses, LegPart};
 
 /// Each rod has this share of the mass of the platform moving along it where the platform can spare it.
 const WANTED: f64 = 0.05;

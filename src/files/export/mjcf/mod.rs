@@ -12,8 +12,8 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use super::text::{one_line, real, reals, scaled, xml_comment};
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Unsupported, Writer};
 use crate::files::plot::escape;
-use crate::machine::requirements::{JointAxes, KeepOutShape};
-use crate::platform::geom::{Pose, any_across};
+use machine::requirements::{JointAxes, KeepOutShape};
+use platform::geom::{Pose, any_across};
 
 use self::masses::ModelMasses;
 use self::swing::SwingTendon;

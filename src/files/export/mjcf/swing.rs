@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use nalgebra::Vector3;
 
 use super::{Export, ExportLeg, Scale, Unsupported, real};
-use crate::machine::requirements::JointAxes;
+use machine::requirements::JointAxes;
 
 /// Distance of both ends of the tendon from the joint, over the length of the leg at home or of the rod.
 const AWAY: f64 = 0.1;

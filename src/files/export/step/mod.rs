@@ -12,8 +12,8 @@ use self::assembly::{Group, Part, StepAssembly};
 use super::telescope::{LegKind, Telescope, kind_suffix};
 use super::text::rounded;
 use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
-use crate::machine::requirements::Housing;
-use crate::platform::geom::{Pose, any_across};
+use machine::requirements::Housing;
+use platform::geom::{Pose, any_across};
 
 /// The format `step`.
 #[derive(Debug)]

@@ -5,7 +5,7 @@ use nalgebra::{Point2, Point3, Vector3};
 use super::builder::{Builder, Id};
 use crate::files::export::Plate;
 use crate::files::export::text::step_real;
-use crate::machine::requirements::{OutlinePart, on_circle};
+use machine::requirements::{OutlinePart, on_circle};
 
 fn at(p: &Point2<f64>, z: f64) -> Point3<f64> {
     Point3::new(p.x, p.y, z)

@@ -15,10 +15,10 @@ use thiserror::Error;
 
 use self::strip::{Strip, StripClosure};
 use self::tower::{Divisor, FieldPoly, Ring, STEPS};
-use crate::num::Rng;
-use crate::num::poly::{Dyadic, IntPoly, RealRoot, gcd, real_roots, squarefree_factors};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
-use crate::platform::topology::{JointIndex, Sequence};
+use num::Rng;
+use num::poly::{Dyadic, IntPoly, RealRoot, gcd, real_roots, squarefree_factors};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::topology::{JointIndex, Sequence};
 
 /// Why there is no closure polynomial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]

@@ -21,7 +21,7 @@
 
 use super::tower::{Divisor, Fraction, Fractions, Ring, STEPS, is_zero, zero};
 use super::{ClosureError, ExactData, cross, dot, minus};
-use crate::platform::topology::{JointIndex, Sequence, Step};
+use platform::topology::{JointIndex, Sequence, Step};
 
 /// A closure of a sequence: the squared distance between the two joints, computed, is the known one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,8 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use super::super::plans;
 use super::strip::literal;
 use super::*;
-use crate::num::poly::complex_roots;
-use crate::platform::topology::{catalogue, sequences};
+use num::poly::complex_roots;
+use platform::topology::{catalogue, sequences};
 
 /// Poses of generic members, found and certified by the homotopy (`docs/theory/topologies.md`).
 const POSES: [usize; 34] = [

@@ -11,8 +11,8 @@
 
 use num_bigint::{BigInt, Sign};
 
-use crate::num::modular::Field;
-use crate::num::poly::IntPoly;
+use num::modular::Field;
+use num::poly::IntPoly;
 
 /// `Z[x]` or a quotient of it.
 pub(super) trait Ring: Clone + PartialEq {
@@ -64,7 +64,7 @@ impl Ring for IntPoly {
     }
 
     fn squarefree_degree(&self) -> usize {
-        crate::num::poly::squarefree_factors(self).iter().filter_map(|f| f.factor.degree()).sum()
+        num::poly::squarefree_factors(self).iter().filter_map(|f| f.factor.degree()).sum()
     }
 }
 
@@ -462,8 +462,8 @@ impl<R: Ring> Fractions<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::num::poly::IntPoly;
+    use num::Rng;
+    use num::poly::IntPoly;
 
     #[test]
     fn the_prime_field_is_an_image_of_the_integers() {

@@ -10,7 +10,7 @@ use super::HiddenPoses;
 use super::chebyshev::{Chebyshev, around, nodes};
 use super::legs::{HiddenLeg, Roles, complex};
 use super::roots::closure_zeros;
-use crate::platform::geom::ComplexPose;
+use platform::geom::ComplexPose;
 
 /// Poses of a 6-6.
 const DEGREE: usize = 40;

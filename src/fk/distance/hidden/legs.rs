@@ -10,9 +10,9 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::rotations::{Arm, ComplexAngles, Setting, Three, evaluate};
-use crate::num::batch::ComplexBatch;
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use num::batch::ComplexBatch;
+use platform::geom::ComplexPose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// The points with given squared distances to two fixed points, `c + r (cos t e1 + sin t e2)` with `w = exp(i t)`.
 ///
@@ -307,7 +307,7 @@ mod tests {
 
     #[test]
     fn the_topologies_with_two_virtual_legs_have_ways_and_no_others() {
-        use crate::platform::topology::catalogue;
+        use platform::topology::catalogue;
         for n in catalogue() {
             let t = n.topology();
             for legs in [t.legs(), t.legs().map(|l| (l.1, l.0))] {

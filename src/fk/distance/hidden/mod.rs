@@ -15,8 +15,8 @@ mod rotations;
 use self::general::{GeneralRoles, general_poses};
 use self::legs::{HiddenLeg, Roles, scaled, unscaled};
 use self::roots::closure_zeros;
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::geom::ComplexPose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// A pose at a zero is also kept when one step on the circle leads to it that is shorter than this.
 const CLOSE: f64 = 1e-6;

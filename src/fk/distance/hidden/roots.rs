@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 
 use super::legs::{HiddenClosure, Poses, Scratch};
-use crate::num::poly::approximate_roots;
+use num::poly::approximate_roots;
 
 /// Sweeps after which a zero that still moves is left where it is.
 const SWEEPS: usize = 30;

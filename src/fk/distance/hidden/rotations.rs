@@ -12,8 +12,8 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::legs::{complex, perpendicular};
-use crate::num::batch::{ComplexBatch, LANES};
-use crate::num::poly::repulsion;
+use num::batch::{ComplexBatch, LANES};
+use num::poly::repulsion;
 
 /// A leg whose platform end is at `b` from the known joint.
 #[derive(Debug, Clone, Copy)]
@@ -295,7 +295,7 @@ fn all(c: Complex64) -> ComplexBatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     #[test]
     fn finds_the_roots_from_nothing_and_from_a_neighbour() {

@@ -4,8 +4,8 @@ use num_complex::Complex64;
 use super::general::refined;
 use super::legs::{Roles, Scratch};
 use super::*;
-use crate::num::Rng;
-use crate::platform::geom::{Pose, random_rotation};
+use num::Rng;
+use platform::geom::{Pose, random_rotation};
 
 /// Legs of the three topologies with two virtual legs, of one of them with the bodies exchanged, and of the 6-6, with the number of poses.
 const CLASSES: [([(usize, usize); 6], usize); 4] = [

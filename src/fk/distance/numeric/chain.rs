@@ -6,12 +6,12 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::number::{LaneNumber, Places, Vector, along, cross, dot, minus, squared_distance};
-use crate::fk::distance::plan::coordinates;
-use crate::num::batch::{ComplexBatch, LANES};
-use crate::num::vector_unit::on_vector_unit;
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::Manipulator;
-use crate::platform::topology::{JointIndex, Sequence, Step};
+use crate::distance::plan::coordinates;
+use num::batch::{ComplexBatch, LANES};
+use num::vector_unit::on_vector_unit;
+use platform::geom::ComplexPose;
+use platform::manipulator::Manipulator;
+use platform::topology::{JointIndex, Sequence, Step};
 
 /// Places for six joints of the first body and three of the second.
 const SLOTS: usize = 9;

@@ -15,12 +15,12 @@ pub use shape::GenericDegrees;
 use num_complex::Complex64;
 
 use self::chain::ChainBranch;
-use crate::num::batch::LANES;
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::Manipulator;
-use crate::platform::topology::{JointIndex, Sequence};
 use chain::{Positions, TrilaterationChain};
+use num::batch::LANES;
 use number::squared_distance;
+use platform::geom::ComplexPose;
+use platform::manipulator::Manipulator;
+use platform::topology::{JointIndex, Sequence};
 
 /// A sequence prepared for a design, for any lengths.
 #[derive(Debug, Clone)]

@@ -6,7 +6,7 @@ use std::ops::{Add, Mul, Sub};
 
 use num_complex::Complex64;
 
-use crate::num::batch::{ComplexBatch, LANES};
+use num::batch::{ComplexBatch, LANES};
 
 /// One complex number, or [`LANES`] of them.
 pub(super) trait LaneNumber:
@@ -146,7 +146,7 @@ impl<T: LaneNumber> Places<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     #[test]
     fn both_places_have_the_distances() {

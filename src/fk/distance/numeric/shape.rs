@@ -6,10 +6,10 @@ use num_complex::Complex64;
 
 use super::chain::{ChainBranch, Exponents, TrilaterationChain};
 use super::each_start;
-use crate::num::poly::approximate_roots;
-use crate::num::{Purpose, Rng};
-use crate::platform::manipulator::Manipulator;
-use crate::platform::topology::{JointIndex, Sequence};
+use num::poly::approximate_roots;
+use num::{Purpose, Rng};
+use platform::manipulator::Manipulator;
+use platform::topology::{JointIndex, Sequence};
 
 /// Degrees that hold for all designs of a topology: almost all have them, the others may have less.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

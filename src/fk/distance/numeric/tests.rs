@@ -3,10 +3,10 @@
 use nalgebra::{Point3, Vector3};
 
 use super::*;
-use crate::fk::distance::plans;
-use crate::num::Rng;
-use crate::platform::geom::{Pose, random_rotation};
-use crate::platform::topology::{NamedTopology, catalogue};
+use crate::distance::plans;
+use num::Rng;
+use platform::geom::{Pose, random_rotation};
+use platform::topology::{NamedTopology, catalogue};
 
 /// A design of a topology and the squared leg lengths of a random pose.
 fn problem(legs: [(usize, usize); 6], seed: u64) -> (Manipulator, Vec<Complex64>) {
@@ -111,7 +111,7 @@ fn given_virtual_legs_are_lengths_like_others() {
         for f in &c.found {
             for (leg, square) in m.pairs().iter().zip(&all) {
                 if left_out[0].across(left_out[1]) != Some(*leg) {
-                    let ends = crate::platform::manipulator::Leg {
+                    let ends = platform::manipulator::Leg {
                         base: m.base_joints()[leg.0],
                         platform: m.platform_joints()[leg.1],
                     };

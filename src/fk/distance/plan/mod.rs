@@ -4,8 +4,8 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use super::cayley_menger::Base;
-use crate::platform::manipulator::Manipulator;
-use crate::platform::topology::{JointIndex, Nesting, Sequence, sequences};
+use platform::manipulator::Manipulator;
+use platform::topology::{JointIndex, Nesting, Sequence, sequences};
 
 /// Why a design has no trilateration sequence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -56,7 +56,7 @@ pub fn fit(m: &Manipulator, s: &Sequence) -> Option<(f64, Sequence)> {
 }
 
 /// Coordinates of a joint in the frame of its body.
-pub(crate) fn coordinates(m: &Manipulator, joint: JointIndex) -> Point3<f64> {
+pub(super) fn coordinates(m: &Manipulator, joint: JointIndex) -> Point3<f64> {
     match joint {
         JointIndex::Base(k) => m.base_joints()[k],
         JointIndex::Platform(k) => m.platform_joints()[k],

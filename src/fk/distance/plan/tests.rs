@@ -1,8 +1,8 @@
 //! Plans for designs of all topologies.
 
 use super::*;
-use crate::num::Rng;
-use crate::platform::topology::catalogue;
+use num::Rng;
+use platform::topology::catalogue;
 
 /// A design of a topology with joints drawn from a cube.
 fn design(legs: [(usize, usize); 6], seed: u64, flat: bool) -> Manipulator {

@@ -1,7 +1,7 @@
 use super::*;
-use crate::num::Rng;
-use crate::platform::manipulator::{Leg, Manipulator};
 use nalgebra::Point3;
+use num::Rng;
+use platform::manipulator::{Leg, Manipulator};
 
 fn problem(seed: u64) -> (NearSolver, Place, [f64; 6]) {
     let mut rng = Rng::new(seed);
@@ -10,9 +10,8 @@ fn problem(seed: u64) -> (NearSolver, Place, [f64; 6]) {
         Leg { base: p(), platform: p() }
     });
     let m = Manipulator::from_legs(legs).unwrap();
-    let rotation = crate::platform::geom::random_rotation(&mut rng);
-    let pose =
-        crate::platform::geom::Pose { rotation, position: nalgebra::Vector3::from_fn(|_, _| rng.normal()) };
+    let rotation = platform::geom::random_rotation(&mut rng);
+    let pose = platform::geom::Pose { rotation, position: nalgebra::Vector3::from_fn(|_, _| rng.normal()) };
     let solver = NearSolver::new(&m);
     let place = solver.place_of(&pose);
     (solver, place, std::array::from_fn(|_| rng.uniform(0.5, 3.0)))
@@ -150,10 +149,9 @@ fn the_exact_problem_is_within_the_blur() {
         let double = |x: &Exact| num_traits::ToPrimitive::to_f64(x).unwrap();
         let rotation = std::array::from_fn(|i| std::array::from_fn(|j| double(&turn[i][j])));
         let place = Place { rotation, position: std::array::from_fn(|_| rng.normal()) };
-        let l = crate::platform::manipulator::LegLengths::try_new(std::array::from_fn(|_| {
-            rng.uniform(1.0, 4.0) + far
-        }))
-        .unwrap();
+        let l =
+            platform::manipulator::LegLengths::try_new(std::array::from_fn(|_| rng.uniform(1.0, 4.0) + far))
+                .unwrap();
         let s = l.squared();
         let (target, error) = solver.target(&s);
         let here = Local::at(&solver, &place, &target);

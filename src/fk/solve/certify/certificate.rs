@@ -5,12 +5,12 @@ use thiserror::Error;
 
 use super::cluster::ClusterCertificate;
 use super::octahedral::OctahedralCertificate;
-use crate::num::ball::Disc;
-use crate::num::rounding::UnfitArithmetic;
-use crate::platform::geom::ComplexPose;
+use num::ball::Disc;
+use num::rounding::UnfitArithmetic;
+use platform::geom::ComplexPose;
 
 /// Signs of `(e, g)` under the mirror in `z = 0`, up to a common one.
-pub(crate) const MIRROR: [f64; 8] = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
+pub const MIRROR: [f64; 8] = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
 
 /// Entries of `R` that change sign under the mirror.
 const TURNED_BY_MIRROR: [(usize, usize); 4] = [(0, 2), (1, 2), (2, 0), (2, 1)];
@@ -18,7 +18,7 @@ const TURNED_BY_MIRROR: [(usize, usize); 4] = [(0, 2), (1, 2), (2, 0), (2, 1)];
 /// What is proved about a root being a real pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -34,7 +34,7 @@ pub enum ProvedReality {
 /// Precision in which the equations had to be evaluated at the centre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -61,12 +61,12 @@ impl PoseEnclosure {
     }
 
     /// Proves that no pose is in both.
-    pub(crate) fn is_disjoint(&self, other: &Self) -> bool {
+    pub fn is_disjoint(&self, other: &Self) -> bool {
         self.discs().zip(other.discs()).any(|(x, y)| x.is_disjoint(y))
     }
 
     /// The centres of the discs.
-    pub(crate) fn middle(&self) -> ComplexPose {
+    pub fn middle(&self) -> ComplexPose {
         ComplexPose {
             rotation: nalgebra::Matrix3::from_fn(|i, j| self.rotation[i][j].centre),
             position: nalgebra::Vector3::from_fn(|i, _| self.position[i].centre),
@@ -123,7 +123,7 @@ impl Certificate {
     }
 
     /// The nearest doubles of the centre with `g` in design units.
-    pub(crate) fn point(&self) -> [Complex64; 8] {
+    pub fn point(&self) -> [Complex64; 8] {
         std::array::from_fn(|k| if k < 4 { self.centre[k] } else { self.centre[k] * self.unit })
     }
 
@@ -156,7 +156,7 @@ impl Certificate {
     }
 
     /// Whether the point `(e, g)` (any scale, `g` in design units) lies in the ball in which the root is the only one.
-    pub(crate) fn is_near(&self, x: &[Complex64; 8]) -> bool {
+    pub fn is_near(&self, x: &[Complex64; 8]) -> bool {
         let one = x[self.patch];
         let limit = self.uniqueness_radius * self.uniqueness_radius * one.norm_sqr();
         (0..8).all(|j| {
@@ -216,14 +216,16 @@ impl Certificate {
 
 /// A proved root and its pose, rounded from the best approximation at hand.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct CertifiedPose {
-    pub(crate) pose: ComplexPose,
-    pub(crate) certificate: Certificate,
+pub struct CertifiedPose {
+    /// The pose, rounded.
+    pub pose: ComplexPose,
+    /// The proof.
+    pub certificate: Certificate,
 }
 
 impl CertifiedPose {
-    /// The mirror image in `z = 0`, see [`Certificate::mirror`].
-    pub(crate) fn mirrored(&self) -> Self {
+    /// The mirror image in `z = 0`, see `Certificate::mirror`.
+    pub fn mirrored(&self) -> Self {
         let mut out = *self;
         for (i, j) in TURNED_BY_MIRROR {
             out.pose.rotation[(i, j)] = -out.pose.rotation[(i, j)];
@@ -234,7 +236,7 @@ impl CertifiedPose {
     }
 
     /// The complex conjugate root.
-    pub(crate) fn conjugate(&self) -> Self {
+    pub fn conjugate(&self) -> Self {
         let mut out = *self;
         for z in out.pose.rotation.iter_mut().chain(out.pose.position.iter_mut()) {
             z.im = -z.im;

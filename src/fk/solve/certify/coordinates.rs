@@ -10,11 +10,11 @@ use num_complex::Complex64;
 use super::certificate::{PoseEnclosure, WhyUncertified};
 use super::krawczyk::largest;
 use super::system::Study;
-use crate::num::ball::WideDisc;
-use crate::num::ball::{Disc, UP};
-use crate::num::double_double::{ComplexDoubleDouble, DoubleDouble};
-use crate::num::octuple::{ComplexOctuple, Octuple};
-use crate::platform::geom::ComplexPose;
+use num::ball::WideDisc;
+use num::ball::{Disc, UP};
+use num::double_double::{ComplexDoubleDouble, DoubleDouble};
+use num::octuple::{ComplexOctuple, Octuple};
+use platform::geom::ComplexPose;
 
 /// Below this `|e.e| / |e|^2` a pose is computed in double-double.
 const FAR: f64 = 1.0 / 16.0;
@@ -65,7 +65,7 @@ pub(super) fn study_of(pose: &ComplexPose, unit: f64) -> Result<Study<f64>, WhyU
 }
 
 /// `(e, g)` of a pose, any scale; `None` for numbers out of range.
-pub(crate) fn dual_quaternion(pose: &ComplexPose) -> Option<[Complex64; 8]> {
+pub fn dual_quaternion(pose: &ComplexPose) -> Option<[Complex64; 8]> {
     let x = study_of(pose, 1.0).ok()?;
     Some(std::array::from_fn(|k| Complex64::new(x.re[k], x.im[k])))
 }

@@ -26,8 +26,8 @@ use super::certificate::WhyUncertified;
 use super::inverse::{PaddedMatrix, apart, equilibrated_inverse};
 use super::krawczyk::{KrawczykBounds, largest};
 use super::system::{LegSystem, N, RealScalar, Study, U, leg_vector, row_sums};
-use crate::num::ball::{TINY, UP};
-use crate::num::double_double::DoubleDouble;
+use num::ball::{TINY, UP};
+use num::double_double::DoubleDouble;
 
 const UNIT: f64 = DoubleDouble::UNIT;
 

@@ -2,8 +2,8 @@
 
 use super::certificate::{CentrePrecision, Certificate, PoseEnclosure};
 use super::cluster::ClusterCertificate;
-use crate::num::ball::UP;
-use crate::num::ball::WideDisc;
+use num::ball::UP;
+use num::ball::WideDisc;
 
 /// How two certified roots of the same problem relate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -152,8 +152,8 @@ pub fn distinct(certificates: &[Certificate]) -> Distinctness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::num::ball::Disc;
+    use num::Rng;
+    use num::ball::Disc;
     use num_complex::Complex64;
 
     /// The pairs are those that a look at all of them finds, whatever the radii.

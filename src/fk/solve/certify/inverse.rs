@@ -103,7 +103,7 @@ pub(super) fn subtract(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     #[test]
     fn the_product_with_the_matrix_is_the_identity() {

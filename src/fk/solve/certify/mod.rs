@@ -43,6 +43,7 @@
 //! `root_near` when the best pose is wanted with its proof.
 //!
 //! ```
+//! # mod equipod { pub mod methods { pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
 //! use equipod::methods::geom::{ComplexPose, Pose};
 //! use equipod::methods::manipulator::{Leg, Manipulator};
 //! use equipod::methods::solve::certify::{ProvedReality, certify};
@@ -83,9 +84,9 @@ pub use certificate::{
     CentrePrecision, Certificate, CertificateOutcome, PoseEnclosure, ProvedReality, RootCertificate,
     WhyUncertified,
 };
-pub(crate) use certificate::{CertifiedPose, MIRROR};
+pub use certificate::{CertifiedPose, MIRROR};
 pub use cluster::ClusterCertificate;
-pub(crate) use coordinates::dual_quaternion;
+pub use coordinates::dual_quaternion;
 pub(crate) use distinct::overlapping_pairs;
 pub use distinct::{Distinctness, RootRelation, distinct, is_of, relation};
 pub use refine::RefinedPose;
@@ -93,13 +94,6 @@ pub use system::SquareData;
 
 use num_complex::Complex64;
 
-use crate::num::ball::UP;
-use crate::num::batch::LANES;
-use crate::num::double_double::DoubleDouble;
-use crate::num::octuple::ComplexOctuple;
-use crate::num::vector_unit::on_vector_unit;
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::Manipulator;
 pub(crate) use cluster::ProvedCluster;
 use cluster::{MOST, clusters_near};
 use coordinates::{
@@ -107,6 +101,13 @@ use coordinates::{
     rounded_pose, study_at, study_of,
 };
 use krawczyk::{Centre, Digits, RootBall, newton_step, one_root_about};
+use num::ball::UP;
+use num::batch::LANES;
+use num::double_double::DoubleDouble;
+use num::octuple::ComplexOctuple;
+use num::vector_unit::on_vector_unit;
+use platform::geom::ComplexPose;
+use platform::manipulator::Manipulator;
 use refine::refine_study;
 use side_by_side::EightPoints;
 use system::{LegSystem, RealScalar, Study};
@@ -150,7 +151,7 @@ pub(crate) enum NewtonStart<'a> {
 pub struct Certifier(LegSystem);
 
 impl Certifier {
-    /// Prepares `m` with the squared leg lengths `s`: [`SquaredLegLengths`](crate::platform::manipulator::SquaredLegLengths) or intervals (design units squared).
+    /// Prepares `m` with the squared leg lengths `s`: [`SquaredLegLengths`](platform::manipulator::SquaredLegLengths) or intervals (design units squared).
     ///
     /// # Errors
     /// [`WhyUncertified::OutOfRange`] when the data cannot be scaled exactly; [`WhyUncertified::Arithmetic`].

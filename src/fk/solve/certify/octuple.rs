@@ -15,9 +15,9 @@ use num_complex::Complex64;
 use super::certificate::WhyUncertified;
 use super::krawczyk::{KrawczykBounds, largest};
 use super::system::{LegSystem, N, Study};
-use crate::num::ball::UP;
-use crate::num::double_double::DoubleDouble;
-use crate::num::octuple::{ComplexOctuple, Octuple, OctupleLu};
+use num::ball::UP;
+use num::double_double::DoubleDouble;
+use num::octuple::{ComplexOctuple, Octuple, OctupleLu};
 
 /// See the module's text.
 const ERROR: f64 = 1.0 / ((1u128 << 120) as f64 * (1u128 << 120) as f64);
@@ -169,14 +169,14 @@ fn second_order(legs: &[LegAt; 6], y: &[ComplexOctuple; N], patch: usize) -> f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::solve::certify::coordinates::study_of;
-    use crate::fk::solve::certify::krawczyk::{Centre, Digits, RootBall, one_root_about};
-    use crate::fk::solve::certify::refine::refine_study;
-    use crate::fk::solve::certify::system::RealScalar;
-    use crate::num::Rng;
-    use crate::platform::geom::{Pose, random_rotation};
-    use crate::platform::manipulator::{Leg, Manipulator};
+    use crate::solve::certify::coordinates::study_of;
+    use crate::solve::certify::krawczyk::{Centre, Digits, RootBall, one_root_about};
+    use crate::solve::certify::refine::refine_study;
+    use crate::solve::certify::system::RealScalar;
     use nalgebra::{Point3, Vector3};
+    use num::Rng;
+    use platform::geom::{Pose, random_rotation};
+    use platform::manipulator::{Leg, Manipulator};
 
     fn known_pose(rng: &mut Rng) -> (Manipulator, Pose) {
         let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal());

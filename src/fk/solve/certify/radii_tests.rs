@@ -1,10 +1,10 @@
 //! Certificates of joints known within radii, against the problems of joints drawn within them.
 
 use super::*;
-use crate::num::Rng;
-use crate::platform::geom::{Pose, random_rotation};
-use crate::platform::manipulator::Leg;
 use nalgebra::{Point3, Vector3};
+use num::Rng;
+use platform::geom::{Pose, random_rotation};
+use platform::manipulator::Leg;
 
 fn problem(rng: &mut Rng, planar: bool) -> (Manipulator, Pose) {
     let mut point = || {

@@ -8,8 +8,8 @@ use num_complex::Complex64;
 use super::certificate::WhyUncertified;
 use super::inverse::equilibrated_inverse;
 use super::system::{LegSystem, N, RealScalar, Study};
-use crate::num::double_double::{ComplexDoubleDouble, DoubleDouble};
-use crate::platform::geom::ComplexPose;
+use num::double_double::{ComplexDoubleDouble, DoubleDouble};
+use platform::geom::ComplexPose;
 
 /// Corrections after which an iteration that has not settled is given up.
 const MAX_STEPS: u32 = 60;

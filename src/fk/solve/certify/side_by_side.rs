@@ -17,9 +17,9 @@ use super::krawczyk::{Centre, KrawczykBounds, holds_one_root};
 use super::octahedral::arithmetic::{Discs, Reals, parts, sizes};
 use super::second_order::{COEFFICIENTS, PAIRS};
 use super::system::{LegSystem, N, Study, U};
-use crate::num::ball::{Disc, TINY, UP};
-use crate::num::batch::{ComplexBatch, LANES};
-use crate::platform::geom::ComplexPose;
+use num::ball::{Disc, TINY, UP};
+use num::batch::{ComplexBatch, LANES};
+use platform::geom::ComplexPose;
 
 /// `|e.e| / |e|^2` below which doubles are not enough for `R` and `p`: as for one point.
 const FAR: f64 = 1.0 / 16.0;
@@ -572,14 +572,14 @@ fn certify<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::solve::certify::refine::refine_study;
-    use crate::fk::solve::certify::system::RealScalar;
-    use crate::fk::solve::certify::{Certifier, NewtonStart, RootRelation, SquareData, relation};
-    use crate::num::Rng;
-    use crate::num::double_double::DoubleDouble;
-    use crate::platform::geom::random_rotation;
-    use crate::platform::manipulator::{Leg, Manipulator};
+    use crate::solve::certify::refine::refine_study;
+    use crate::solve::certify::system::RealScalar;
+    use crate::solve::certify::{Certifier, NewtonStart, RootRelation, SquareData, relation};
     use nalgebra::{Point3, Vector3};
+    use num::Rng;
+    use num::double_double::DoubleDouble;
+    use platform::geom::random_rotation;
+    use platform::manipulator::{Leg, Manipulator};
 
     /// Real and complex roots of a random problem to the digits of a double-double, and its certifier.
     fn roots(rng: &mut Rng, radius: f64) -> (Certifier, Vec<Study<DoubleDouble>>) {
@@ -587,7 +587,7 @@ mod tests {
         let legs = std::array::from_fn(|_| Leg { base: point(), platform: point() });
         let m = Manipulator::from_legs(legs).unwrap();
         let position = Vector3::new(0.3, -0.4, 1.2);
-        let pose = crate::platform::geom::Pose { rotation: random_rotation(rng), position };
+        let pose = platform::geom::Pose { rotation: random_rotation(rng), position };
         let mut data = SquareData::from(&pose.squared_lengths(&m).unwrap());
         data.radius = [radius; 6];
         let certifier = Certifier::new(&m, data).unwrap();

@@ -9,9 +9,9 @@ use super::fast_tracker::{FastPath, FastTracker};
 use super::limits::{FAST, FastTrackerLimits, StepLimits, TrackerLimits};
 use super::start::shipped;
 use super::system::SectionHomotopy;
-use crate::fk::solve::ScaledFrames;
-use crate::num::Rng;
-use crate::platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use crate::solve::ScaledFrames;
+use num::Rng;
+use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 
 /// From the shipped start to six random legs.
 fn homotopy(seed: u64) -> SectionHomotopy<f64> {

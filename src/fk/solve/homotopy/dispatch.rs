@@ -6,7 +6,7 @@ use pulp::{Simd, WithSimd};
 use super::limits::TrackerLimits;
 use super::system::SectionHomotopy;
 use super::tracker::{Tracked, track_lanes};
-use crate::num::vector_unit::on_vector_unit;
+use num::vector_unit::on_vector_unit;
 
 struct TrackAll<'a> {
     homotopy: &'a SectionHomotopy,

@@ -28,16 +28,16 @@ const SMALLEST: f64 = 1e-14;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EndPoint {
     /// Homogeneous solution at `t = 0`, norm one.
-    pub(crate) x: [Complex64; 8],
+    pub x: [Complex64; 8],
     /// Winding number.
-    pub(crate) winding: u32,
+    pub winding: u32,
     /// Distance of the last two means: the accuracy of `x`.
-    pub(crate) accuracy: f64,
+    pub accuracy: f64,
     /// Half the distance of two roots that a loop of two turns cannot tell from a double one, with its direction: they are at
     /// `x` plus and minus this. Lost in rounding for a true double root.
-    pub(crate) split: Option<[Complex64; 8]>,
+    pub split: Option<[Complex64; 8]>,
     /// Newton's method at the target, where the path was followed to it along the real line.
-    pub(crate) regular: Option<PolishedRoot>,
+    pub regular: Option<PolishedRoot>,
 }
 
 /// Ends the path that stands at `x`, real `t > 0` small. `None` when nothing converges.

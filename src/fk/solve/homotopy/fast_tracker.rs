@@ -16,7 +16,7 @@ use super::lu::{eliminate, substitute};
 use super::predictor::{choose_step, predicted};
 use super::quadrics::{Forms, Quadrics};
 use super::system::{Line, Series, blank_series, taylor, values};
-use crate::num::vector_unit::on_vector_unit;
+use num::vector_unit::on_vector_unit;
 
 /// Ratio of corrections below which they are squared by every step, not shrunk by a constant factor: at a double root that is a half.
 const SQUARED: f64 = 1e-2;

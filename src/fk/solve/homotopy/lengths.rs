@@ -18,9 +18,9 @@ use super::paths::{EndKind, HomotopyPath, SAME_END, SETTLED, settle, settle_arri
 use super::polish::polish;
 use super::quadrics::{Forms, Quadrics};
 use super::system::{Coefficient, Line, SectionHomotopy, border};
-use crate::fk::solve::planar::{PLANAR_FORMS, mirror, planar_row};
-use crate::fk::solve::sections::{FORMS, NORM_FORMS, ScaledFrames, Sections};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::planar::{PLANAR_FORMS, mirror, planar_row};
+use crate::solve::sections::{FORMS, NORM_FORMS, ScaledFrames, Sections};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Poses of a design at generic complex squared lengths; of each mirror pair one where the design is doubly planar.
 #[derive(Debug, Clone)]

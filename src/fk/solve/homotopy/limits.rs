@@ -6,22 +6,22 @@ use super::paths::SETTLED;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepLimits {
     /// Size of the last Taylor term aimed at: an estimate of the predictor's error.
-    pub(crate) truncation: f64,
+    pub truncation: f64,
     /// Largest step as a fraction of the estimated radius of convergence.
     pub(crate) radius_fraction: f64,
     /// A first Newton correction larger than this rejects the step.
     pub(crate) first_correction: f64,
     /// A Newton correction below this ends the corrector.
-    pub(crate) accuracy: f64,
+    pub accuracy: f64,
 }
 
 /// Limits of the [tracker](super::tracker) that converges at every step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TrackerLimits {
     /// Of a step.
-    pub(crate) step: StepLimits,
+    pub step: StepLimits,
     /// Most Newton corrections a step.
-    pub(crate) corrections: u32,
+    pub corrections: u32,
     /// Most steps (accepted and rejected) a path.
     pub(crate) most_steps: u32,
 }

@@ -136,8 +136,8 @@ pub(super) fn substitute<S: Simd>(a: &Matrix8<S>, inverse: &Vec8<S>, b: &mut Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::num::vector_unit::on_vector_unit;
+    use num::Rng;
+    use num::vector_unit::on_vector_unit;
     use num_complex::Complex64;
     use pulp::WithSimd;
 

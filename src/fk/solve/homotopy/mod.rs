@@ -28,5 +28,6 @@ pub use start::{SHIPPED_SEED, StartError, start_system_text};
 
 pub(crate) use endgame::projective_distance;
 pub(crate) use lengths::LengthStart;
-pub(crate) use paths::{EndKind, HomotopyPath, follow_finely, solve_sections, unit};
+pub(crate) use paths::follow_finely;
+pub use paths::{EndKind, HomotopyPath, solve_sections, unit};
 pub(crate) use tail::TailEnd;

@@ -11,9 +11,9 @@ use super::dispatch::track_all;
 use super::endgame::projective_distance;
 use super::limits::CAREFUL;
 use super::system::SectionHomotopy;
-use crate::fk::solve::planar::{PLANAR_FORMS, mirror, spatial_row};
-use crate::fk::solve::sections::{FormRow, Sections, forms};
-use crate::num::Rng;
+use crate::solve::planar::{PLANAR_FORMS, mirror, spatial_row};
+use crate::solve::sections::{FormRow, Sections, forms};
+use num::Rng;
 
 /// Number of solutions of six general sections: the degree of the compactification.
 pub const GENERIC_COUNT: usize = 40;
@@ -21,8 +21,8 @@ pub const GENERIC_COUNT: usize = 40;
 /// A start system with its solutions.
 #[derive(Debug, Clone)]
 pub(crate) struct StartSystem {
-    pub(crate) sections: Sections,
-    pub(crate) solutions: Vec<[Complex64; 8]>,
+    pub sections: Sections,
+    pub solutions: Vec<[Complex64; 8]>,
 }
 
 /// Which sections a start system is made of.
@@ -109,7 +109,7 @@ fn random_point(rng: &mut Rng) -> [Complex64; 8] {
 }
 
 /// Finds a start system with all solutions from a seed; `None` when `loops` triangles do not suffice.
-pub(crate) fn generate(kind: StartKind, seed: u64, loops: usize) -> Option<StartSystem> {
+pub(super) fn generate(kind: StartKind, seed: u64, loops: usize) -> Option<StartSystem> {
     let mut rng = Rng::new(seed);
     let first = random_point(&mut rng);
     let sections = sections_through(kind, &first, &mut rng)?;

@@ -12,10 +12,10 @@ use super::start::{StartError, shipped};
 use super::system::SectionHomotopy;
 use super::tail::{Tail, TailEnd};
 use super::tracker::Tracked;
-use crate::fk::solve::octuple_sections::OctupleSections;
-use crate::fk::solve::planar::mirror;
-use crate::fk::solve::sections::Sections;
-use crate::num::Purpose;
+use crate::solve::octuple_sections::OctupleSections;
+use crate::solve::planar::mirror;
+use crate::solve::sections::Sections;
+use num::Purpose;
 
 /// A Newton correction below this, or expected to be, needs no further polishing.
 pub(super) const SETTLED: f64 = 1e-13;
@@ -41,7 +41,7 @@ const ALIKE_MODULI: f64 = 10.0 * SAME_END;
 const NEARLY_SINGULAR: f64 = 1e-5;
 /// Where a path ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum EndKind {
+pub enum EndKind {
     /// A nonsingular finite root, Newton converged.
     Regular,
     /// A finite root where the equations are singular.
@@ -56,17 +56,23 @@ pub(crate) enum EndKind {
 
 /// One path.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct HomotopyPath {
-    pub(crate) x: [Complex64; 8],
-    pub(crate) kind: EndKind,
-    pub(crate) steps: u32,
-    pub(crate) rejections: u32,
-    pub(crate) winding: u32,
-    pub(crate) retracked: u32,
-    /// Of a winding number of two: half the distance of two roots not told apart, see [`EndPoint`](super::endgame::EndPoint).
-    pub(crate) split: Option<[Complex64; 8]>,
+pub struct HomotopyPath {
+    /// Where it ends, in Study coordinates.
+    pub x: [Complex64; 8],
+    /// What it ends at.
+    pub kind: EndKind,
+    /// Accepted steps.
+    pub steps: u32,
+    /// Rejected steps.
+    pub rejections: u32,
+    /// Winding number found by the endgame, 0 when not determined.
+    pub winding: u32,
+    /// How often it was tracked again with tighter steps.
+    pub retracked: u32,
+    /// Of a winding number of two: half the distance of two roots not told apart, see `endgame::EndPoint`.
+    pub split: Option<[Complex64; 8]>,
     /// Smallest over largest pivot modulus of the Newton matrix at the end.
-    pub(crate) pivot_ratio: f64,
+    pub pivot_ratio: f64,
     /// The end was followed with 256 bits.
     pub(crate) precise: bool,
 }
@@ -102,7 +108,10 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
 ///
 /// Ends that look alike although regular, and paths without an end, are tracked again with smaller steps;
 /// what fails then is left as [`EndKind::Failed`].
-pub(crate) fn solve_sections(
+///
+/// # Errors
+/// A start system that cannot be made.
+pub fn solve_sections(
     kind: StartKind,
     target: &Sections,
     seed: u64,
@@ -151,6 +160,9 @@ fn corner(seed: u64) -> Complex64 {
 
 /// Tracks the paths `which` of the 40 to `target` again, the last part of each with 256 bits. The seed is that of
 /// [`solve_sections`], whose paths these are.
+///
+/// # Errors
+/// A start system that cannot be made.
 pub(crate) fn follow_finely(
     target: &OctupleSections,
     seed: u64,
@@ -313,7 +325,8 @@ pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Section
     doubtful
 }
 
-pub(crate) fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {
+/// `x` over its norm.
+pub fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {
     let inverse = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt().recip();
     x.map(|z| z * inverse)
 }

@@ -10,10 +10,10 @@ use super::system::{SectionHomotopy, derivative_matrix, values};
 /// Newton's method at the target.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PolishedRoot {
-    pub(crate) x: [Complex64; 8],
-    pub(crate) converged: bool,
+    pub x: [Complex64; 8],
+    pub converged: bool,
     /// Smallest over largest pivot modulus of the last Newton matrix.
-    pub(crate) pivot_ratio: f64,
+    pub pivot_ratio: f64,
 }
 
 /// Newton's method at `t = 0` on the patch of `x`, until it stops contracting.

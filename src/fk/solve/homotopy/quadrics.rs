@@ -4,8 +4,8 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Vec8};
 use super::system::Coefficient;
-use crate::fk::solve::planar::PLANAR_FORMS;
-use crate::fk::solve::sections::{FORMS, NORM_FORMS};
+use crate::solve::planar::PLANAR_FORMS;
+use crate::solve::sections::{FORMS, NORM_FORMS};
 
 /// A set of `F` quadratic forms in `x = (e, g)`; [`Quadrics`] says which.
 pub(super) struct Forms<const F: usize>;
@@ -25,7 +25,7 @@ pub(super) trait Quadrics<const F: usize> {
     fn norm<S: Simd>(forms: &[Lanes<S>; F]) -> Lanes<S>;
 }
 
-/// All 17 forms, in the order of [`FormRow`](crate::fk::solve::sections::FormRow).
+/// All 17 forms, in the order of [`FormRow`](crate::solve::sections::FormRow).
 impl Quadrics<FORMS> for Forms<FORMS> {
     #[inline(always)]
     fn polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> ([Lanes<S>; FORMS], Lanes<S>) {
@@ -123,7 +123,7 @@ impl Quadrics<FORMS> for Forms<FORMS> {
     }
 }
 
-/// The ten forms of doubly planar platforms, in the order of [`PlanarRow`](crate::fk::solve::planar::PlanarRow).
+/// The ten forms of doubly planar platforms, in the order of [`PlanarRow`](crate::solve::planar::PlanarRow).
 impl Quadrics<PLANAR_FORMS> for Forms<PLANAR_FORMS> {
     #[inline(always)]
     fn polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> ([Lanes<S>; PLANAR_FORMS], Lanes<S>) {

@@ -11,7 +11,7 @@ use num_complex::Complex64;
 use thiserror::Error;
 
 use super::monodromy::{StartKind, StartSystem, generate};
-use crate::fk::solve::sections::{FORMS, Sections};
+use crate::solve::sections::{FORMS, Sections};
 
 /// Seed of the shipped data.
 pub const SHIPPED_SEED: u64 = 2;
@@ -87,7 +87,7 @@ fn parse(text: &str, count: usize) -> Result<StartSystem, StartError> {
     Ok(StartSystem { sections, solutions })
 }
 
-/// The same system in the basis in which targets are given, see [`ScaledFrames::sections`](crate::fk::solve::sections::ScaledFrames).
+/// The same system in the basis in which targets are given, see [`ScaledFrames::sections`](crate::solve::sections::ScaledFrames).
 fn graded(system: StartSystem) -> Result<StartSystem, StartError> {
     let sections = system.sections.graded().ok_or(StartError::Degenerate)?;
     Ok(StartSystem { sections, ..system })
@@ -109,9 +109,9 @@ pub(crate) fn shipped(kind: StartKind) -> Result<&'static StartSystem, StartErro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::solve::homotopy::endgame::projective_distance;
-    use crate::fk::solve::planar::mirror;
-    use crate::fk::solve::sections::forms;
+    use crate::solve::homotopy::endgame::projective_distance;
+    use crate::solve::planar::mirror;
+    use crate::solve::sections::forms;
 
     const KINDS: [StartKind; 2] = [StartKind::Generic, StartKind::Planar];
 

@@ -9,8 +9,8 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Matrix8, Vec8};
 use super::quadrics::{Forms, Quadrics};
-use crate::fk::solve::planar::{PLANAR_FORMS, planar_row};
-use crate::fk::solve::sections::{FORMS, Sections};
+use crate::solve::planar::{PLANAR_FORMS, planar_row};
+use crate::solve::sections::{FORMS, Sections};
 
 /// Order of the Taylor predictor.
 pub(super) const ORDER: usize = 5;
@@ -84,7 +84,7 @@ pub(super) type Rows<S, const F: usize = FORMS> = [[Lanes<S>; F]; 6];
 impl SectionHomotopy {
     /// From `start` (times the number `gamma`, against accidental degeneracy of the line) at `t = 1` to
     /// `target` at `t = 0`.
-    pub(crate) fn new(start: &Sections, gamma: Complex64, target: &Sections) -> Self {
+    pub(super) fn new(start: &Sections, gamma: Complex64, target: &Sections) -> Self {
         let slope =
             std::array::from_fn(|i| std::array::from_fn(|k| gamma * start.rows[i][k] - target.rows[i][k]));
         Self { target: target.rows, slope }
@@ -311,9 +311,9 @@ pub(super) fn taylor<S: Simd, L: Line<F>, const F: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::solve::homotopy::lu::Lu;
-    use crate::fk::solve::sections::{FormRow, forms};
-    use crate::num::Rng;
+    use crate::solve::homotopy::lu::Lu;
+    use crate::solve::sections::{FormRow, forms};
+    use num::Rng;
     use pulp::Scalar;
 
     fn random_vector(rng: &mut Rng) -> [Complex64; 8] {

@@ -12,9 +12,9 @@ use super::lanes::{Lanes, Vec8, norm_sqr};
 use super::lu::Lu;
 use super::paths::EndKind;
 use super::system::{ORDER, SectionHomotopy, blank_series, derivative_matrix, taylor};
-use crate::fk::solve::octuple_sections::{OctupleSections, octuple_forms};
-use crate::fk::solve::sections::{FORMS, FormRow, Sections};
-use crate::num::octuple::{ComplexOctuple, Octuple, OctupleLu};
+use crate::solve::octuple_sections::{OctupleSections, octuple_forms};
+use crate::solve::sections::{FORMS, FormRow, Sections};
+use num::octuple::{ComplexOctuple, Octuple, OctupleLu};
 
 /// Values of the forms.
 type Forms17 = [ComplexOctuple; FORMS];
@@ -56,15 +56,15 @@ pub(super) struct Tail {
 /// Where a path ended, `(e, g)` with 256 bits.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TailEnd {
-    pub(crate) x: [ComplexOctuple; 8],
+    pub x: [ComplexOctuple; 8],
     /// Newton's method converged at the target; otherwise the point stands at a `t` of [`SMALLEST`] or where the path broke off.
     pub(crate) arrived: bool,
     /// What is left of `t`.
-    pub(crate) remaining: f64,
-    pub(crate) steps: u32,
-    pub(crate) rejections: u32,
+    pub remaining: f64,
+    pub steps: u32,
+    pub rejections: u32,
     /// Smallest over largest pivot modulus of the Jacobian at the end, unit of length as above.
-    pub(crate) pivot_ratio: f64,
+    pub pivot_ratio: f64,
     /// What was left of `t`, `|e| / |(e, g)|` and `|e.e| / |e|^2`, farther back on the path.
     earlier: (f64, Smallness),
 }
@@ -503,7 +503,7 @@ impl Tail {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     #[test]
     fn gradients_and_series_belong_to_the_residual() {

@@ -128,17 +128,17 @@ fn correct<S: Simd>(
 
 /// A path that was tracked towards its goal.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Tracked {
+pub(super) struct Tracked {
     /// Homogeneous solution at `t`, norm one.
-    pub(crate) x: [Complex64; 8],
+    pub x: [Complex64; 8],
     /// Where it stands.
-    pub(crate) t: Complex64,
+    pub t: Complex64,
     /// Whether `t` is the goal.
     pub(crate) arrived: bool,
     /// Accepted steps.
-    pub(crate) steps: u32,
+    pub steps: u32,
     /// Rejected steps.
-    pub(crate) rejections: u32,
+    pub rejections: u32,
 }
 
 /// Tracks every start from `t = 1` to 0, a lane each; a path that has not arrived when `|t|` falls

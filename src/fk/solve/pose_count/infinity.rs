@@ -4,8 +4,8 @@ use super::joints::EndResidues;
 use super::quadrics::{Cut, H, Linear, cut};
 use super::quotient::{Outcome, close};
 use super::{DEGREE, leg_equation};
-use crate::num::Rng;
-use crate::num::modular::Field;
+use num::Rng;
+use num::modular::Field;
 
 /// Whether they are seen to be finitely many, whatever the lengths.
 ///

@@ -4,13 +4,13 @@
 //! ([`SplitField`]); primes are drawn until there is one.
 
 use super::{CountUndecided, Lengths};
-use crate::num::modular::{Field, mantissa_and_exponent};
-use crate::num::split::SplitField;
-use crate::num::surd::Surd;
-use crate::num::{Purpose, Rng};
-use crate::platform::manipulator::{ExactEnds, JointKnowledge, Leg, Manipulator};
+use num::modular::{Field, mantissa_and_exponent};
+use num::split::SplitField;
+use num::surd::Surd;
+use num::{Purpose, Rng};
 use num_bigint::BigInt;
 use num_integer::Integer as _;
+use platform::manipulator::{ExactEnds, JointKnowledge, Leg, Manipulator};
 use sha2::{Digest, Sha256};
 
 /// The ends of the legs modulo a prime, on base and platform.

@@ -9,10 +9,10 @@ mod joints;
 mod quadrics;
 mod quotient;
 
-use crate::num::modular::Field;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
 pub(crate) use infinity::are_points_at_infinity_finite;
 use joints::{CountedJoints, DrawnPrime, EndResidues};
+use num::modular::Field;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 use quadrics::{COORDINATES, Cut, H, Linear, M, cut};
 use quotient::{Outcome, close};
 
@@ -77,7 +77,7 @@ pub enum PoseSet {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
@@ -108,7 +108,7 @@ impl CountUndecided {
 /// The squared lengths for which poses are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]

@@ -4,7 +4,7 @@
 //! `M M^T = 1` and `cof M = M` define `SO(3)`, `x = -M^T y` and `r = y.y` give the rest; the others hold on the group as well and save degrees.
 
 use super::quotient::{Monomial, Polynomial, UNIT, variable};
-use crate::num::modular::Field;
+use num::modular::Field;
 
 /// Homogeneous coordinates of a pose: the sixteen, and `h`.
 pub(super) const COORDINATES: usize = 17;
@@ -149,8 +149,8 @@ fn substituted(field: Field, terms: &QuadricTerms, forms: &[Polynomial]) -> Poly
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::random_rotation;
+    use num::Rng;
+    use platform::geom::random_rotation;
 
     #[test]
     fn quadrics_vanish_on_poses_and_not_on_mirror_images() {

@@ -15,8 +15,8 @@
 
 use std::collections::HashMap;
 
-use crate::num::echelon::Echelon;
-use crate::num::modular::Field;
+use num::echelon::Echelon;
+use num::modular::Field;
 
 /// A monomial: four bits for each exponent, the degree in the highest four, so that larger numbers are larger in the graded lexicographic order and
 /// products are sums.

@@ -1,8 +1,8 @@
 use super::*;
-use crate::num::Rng;
-use crate::num::surd::Surd;
-use crate::platform::manipulator::{ExactEnds, Leg, SurdPoint};
 use nalgebra::Point3;
+use num::Rng;
+use num::surd::Surd;
+use platform::manipulator::{ExactEnds, Leg, SurdPoint};
 
 type Bodies = [[[f64; 3]; 6]; 2];
 

@@ -1,7 +1,7 @@
 //! Linear algebra and polynomials over the field of the joints and modulo a prime alike.
 
-use crate::num::modular::Field;
-use crate::num::surd::Surd;
+use num::modular::Field;
+use num::surd::Surd;
 
 /// A field; `None` from an operation when numbers become too long.
 pub(super) trait Arithmetic {

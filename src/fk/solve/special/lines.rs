@@ -1,9 +1,9 @@
 //! Lines of a body on which legs end.
 
 use super::Residues;
-use crate::num::modular::Field;
-use crate::num::surd::Surd;
-use crate::platform::manipulator::ExactEnds;
+use num::modular::Field;
+use num::surd::Surd;
+use platform::manipulator::ExactEnds;
 
 /// The legs with an end on a line, as bits.
 pub(super) type Members = u8;

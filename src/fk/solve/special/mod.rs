@@ -16,10 +16,10 @@ mod arithmetic;
 mod lines;
 mod planes;
 
-use crate::num::split::SplitField;
-use crate::num::surd::Surd;
-use crate::num::{Purpose, Rng};
-use crate::platform::manipulator::{ExactEnds, Manipulator};
+use num::split::SplitField;
+use num::surd::Surd;
+use num::{Purpose, Rng};
+use platform::manipulator::{ExactEnds, Manipulator};
 
 use super::pose_count::are_points_at_infinity_finite;
 
@@ -47,7 +47,7 @@ pub(crate) struct SpecialPosition {
     /// Whether both bodies are planar and the ends on one are the images of those on the other under an affine map of the planes.
     pub(crate) affine_hexagons: bool,
     /// Common points at infinity that are shown to be isolated.
-    pub(crate) at_infinity: Option<PointsAtInfinity>,
+    pub at_infinity: Option<PointsAtInfinity>,
 }
 
 /// What is special about the joints of `m`; `None` when they are not known exactly or their numbers become too long.

@@ -14,10 +14,10 @@
 
 use super::Residues;
 use super::arithmetic::{Arithmetic, Rows, SurdArithmetic, eliminate, kernel};
-use crate::num::Rng;
-use crate::num::modular::Field;
-use crate::num::surd::Surd;
-use crate::platform::manipulator::ExactEnds;
+use num::Rng;
+use num::modular::Field;
+use num::surd::Surd;
+use platform::manipulator::ExactEnds;
 
 /// Products of two and of three of three unknowns.
 const QUADRATIC: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];

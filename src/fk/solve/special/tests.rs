@@ -1,5 +1,5 @@
 use super::*;
-use crate::num::Rng;
+use num::Rng;
 
 /// A rational number of few digits that is no double.
 fn small(rng: &mut Rng) -> Surd {

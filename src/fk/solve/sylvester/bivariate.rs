@@ -1,6 +1,6 @@
 //! Polynomials in `c_1, c_2` up to degree six, complex double-double coefficients.
 
-use crate::num::double_double::ComplexDoubleDouble as Number;
+use num::double_double::ComplexDoubleDouble as Number;
 
 /// Highest degree that occurs.
 const DEGREE: usize = 6;

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::num::double_double::ComplexDoubleDouble as Number;
+use num::double_double::ComplexDoubleDouble as Number;
 
 /// A matrix brought to upper triangular form in its first columns, the pivots on the diagonal.
 #[derive(Debug, Clone)]

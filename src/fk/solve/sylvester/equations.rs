@@ -5,8 +5,8 @@ use num_complex::Complex64;
 use super::SylvesterError;
 use super::bivariate::{Bivariate, place};
 use super::elimination::Triangularised;
-use crate::fk::solve::generic_frame::{GenericProblem, PRODUCTS, norm_form, rotation_forms};
-use crate::num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
+use crate::solve::generic_frame::{GenericProblem, PRODUCTS, norm_form, rotation_forms};
+use num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
 
 /// Below this pivot ratio the five equations linear in `(q, p)` are dependent to rounding.
 const LINEAR_LIMIT: f64 = 1e-11;

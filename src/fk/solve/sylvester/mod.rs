@@ -22,10 +22,10 @@ use num_complex::Complex64;
 use thiserror::Error;
 
 use super::generic_frame::GenericProblem;
-use crate::num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
-use crate::platform::geom::ComplexPose;
 use elimination::Triangularised;
 use equations::Equations;
+use num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
+use platform::geom::ComplexPose;
 
 /// Degree of the eliminant.
 const DEGREE: usize = 40;
@@ -136,9 +136,9 @@ impl Eliminant {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
     use nalgebra::Point3;
+    use num::Rng;
+    use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 
     fn problem() -> (Manipulator, SquaredLegLengths, GenericProblem) {
         let mut rng = Rng::new(17);

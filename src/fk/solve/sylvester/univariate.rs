@@ -2,8 +2,8 @@
 
 use num_complex::Complex64;
 
-use crate::num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
-use crate::num::poly::{RootsError, roots as double_roots};
+use num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
+use num::poly::{RootsError, roots as double_roots};
 
 fn one() -> Number {
     Number::from(Complex64::ONE)

@@ -61,7 +61,7 @@ pub struct TemplateLayout {
 
 /// The 40 monomials of an equation: `{1, u, v, w}^2` (ten) times `{1, x, y, z}`, the latter fastest.
 fn support() -> impl Iterator<Item = Monomial> {
-    crate::fk::solve::generic_frame::PRODUCTS.into_iter().flat_map(|(i, j)| {
+    crate::solve::generic_frame::PRODUCTS.into_iter().flat_map(|(i, j)| {
         (0..4).map(move |k| {
             let mut m = [0; 6];
             for index in [i, j].into_iter().filter(|&index| index > 0) {

@@ -21,10 +21,10 @@ pub use layout::{LayoutError, TemplateLayout};
 use nalgebra::Vector3;
 
 use super::generic_frame::{GenericProblem, norm_form, rotation_forms};
-use crate::num::dense::{GeneralizedEigenpair, generalized_eigenpairs, upper_factor};
-use crate::num::linalg::LinalgError;
-use crate::platform::geom::ComplexPose;
 use layout::Quotient;
+use num::dense::{GeneralizedEigenpair, generalized_eigenpairs, upper_factor};
+use num::linalg::LinalgError;
+use platform::geom::ComplexPose;
 
 /// The matrix of a problem, 293 x 362, columns excessive, reducible, basic.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,14 +7,14 @@ use super::{
     Grid, Judgement, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge,
     objective_above, on_cells, place, plate_of, sample_plan,
 };
-use crate::fk::FkOptions;
-use crate::machine::manufacture::correction::octahedral_of;
-use crate::machine::manufacture::joint::{Joint, joints};
-use crate::num::exact::{self, ExactVector, product, rational};
-use crate::platform::manipulator::{Body, Manipulator, Octahedral};
-use crate::synthesis::offset_determinant;
-use crate::synthesis::singularity::GriffisDuffy;
-use crate::verify::{Verification, VerifyError, verify};
+use crate::manufacture::correction::octahedral_of;
+use crate::manufacture::joint::{Joint, joints};
+use fk::FkOptions;
+use num::exact::{self, ExactVector, product, rational};
+use platform::manipulator::{Body, Manipulator, Octahedral};
+use synthesis::offset_determinant;
+use synthesis::singularity::GriffisDuffy;
+use verify::{Verification, VerifyError, verify};
 
 /// The triangles of base and platform.
 #[derive(Debug, Clone)]
@@ -373,7 +373,7 @@ fn finish(
         Some(found) => octahedral_of(&rounded, found).map_err(|_| NoRounding::Singular)?,
         None => rounded.clone(),
     };
-    let options = FkOptions { seed: problem.seed, ..FkOptions::default() };
+    let options = FkOptions::new().seed(problem.seed);
     let fraction = |k: usize| {
         let t = &best.triangles[k % 2];
         (t.inner[k / 2], t.parts[k / 2])

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use nalgebra::{Rotation2, Vector2};
 
 use super::grid::{BodyGrid, GridHole, Wanted, pool};
-use crate::machine::requirements::Grid;
+use crate::requirements::Grid;
 
 /// Points within this much of the radius beyond it count as inside a circle.
 const SLIP: f64 = 1e-12;
@@ -205,7 +205,7 @@ pub(super) fn as_grid(laid: &Laid, plain: &BodyGrid) -> Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     #[test]
     fn the_smallest_circle_holds_all_points_and_none_smaller_does() {

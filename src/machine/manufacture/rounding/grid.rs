@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use crate::machine::requirements::{Grid, HolePattern};
-use crate::num::small::symmetric_eigen3;
+use crate::requirements::{Grid, HolePattern};
+use num::small::symmetric_eigen3;
 
 /// Joints count as lying in a plane within this times the size of the design.
 const FLAT: f64 = 1e-9;

@@ -18,11 +18,11 @@ use self::exact::Roles;
 use self::grid::GridHole;
 pub use self::nearest::NearestRounding;
 use self::plate::PlateHoles;
-pub(crate) use self::plate::holes_turn;
+pub use self::plate::holes_turn;
 use super::joint::{Joint, joints};
-use crate::machine::requirements::{Grid, HolePattern, PoseSpace, Requirements, TermKind, Terms};
-use crate::platform::geom::{Pose, SamplePlan};
-use crate::platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
+use crate::requirements::{Grid, HolePattern, PoseSpace, Requirements, TermKind, Terms};
+use platform::geom::{Pose, SamplePlan};
+use platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 
 /// Sets of leg lengths at which a rounded design is compared with what it should be equivalent to.
 const SAMPLES: usize = 3;
@@ -147,7 +147,7 @@ impl Rounding {
     /// Where the rule chooses none: of the roundings the one that misses the requirements least, the exact one of equals.
     ///
     /// What a rounding misses is the greatest share by which a margin is below 0: of what is limited, or of the size of the design.
-    pub(crate) fn least_missed(&self, required: &Requirements, size: f64) -> Option<&Manipulator> {
+    pub fn least_missed(&self, required: &Requirements, size: f64) -> Option<&Manipulator> {
         let exact =
             self.exact.as_ref().ok().map(|e| (&e.manipulator, e.judgement.missed_share(required, size)));
         let nearest =

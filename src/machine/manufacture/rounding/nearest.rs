@@ -9,13 +9,13 @@ use super::{
     Grid, Judgement, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge, on_cells,
     place, places, plate_of, sample_plan,
 };
-use crate::fk::FkOptions;
-use crate::machine::manufacture::joint::{Joint, joints};
-use crate::machine::manufacture::sensitivity::Sensitivity;
-use crate::machine::manufacture::trials::{ErrorSpread, solved_error};
-use crate::num::Purpose;
-use crate::platform::manipulator::{Body, Manipulator};
-use crate::verify::{Verification, VerifyError, verify};
+use crate::manufacture::joint::{Joint, joints};
+use crate::manufacture::sensitivity::Sensitivity;
+use crate::manufacture::trials::{ErrorSpread, solved_error};
+use fk::FkOptions;
+use num::Purpose;
+use platform::manipulator::{Body, Manipulator};
+use verify::{Verification, VerifyError, verify};
 
 /// A rounding whose joints are near their lines, not on them.
 #[derive(Debug, Clone)]
@@ -255,7 +255,7 @@ pub(super) fn round(
         off_line: roles.and_then(|r| r.off_line(m, *joint, &place(&rounded, *joint))),
     };
     let degrees = |(p, w): (f64, f64)| (p, w.to_degrees());
-    let options = FkOptions { seed: problem.seed, ..FkOptions::default() };
+    let options = FkOptions::new().seed(problem.seed);
     Ok(NearestRounding {
         grids: found.laying.grids,
         joints: joints(m).iter().enumerate().map(one).collect(),

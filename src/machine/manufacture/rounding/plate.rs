@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::grid::{BodyGrid, GridHole, Plane, length};
-use crate::machine::requirements::{Grid, HolePattern};
+use crate::requirements::{Grid, HolePattern};
 
 /// Circles farther out than this are not counted.
 const LAST_CIRCLE: f64 = 1e6;
@@ -161,7 +161,7 @@ impl PlateHoles {
 
 /// Whether holes can hold a platform that turns by 120 degrees about the middle of joints take to itself: on a triangular grid where the turn takes holes to holes, on circles about
 /// that middle of which one has holes that come in threes; `true` without a grid, and `false` where the joints themselves do not turn.
-pub(crate) fn holes_turn(points: &[Point3<f64>], grid: Option<&Grid>, size: f64) -> bool {
+pub fn holes_turn(points: &[Point3<f64>], grid: Option<&Grid>, size: f64) -> bool {
     let Some(grid) = grid else { return true };
     let (Some(symmetry), Some(plate)) =
         (ThreeFold::of(points, size), PlateHoles::new(points, Some(grid), size))
@@ -221,7 +221,7 @@ const SAME: f64 = 1e-9;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::requirements::{HoleCircle, HoleCircles};
+    use crate::requirements::{HoleCircle, HoleCircles};
 
     fn plane() -> [Point3<f64>; 3] {
         [Point3::new(3.0, 0.0, 1.0), Point3::new(0.0, 4.0, 1.0), Point3::new(-2.0, -2.0, 1.0)]

@@ -7,11 +7,11 @@ use nalgebra::{Point3, Rotation3, Vector3};
 use super::exact::{proved, rank};
 use super::grid::{BodyGrid, Wanted, pool};
 use super::*;
-use crate::machine::manufacture::tests::{free, octahedral, space};
-use crate::machine::requirements::{HoleCircle, HoleCircles, Reserves, TermKind};
-use crate::platform::manipulator::{Leg, Octahedral, inverse_condition, jacobian};
-use crate::synthesis::joint_free;
-use crate::verify::{InconclusiveReason, Verdict};
+use crate::manufacture::tests::{free, octahedral, space};
+use crate::requirements::{HoleCircle, HoleCircles, Reserves, TermKind};
+use platform::manipulator::{Leg, Octahedral, inverse_condition, jacobian};
+use synthesis::joint_free;
+use verify::{InconclusiveReason, Verdict};
 
 const GRID: Grid = Grid::square(0.25);
 
@@ -67,7 +67,7 @@ fn the_exact_rounding_is_on_the_grid_on_its_lines_and_proved_equivalent() {
     assert_eq!(e.joints.iter().filter(|j| j.off_line.is_some()).count(), 6);
     // det A from the fractions
     let t = e.fractions.unwrap().map(|(k, n)| k as f64 / n as f64);
-    let det = crate::synthesis::offset_determinant(&t);
+    let det = synthesis::offset_determinant(&t);
     assert!((det - e.judgement.det.unwrap()).abs() < 1e-12 * det.abs().max(1.0));
 }
 

@@ -7,11 +7,11 @@ use super::CellJudge;
 use super::cone::Sector;
 use super::function::Function;
 use super::verdict::{MarginBound, verdict};
-use crate::machine::requirements::TermKind;
-use crate::machine::requirements::assess::Margin;
-use crate::num::parallel::parallel;
-use crate::num::{Purpose, Rng};
-use crate::platform::geom::{Chart, ChartCell, Covered};
+use crate::requirements::TermKind;
+use crate::requirements::assess::Margin;
+use num::parallel::parallel;
+use num::{Purpose, Rng};
+use platform::geom::{Chart, ChartCell, Covered};
 
 /// A cell that waits.
 struct Open {
@@ -275,7 +275,7 @@ impl CellJudge<'_> {
         for place in places {
             let Some((from, start)) = state.points.get(place).copied() else { continue };
             let (tried, last) = state.searches.entry(*place).or_insert((0, f64::INFINITY));
-            let waits = all.iter().any(|s| s.place == *place) || self.charts[place.1].len() == 0;
+            let waits = all.iter().any(|s| s.place == *place) || self.charts[place.1].coordinates() == 0;
             if waits || *tried >= SEARCHES || (*tried > 0 && start >= *last) {
                 continue;
             }
@@ -311,9 +311,9 @@ impl CellJudge<'_> {
         let (mut least, mut step) = (value(&x), 0.2);
         for _ in 0..ROUNDS {
             let mut better = false;
-            for trial in 0..2 * chart.len() {
+            for trial in 0..2 * chart.coordinates() {
                 let mut y = x;
-                for k in 0..chart.len() {
+                for k in 0..chart.coordinates() {
                     if trial % 2 == 0 || k == trial / 2 {
                         y[k] += step * rng.uniform(-1.0, 1.0);
                     }

@@ -6,11 +6,11 @@ use super::function::Function;
 use super::local::{self, Bounded};
 use super::stiffness::SoftestMotion;
 use super::{CellJudge, force, gap};
-use crate::machine::requirements::TermKind;
-use crate::num::interval::Interval;
-use crate::num::jet::Jet;
-use crate::platform::geom::{Chart, ChartCell};
-use crate::platform::manipulator::Body;
+use crate::requirements::TermKind;
+use num::interval::Interval;
+use num::jet::Jet;
+use platform::geom::{Chart, ChartCell};
+use platform::manipulator::Body;
 
 /// What is known of a cell.
 pub(super) struct Evaluated {
@@ -140,7 +140,8 @@ impl CellJudge<'_> {
         match function {
             Function::Leg(kind, i) => {
                 let slopes = |at: &Jet| Some(std::array::from_fn(|k| at.slope(k).centre_and_radius().0));
-                if let Some(hinge) = self.hinge(kind, i).filter(|h| chart.len() > 1 && h.has_sides()) {
+                if let Some(hinge) = self.hinge(kind, i).filter(|h| chart.coordinates() > 1 && h.has_sides())
+                {
                     let (Some(at), Some(over)) =
                         (hinge.value(frames.0, sector), hinge.value(frames.1, sector))
                     else {
@@ -241,7 +242,7 @@ fn farthest(chart: &Chart, slope: &[f64; 6]) -> [f64; 6] {
 /// elsewhere if not. Coordinates of balls have no such ends.
 fn shrunk(chart: &Chart, cell: &ChartCell, over: &Jet) -> Option<ChartCell> {
     let mut out = *cell;
-    for k in (0..chart.len()).filter(|k| !chart.balls.iter().any(|g| g.contains(k))) {
+    for k in (0..chart.coordinates()).filter(|k| !chart.balls.iter().any(|g| g.contains(k))) {
         let slope = over.slope(k);
         if cell.lo[k] >= cell.hi[k] {
             continue;

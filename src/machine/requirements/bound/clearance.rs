@@ -5,10 +5,10 @@ use super::cell::AtPoint;
 use super::frame::CellFrame;
 use super::gap;
 use super::local::Bounded;
-use crate::machine::requirements::plate::PlateSolid;
-use crate::num::interval::Interval;
-use crate::platform::geom::{Chart, ChartCell};
-use crate::platform::manipulator::Body;
+use crate::requirements::plate::PlateSolid;
+use num::interval::Interval;
+use platform::geom::{Chart, ChartCell};
+use platform::manipulator::Body;
 
 impl CellJudge<'_> {
     /// The gap of a leg and a plate, less the clearance.

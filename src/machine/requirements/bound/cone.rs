@@ -10,11 +10,11 @@
 //! The right side is linear in the translation and nearly so in the rotation, where the angle itself has a kink and many local minima. The directions `e` all around the axis are covered by sectors.
 
 use super::frame::CellFrame;
-use crate::num::interval::Interval;
-use crate::num::jet::{Jet, dot};
-use crate::platform::geom::enclosed::{IntervalVector, cross};
-use crate::platform::geom::{arc_cosine, cosine, degrees, radians, sine};
-use crate::platform::manipulator::Manipulator;
+use num::interval::Interval;
+use num::jet::{Jet, dot};
+use platform::geom::enclosed::{IntervalVector, cross};
+use platform::geom::{arc_cosine, cosine, degrees, radians, sine};
+use platform::manipulator::Manipulator;
 
 /// Directions around an axis: a middle one and a half width, radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -171,9 +171,9 @@ pub(super) fn arc_margin(below: f64, over: &Leaning, limit_deg: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::platform::geom::{Chart, ChartCell, Pose};
     use nalgebra::{Point3, Rotation3, Vector3};
+    use num::Rng;
+    use platform::geom::{Chart, ChartCell, Pose};
 
     /// The right side of the sector in which a leg leans gives its angle, and no sector gives less.
     #[test]

@@ -5,16 +5,16 @@
 use super::force::{ForceSolver, System};
 use super::frame::{CellFrame, LegOverCell};
 use super::joint_offsets::JointOffsets;
-use crate::machine::requirements::cranks::{CrankedLeg, Cranks};
-use crate::machine::requirements::{PlatformSpeed, Requirements, TermKind};
-use crate::num::Purpose;
-use crate::num::interval::Interval;
-use crate::num::jet::{Jet, JetVector, dot, norm_squared};
-use crate::platform::geom::enclosed::{IntervalVector, cross as crossed, determinant};
-use crate::platform::geom::{
+use crate::requirements::cranks::{CrankedLeg, Cranks};
+use crate::requirements::{PlatformSpeed, Requirements, TermKind};
+use num::Purpose;
+use num::interval::Interval;
+use num::jet::{Jet, JetVector, dot, norm_squared};
+use platform::geom::enclosed::{IntervalVector, cross as crossed, determinant};
+use platform::geom::{
     Bisection, Chart, ChartCell, Pose, PoseSpace, arc_cosine, cosine, degrees, radians, sine,
 };
-use crate::platform::manipulator::Manipulator;
+use platform::manipulator::Manipulator;
 
 /// A crank with its directions enclosed: axis, tip at the angle 0, tip at 90 degrees.
 #[derive(Debug, Clone, Copy)]
@@ -293,7 +293,7 @@ impl RodsOverChart<'_> {
 
     /// Whether all poses of the cell are proved regular; if not, the axis to halve.
     fn is_regular(&self, cell: &ChartCell) -> Result<(), usize> {
-        let n = self.chart.len();
+        let n = self.chart.coordinates();
         let centre = cell.centre();
         let over = self.lines(cell);
         let weight = |k: usize| {
@@ -361,7 +361,7 @@ pub fn regular_rods(
             lines.sign_at(x).is_some_and(|s| s * sign < 0.0) && lines.closes_between(&start, x)
         };
         let mut rng = Purpose::BOUNDED_POSES.rng(seed);
-        for _ in 0..if chart.len() > 1 { POINTS } else { 0 } {
+        for _ in 0..if chart.coordinates() > 1 { POINTS } else { 0 } {
             let drawn = |k: usize| rng.uniform(0.0, 1.0) * (chart.root.hi[k] - chart.root.lo[k]);
             let shares: [f64; 6] = std::array::from_fn(drawn);
             let x = chart.pulled_inside(std::array::from_fn(|k| chart.root.lo[k] + shares[k]));

@@ -3,14 +3,14 @@
 use super::frame::enclosed;
 use super::verdict::{MarginBound, MarginVerdict, verdict};
 use super::{CellJudge, dot_square};
-use crate::machine::requirements::assess::Margin;
-use crate::machine::requirements::envelope::{self, Envelope};
-use crate::machine::requirements::hardware::Housing;
-use crate::machine::requirements::standing::Standing;
-use crate::machine::requirements::term::TermKind;
-use crate::num::interval::Interval;
-use crate::platform::geom::enclosed::IntervalVector;
-use crate::platform::manipulator::Body;
+use crate::requirements::assess::Margin;
+use crate::requirements::envelope::{self, Envelope};
+use crate::requirements::hardware::Housing;
+use crate::requirements::standing::Standing;
+use crate::requirements::term::TermKind;
+use num::interval::Interval;
+use platform::geom::enclosed::IntervalVector;
+use platform::manipulator::Body;
 
 impl CellJudge<'_> {
     /// Holes of a plate, whose margins are known but for rounding.

@@ -13,12 +13,12 @@ use nalgebra::Matrix6;
 use super::crank::CrankFrames;
 use super::frame::{CellFrame, LegOverCell, enclosed};
 use super::local::{self, Bounded};
-use crate::machine::requirements::load::Load;
-use crate::num::interval::Interval;
-use crate::num::jet::{Jet, JetVector, cross};
-use crate::platform::geom::enclosed::{IntervalMatrix, IntervalVector, contraction, times};
-use crate::platform::geom::{Chart, ChartCell};
-use crate::platform::manipulator::{Body, Manipulator};
+use crate::requirements::load::Load;
+use num::interval::Interval;
+use num::jet::{Jet, JetVector, cross};
+use platform::geom::enclosed::{IntervalMatrix, IntervalVector, contraction, times};
+use platform::geom::{Chart, ChartCell};
+use platform::manipulator::{Body, Manipulator};
 
 type Column = [Jet; 6];
 
@@ -289,7 +289,7 @@ pub(super) fn force(
     (m, cranks, greatest): (&Manipulator, Option<&CrankFrames<'_>>, f64),
     load: &Load,
 ) -> (Bounded, f64) {
-    let (n, nothing) = (chart.len(), Bounded::nothing(cell));
+    let (n, nothing) = (chart.coordinates(), Bounded::nothing(cell));
     let here = System::over(frames.0, m, cranks, load).and_then(|at| {
         let solution = ForceSolver::new(&at, &at, &ChartCell::point(*z), z, n)?.solution(&at, n)?;
         let forces = solution.forces(&at)?;

@@ -5,10 +5,10 @@ use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 use super::force::force;
 use super::frame::CellFrame;
 use super::tests::{random_platform, random_space};
-use crate::machine::requirements::Load;
-use crate::num::Rng;
-use crate::platform::geom::{Chart, ChartCell, Pose, Region};
-use crate::platform::manipulator::{Body, Manipulator};
+use crate::requirements::Load;
+use num::Rng;
+use platform::geom::{Chart, ChartCell, Pose, Region};
+use platform::manipulator::{Body, Manipulator};
 
 /// What is left of a greatest force, with unit vectors along the legs, by an LU decomposition.
 fn room(m: &Manipulator, pose: &Pose, load: &Load, greatest: f64) -> f64 {
@@ -48,10 +48,10 @@ fn forces_are_bounded_to_second_order() {
         };
         let greatest = 100.0;
         let middle: [f64; 6] =
-            std::array::from_fn(|c| if c < chart.len() { 0.5 * rng.uniform(-1.0, 1.0) } else { 0.0 });
+            std::array::from_fn(|c| if c < chart.coordinates() { 0.5 * rng.uniform(-1.0, 1.0) } else { 0.0 });
         let lost = [0.2, 0.1].map(|half| {
             let mut cell = chart.root;
-            for c in 0..chart.len() {
+            for c in 0..chart.coordinates() {
                 (cell.lo[c], cell.hi[c]) = (middle[c] - half, middle[c] + half);
             }
             // not always the middle: a bound may be taken from any point
@@ -70,10 +70,9 @@ fn forces_are_bounded_to_second_order() {
             for s in 0..300 {
                 let side =
                     |c: usize, t: f64| if s % 2 == 0 { t } else { t.signum() }.mul_add(half, middle[c]);
-                let q =
-                    std::array::from_fn(
-                        |c| if c < chart.len() { side(c, rng.uniform(-1.0, 1.0)) } else { 0.0 },
-                    );
+                let q = std::array::from_fn(|c| {
+                    if c < chart.coordinates() { side(c, rng.uniform(-1.0, 1.0)) } else { 0.0 }
+                });
                 if chart.scale_of(&q) <= 1.0 {
                     least = least.min(of(&q));
                 }

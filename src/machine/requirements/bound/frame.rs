@@ -3,11 +3,11 @@
 use nalgebra::Point3;
 
 use super::joint_offsets::JointOffsets;
-use crate::num::interval::Interval;
-use crate::num::jet::{Jet, JetVector, cross, dot, norm_squared};
-use crate::platform::geom::enclosed::{IntervalVector, apply};
-use crate::platform::geom::{Chart, ChartCell, TurnCoefficients, combination};
-use crate::platform::manipulator::Manipulator;
+use num::interval::Interval;
+use num::jet::{Jet, JetVector, cross, dot, norm_squared};
+use platform::geom::enclosed::{IntervalVector, apply};
+use platform::geom::{Chart, ChartCell, TurnCoefficients, combination};
+use platform::manipulator::Manipulator;
 
 /// The poses of a cell: translation `d` and the parts of `exp([w]x) = I + C_1 [w]x + C_2 (w w^T - (w.w) I)`.
 pub(super) struct CellFrame<'a> {
@@ -25,7 +25,7 @@ pub(super) struct CellFrame<'a> {
 impl<'a> CellFrame<'a> {
     /// The frame over a cell, with second derivatives where they are needed.
     pub(super) fn over(chart: &'a Chart, cell: &ChartCell, second: bool) -> Self {
-        let variables = chart.len();
+        let variables = chart.coordinates();
         let values = combination(&chart.columns, cell);
         let coordinate = |k: usize| {
             let mut slope = [Interval::ZERO; 6];

@@ -1,9 +1,9 @@
 //! What is bounded over cells: the functions whose least values give the least margins of a kind.
 
 use super::CellJudge;
-use crate::machine::requirements::envelope::Envelope;
-use crate::machine::requirements::term::{Term, TermKind};
-use crate::platform::manipulator::Body;
+use crate::requirements::envelope::Envelope;
+use crate::requirements::term::{Term, TermKind};
+use platform::manipulator::Body;
 
 /// What is bounded: one requirement, or those that are computed together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

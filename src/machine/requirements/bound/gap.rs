@@ -10,14 +10,14 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::frame::{CellFrame, enclosed};
 use super::local::{self, Bounded};
-use crate::machine::requirements::hardware::LegBody;
-use crate::machine::requirements::keep_out::{KeepOut, KeepOutShape};
-use crate::machine::requirements::plate::PlateSolid;
-use crate::num::interval::Interval;
-use crate::num::jet::{JetVector, cross, dot, norm_squared};
-use crate::platform::geom::enclosed::IntervalVector;
-use crate::platform::geom::{Chart, ChartCell};
-use crate::platform::manipulator::{Body, Manipulator};
+use crate::requirements::hardware::LegBody;
+use crate::requirements::keep_out::{KeepOut, KeepOutShape};
+use crate::requirements::plate::PlateSolid;
+use num::interval::Interval;
+use num::jet::{JetVector, cross, dot, norm_squared};
+use platform::geom::enclosed::IntervalVector;
+use platform::geom::{Chart, ChartCell};
+use platform::manipulator::{Body, Manipulator};
 
 /// The convex hull of some points, and a radius around it.
 #[derive(Clone)]

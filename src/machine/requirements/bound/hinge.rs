@@ -10,12 +10,12 @@
 
 use super::cone::{Leaning, Sector, arc_margin};
 use super::frame::CellFrame;
-use crate::machine::requirements::HingeAngle;
-use crate::num::interval::Interval;
-use crate::num::jet::{Jet, JetVector, dot};
-use crate::platform::geom::enclosed::{IntervalVector, cross};
-use crate::platform::geom::{arc_cosine, cosine, degrees, radians, sine};
-use crate::platform::manipulator::Manipulator;
+use crate::requirements::HingeAngle;
+use num::interval::Interval;
+use num::jet::{Jet, JetVector, dot};
+use platform::geom::enclosed::{IntervalVector, cross};
+use platform::geom::{arc_cosine, cosine, degrees, radians, sine};
+use platform::manipulator::Manipulator;
 
 /// A universal joint: first axis, rest direction and the direction across both, orthonormal, in the frame of its body.
 #[derive(Debug, Clone, Copy)]

@@ -9,13 +9,13 @@
 //! ```
 
 use super::frame::{CellFrame, LegOverCell};
-use crate::machine::requirements::Requirements;
-use crate::machine::requirements::coupled::{LegNumber, PlacedLeg, cross, dot, minus, scaled, unit};
-use crate::num::interval::Interval;
-use crate::num::jet::{Jet, JetVector, norm_squared};
-use crate::platform::geom::enclosed::IntervalVector;
-use crate::platform::geom::{Chart, arc_cosine, radians};
-use crate::platform::manipulator::Manipulator;
+use crate::requirements::Requirements;
+use crate::requirements::coupled::{LegNumber, PlacedLeg, cross, dot, minus, scaled, unit};
+use num::interval::Interval;
+use num::jet::{Jet, JetVector, norm_squared};
+use platform::geom::enclosed::IntervalVector;
+use platform::geom::{Chart, arc_cosine, radians};
+use platform::manipulator::Manipulator;
 
 /// Rounds of shrinking the enclosures of the directions of a leg.
 const ROUNDS: usize = 8;
@@ -48,7 +48,7 @@ impl JointOffsets {
             return None;
         }
         let screw = hardware.screw_lead.filter(|lead| *lead != 0.0);
-        let joints = crate::platform::manipulator::Body::BOTH.map(|body| hardware.universal(body));
+        let joints = platform::manipulator::Body::BOTH.map(|body| hardware.universal(body));
         let offsets = joints.map(|joint| joint.map_or(0.0, |joint| joint.offset));
         let needed = [0, 1].map(|end| joints[end].is_some() && (offsets[end] != 0.0 || screw.is_some()));
         let mut axes = [[[Interval::ZERO; 3]; 6]; 2];

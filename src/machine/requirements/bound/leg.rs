@@ -6,13 +6,13 @@ use super::frame::CellFrame;
 use super::function::{Function, Side};
 use super::hinge::{HingeFrame, HingeLimit};
 use super::joint_offsets::JointOffsets;
-use crate::machine::requirements::envelope::{self, Envelope};
-use crate::machine::requirements::{LengthLimits, Swing, TermKind};
-use crate::num::interval::Interval;
-use crate::num::jet::{Jet, norm_squared};
-use crate::platform::geom::enclosed::IntervalVector;
-use crate::platform::geom::{Chart, arc_cosine, degrees, radians};
-use crate::platform::manipulator::Body;
+use crate::requirements::envelope::{self, Envelope};
+use crate::requirements::{LengthLimits, Swing, TermKind};
+use num::interval::Interval;
+use num::jet::{Jet, norm_squared};
+use platform::geom::enclosed::IntervalVector;
+use platform::geom::{Chart, arc_cosine, degrees, radians};
+use platform::manipulator::Body;
 
 impl CellJudge<'_> {
     /// The angle of a universal joint, for the kinds that are one.
@@ -29,7 +29,7 @@ impl CellJudge<'_> {
     /// What a function is bounded over one by one: the directions in which a leg leans, the sides of an angle.
     pub(super) fn sectors(&self, function: Function, chart: &Chart) -> Vec<Sector> {
         if let Function::Leg(kind, leg) = function
-            && self.hinge(kind, leg).is_some_and(|h| chart.len() > 1 && h.has_sides())
+            && self.hinge(kind, leg).is_some_and(|h| chart.coordinates() > 1 && h.has_sides())
         {
             return Sector::sides();
         }
@@ -39,7 +39,7 @@ impl CellJudge<'_> {
     /// The cone in which a leg may lean, for limits below 90 degrees and regions; on single poses and steps the cosine is as good.
     pub(super) fn cone(&self, function: Function, chart: &Chart) -> Option<SwingCone<'_>> {
         let Function::Leg(kind, leg) = function else { return None };
-        if chart.len() < 2 {
+        if chart.coordinates() < 2 {
             return None;
         }
         let (body, swing) = match kind {

@@ -10,9 +10,9 @@
 //! `m = -g . z / |z|^2` the slopes nearly vanish at a worst pose on the sphere, and the curvature gains `m`. The quadratic form is at least `-sum s_k`, with `s_k` such that the elimination of
 //! `D H D + diag(s)` has positive pivots for all matrices of the interval matrix (`D` the reaches of the cell), or by Gershgorin's circles.
 
-use crate::num::interval::Interval;
-use crate::num::jet::Jet;
-use crate::platform::geom::{Chart, ChartCell};
+use num::interval::Interval;
+use num::jet::Jet;
+use platform::geom::{Chart, ChartCell};
 
 /// A bound, and by how much each coordinate loosens it.
 #[derive(Debug, Clone, Copy)]
@@ -88,7 +88,7 @@ pub(super) fn below(chart: &Chart, cell: &ChartCell, z: &[f64; 6], at: &Jet, ove
 }
 
 fn with(chart: &Chart, cell: &ChartCell, z: &[f64; 6], at: &Jet, over: &Jet, multipliers: &[f64]) -> Bounded {
-    let n = chart.len();
+    let n = chart.coordinates();
     let extra = by_coordinate(chart, multipliers);
     let reach: [f64; 6] = std::array::from_fn(|k| cell.reach(z, k));
     let mut loose = [0.0; 6];
@@ -120,7 +120,7 @@ pub(super) fn below_first_order(
     at: &Jet,
     over: &Jet,
 ) -> Bounded {
-    let n = chart.len();
+    let n = chart.coordinates();
     let mut best = Bounded { below: over.value.lo(), loose: [0.0; 6] };
     for k in 0..n {
         let s = over.slope(k);
@@ -188,7 +188,7 @@ fn shifts(mut form: Vec<Vec<Interval>>) -> Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
+    use num::Rng;
 
     /// No point of the cube is below the bound, and definite forms are seen to be so.
     #[test]

@@ -38,10 +38,10 @@ use self::verdict::ReserveBound;
 use super::Requirements;
 use super::assess::{AssessOptions, Assessment, Margin, assess};
 use super::term::{TermKind, Terms};
-use crate::num::interval::Interval;
-use crate::platform::geom::enclosed::{IntervalVector, dot};
-use crate::platform::geom::{Chart, PoseSpace};
-use crate::platform::manipulator::{Body, Manipulator};
+use num::interval::Interval;
+use platform::geom::enclosed::{IntervalVector, dot};
+use platform::geom::{Chart, PoseSpace};
+use platform::manipulator::{Body, Manipulator};
 
 pub use crank::{RodRegularity, regular_rods};
 pub use verdict::{MarginBound, MarginProof, MarginVerdict};
@@ -94,7 +94,7 @@ impl std::fmt::Display for AssessStage {
 }
 
 /// As [`prove`], with `(options, cells)`, and says what it is about to do.
-pub(crate) fn prove_telling(
+pub fn prove_telling(
     m: &Manipulator,
     required: &Requirements,
     space: &PoseSpace,

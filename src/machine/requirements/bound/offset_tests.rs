@@ -5,13 +5,13 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use super::joint_offsets::JointOffsets;
 use super::tests::{everything, poses_of, quick, random_platform, sampled};
 use super::*;
-use crate::machine::requirements::coupled::CoupledLegs;
-use crate::machine::requirements::term::TermKind;
-use crate::machine::requirements::{
+use crate::requirements::coupled::CoupledLegs;
+use crate::requirements::term::TermKind;
+use crate::requirements::{
     Hardware, JointAxes, LengthLimits, PlatformSpeed, PlatformStiffness, Swing, UniversalJoint,
 };
-use crate::num::Rng;
-use crate::platform::geom::{ChartCell, Pose, PoseSpace, Region};
+use num::Rng;
+use platform::geom::{ChartCell, Pose, PoseSpace, Region};
 
 /// Joints of every sort that is not ideal: offsets at base and platform, a lead.
 const SORTS: [([f64; 2], Option<f64>); 4] =
@@ -57,7 +57,7 @@ fn derivatives_over_cells_are_those_of_doubles() {
         };
         let legs = CoupledLegs::new(&m, &hardware, &home).unwrap();
         let joints = JointOffsets::new(&m, &required, &Chart::of_pose(&home)).unwrap();
-        let chart = Chart::all(&space).into_iter().find(|c| c.len() == 6).unwrap();
+        let chart = Chart::all(&space).into_iter().find(|c| c.coordinates() == 6).unwrap();
         let lengths = |x: &[f64; 6]| legs.drives(&chart.pose(x)).unwrap();
         let h = 1e-3;
         for _ in 0..3 {
@@ -183,7 +183,7 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
             ..Requirements::default()
         };
         let wide = with(1000.0, 1000.0);
-        let found = prove(&m, &wide, &space, &AssessOptions { points: 300, searches: 2, ..quick() }, 100);
+        let found = prove(&m, &wide, &space, &quick().points(300).searches(2), 100);
         let worst =
             |kind| 1000.0 - found.bounds.iter().find(|b| b.found.term.kind == kind).unwrap().found.value;
         let (longest, fastest) = (worst(TermKind::LegTooLong), worst(TermKind::LegSpeed));

@@ -16,15 +16,15 @@ use nalgebra::{Matrix6, Vector3};
 
 use super::frame::{CellFrame, enclosed};
 use super::local::{self, Bounded};
-use crate::machine::requirements::term::{TermKind, Terms};
-use crate::machine::requirements::vibration::{mass_matrix, scaled_mass};
-use crate::machine::requirements::{LegMasses, Requirements, VibratingMasses};
-use crate::num::interval::Interval;
-use crate::num::jet::{Jet, JetVector, dot as dot_jets};
-use crate::num::small::bounded_svd;
-use crate::platform::geom::enclosed::{IntervalVector, cross, dot};
-use crate::platform::geom::{Chart, ChartCell, radians};
-use crate::platform::manipulator::Manipulator;
+use crate::requirements::term::{TermKind, Terms};
+use crate::requirements::vibration::{mass_matrix, scaled_mass};
+use crate::requirements::{LegMasses, Requirements, VibratingMasses};
+use num::interval::Interval;
+use num::jet::{Jet, JetVector, dot as dot_jets};
+use num::small::bounded_svd;
+use platform::geom::enclosed::{IntervalVector, cross, dot};
+use platform::geom::{Chart, ChartCell, radians};
+use platform::manipulator::Manipulator;
 
 /// What `K` is compared with.
 #[derive(Debug, Clone, Copy)]
@@ -296,7 +296,7 @@ impl CellMatrix<'_> {
     fn values(&self, s: f64, i: usize, j: usize) -> Interval {
         let (here, over) = self.entry(s, i, j);
         let mut mean = here.value;
-        for k in 0..self.chart.len() {
+        for k in 0..self.chart.coordinates() {
             mean = mean + over.slope(k) * (self.cell.side(k) - Interval::from(self.z[k]));
         }
         let (lo, hi) = (mean.lo().max(over.value.lo()), mean.hi().min(over.value.hi()));
@@ -318,7 +318,7 @@ impl CellMatrix<'_> {
         let mut sinks = (-self.least(s, 5)).max(0.0);
         let mut loose = [0.0; 6];
         let (_, own) = self.entry(s, 5, 5);
-        for (k, l) in loose.iter_mut().enumerate().take(self.chart.len()) {
+        for (k, l) in loose.iter_mut().enumerate().take(self.chart.coordinates()) {
             let slope = own.slope(k);
             *l = self.cell.reach(self.z, k) * (EXPLAINED * slope.magnitude() + (slope.hi() - slope.lo()));
         }
@@ -326,7 +326,7 @@ impl CellMatrix<'_> {
             let (shared, room) = (self.values(s, j, 5).magnitude(), self.least(s, j).max(0.05));
             sinks += shared * shared / room;
             let (_, across) = self.entry(s, j, 5);
-            for (k, l) in loose.iter_mut().enumerate().take(self.chart.len()) {
+            for (k, l) in loose.iter_mut().enumerate().take(self.chart.coordinates()) {
                 let part = self.cell.reach(self.z, k) * across.slope(k).magnitude();
                 *l += part * (shared / room).min(1.0);
             }

@@ -5,18 +5,18 @@ use nalgebra::{Point3, Rotation3, Unit, Vector3};
 use super::fixed::{housing_gap, room_inside};
 use super::frame::enclosed;
 use super::*;
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 use std::collections::BTreeMap;
 
-use crate::machine::requirements::hardware::Housing;
-use crate::machine::requirements::term::TermKind;
-use crate::machine::requirements::{
+use crate::requirements::hardware::Housing;
+use crate::requirements::term::TermKind;
+use crate::requirements::{
     Envelope, Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart,
     LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness, Reserve, Reserves, Swing,
     UniversalJoint, VibratingMasses,
 };
-use crate::num::Rng;
-use crate::platform::geom::{ChartCell, Pose, Region};
+use num::Rng;
+use platform::geom::{ChartCell, Pose, Region};
 
 pub(super) fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
     let mut joints = |r: f64, turn: f64| -> Vec<Point3<f64>> {
@@ -114,7 +114,7 @@ pub(super) fn everything() -> Requirements {
 }
 
 pub(super) fn quick() -> AssessOptions {
-    AssessOptions { points: 30, searches: 1, ..AssessOptions::default() }
+    AssessOptions::new().points(30).searches(1)
 }
 
 /// The least margin of every kind over many poses, in doubles.
@@ -183,20 +183,14 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
         };
         let kinds = [TermKind::LegTooLong, TermKind::PlatformSwing, TermKind::LegSpeed];
         let wide = [100.0, 170.0, 100.0];
-        let first = prove(
-            &m,
-            &with(wide[0], wide[1], wide[2]),
-            &space,
-            &AssessOptions { points: 400, ..quick() },
-            60,
-        );
+        let first = prove(&m, &with(wide[0], wide[1], wide[2]), &space, &quick().points(400), 60);
         let worst: [f64; 3] = std::array::from_fn(|i| {
             wide[i] - first.bounds.iter().find(|b| b.found.term.kind == kinds[i]).unwrap().found.value
         });
         for depth in [1e-2, 1e-3] {
             let [a, b, c] = worst.map(|x| x * (1.0 - depth));
             // no sampling at all: cells have to find it
-            let none = AssessOptions { points: 0, searches: 0, ..quick() };
+            let none = quick().points(0).searches(0);
             let short = prove(&m, &with(a, b, c), &space, &none, 1500);
             for bound in short.bounds.iter().filter(|b| kinds.contains(&b.found.term.kind)) {
                 assert!(
@@ -308,7 +302,7 @@ fn a_trajectory_is_proved_between_its_poses() {
     };
     let many = space.listed(20_000);
     let shortest = sampled(&Terms::new(&m, &with(0.0), &home), &many)[&TermKind::LegTooShort];
-    let one_step = AssessOptions { steps: 1, ..quick() };
+    let one_step = quick().steps(1);
     assert_eq!(prove(&m, &with(shortest * (1.0 - 1e-6)), &space, &one_step, 2000).all_met(), Some(true));
     assert_eq!(prove(&m, &with(shortest * (1.0 + 1e-6)), &space, &one_step, 2000).all_met(), Some(false));
 }
@@ -375,7 +369,7 @@ fn envelopes_and_reserves_of_upright_legs_are_those_by_hand() {
     assert_eq!(kept(&r, TermKind::LegTooLong), Some(true), "none is asked for");
     for (amount, expected) in [(0.9, Some(true)), (1.1, Some(false))] {
         for kind in [TermKind::LegTooShort, TermKind::LegTooLong] {
-            r.reserves.kinds.insert(kind, crate::machine::requirements::Reserve::Amount(amount));
+            r.reserves.kinds.insert(kind, crate::requirements::Reserve::Amount(amount));
             let bound = of(&r, kind);
             assert_eq!((bound.verdict, bound.keeps_reserve()), (MarginVerdict::Met, expected), "{bound:?}");
         }
@@ -403,7 +397,7 @@ fn the_housing_of_a_single_joint_counts_for_that_joint() {
         assert!(bound.verdict == MarginVerdict::Met && bound.found.value - bound.below < 1e-9, "{bound:?}");
         bound.found
     };
-    let near = |found: crate::machine::requirements::Margin, value: f64| {
+    let near = |found: crate::requirements::Margin, value: f64| {
         assert!((found.value - value).abs() < 1e-12, "{value}: {found:?}");
         found.term
     };
@@ -519,7 +513,7 @@ fn stiffness_and_frequency_are_bounded_and_decided() {
             ..wide
         };
         let small = limits(&[1.0; 3], 1e-3);
-        let proof = prove(&m, &small, &space, &AssessOptions { points: 300, ..quick() }, 40);
+        let proof = prove(&m, &small, &space, &quick().points(300), 40);
         let terms = Terms::new(&m, &small, &home);
         let least = sampled(&terms, &poses_of(&space, 1500, &mut rng));
         let worst: [f64; 3] = std::array::from_fn(|i| proof.bounds[i].found.value + 1e-3);
@@ -535,7 +529,7 @@ fn stiffness_and_frequency_are_bounded_and_decided() {
             // too large for few cells
             continue;
         }
-        let none = AssessOptions { points: 0, searches: 0, close: false, ..AssessOptions::default() };
+        let none = AssessOptions::new().points(0).searches(0).close(false);
         let met = prove(&m, &limits(&worst, 0.96), &space, &none, 1500);
         assert_eq!(met.all_met(), Some(true), "{k}: {met:?}");
         let missed = prove(&m, &limits(&worst, 1.02), &space, &none, 1500);
@@ -673,11 +667,11 @@ fn gaps_of_legs_are_bounded_to_second_order() {
         let (i, j) = [(0, 1), (1, 2), (0, 3), (5, 0)][k % 4];
         let (part, other) = [(0, 0), (0, 1), (1, 0), (1, 1)][k / 4 % 4];
         let middle: [f64; 6] =
-            std::array::from_fn(|c| if c < chart.len() { 0.5 * rng.uniform(-1.0, 1.0) } else { 0.0 });
+            std::array::from_fn(|c| if c < chart.coordinates() { 0.5 * rng.uniform(-1.0, 1.0) } else { 0.0 });
         // what is lost over cells of two sizes about one point
         let lost = [0.2, 0.1].map(|half| {
             let mut cell = chart.root;
-            for c in 0..chart.len() {
+            for c in 0..chart.coordinates() {
                 (cell.lo[c], cell.hi[c]) = (middle[c] - half, middle[c] + half);
             }
             let z = cell.centre();
@@ -696,7 +690,7 @@ fn gaps_of_legs_are_bounded_to_second_order() {
                     [[ends.base, top], [top, end]][part]
                 };
                 let radius = |part: usize| [0.15, 0.1][part];
-                crate::platform::geom::segment_distance(segment(i, part), segment(j, other))
+                platform::geom::segment_distance(segment(i, part), segment(j, other))
                     - radius(part)
                     - radius(other)
             };
@@ -707,10 +701,9 @@ fn gaps_of_legs_are_bounded_to_second_order() {
             for s in 0..200 {
                 let side =
                     |c: usize, t: f64| if s % 2 == 0 { t } else { t.signum() }.mul_add(half, middle[c]);
-                let q =
-                    std::array::from_fn(
-                        |c| if c < chart.len() { side(c, rng.uniform(-1.0, 1.0)) } else { 0.0 },
-                    );
+                let q = std::array::from_fn(|c| {
+                    if c < chart.coordinates() { side(c, rng.uniform(-1.0, 1.0)) } else { 0.0 }
+                });
                 if chart.scale_of(&q) <= 1.0 {
                     least = least.min(apart(&q));
                 }

@@ -1,18 +1,18 @@
 //! What is proved of margins.
 
-use crate::machine::requirements::assess::Margin;
+use crate::requirements::assess::Margin;
 
 /// What is known of the least margin of a kind of requirement over all poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
-    feature = "files",
+    feature = "serde",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
 pub enum MarginVerdict {
     /// Proved: no margin is negative.
     Met,
-    /// Proved: no margin is negative by more than the rounding of its evaluation ([`Terms::rounding`](crate::machine::requirements::Terms::rounding)).
+    /// Proved: no margin is negative by more than the rounding of its evaluation ([`Terms::rounding`](crate::requirements::Terms::rounding)).
     AtLimit,
     /// Proved: the margin is negative at the pose given, by more than that.
     Violated,

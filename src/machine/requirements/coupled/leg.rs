@@ -2,11 +2,11 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::num::interval::Interval;
-use crate::num::jet::Jet;
+use num::interval::Interval;
+use num::jet::Jet;
 
 /// Numbers that the formulas take.
-pub(crate) trait LegNumber:
+pub trait LegNumber:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// A constant of the same kind.
@@ -59,62 +59,68 @@ impl LegNumber for Jet {
     }
 }
 
-pub(crate) type Vec3<T> = [T; 3];
+/// A vector of numbers, gradients or intervals.
+pub type Vec3<T> = [T; 3];
 
-pub(crate) fn dot<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> T {
+/// `a . b`.
+pub fn dot<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(crate) fn cross<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
+/// `a x b`.
+pub fn cross<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-pub(crate) fn minus<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
+/// `a - b`.
+pub fn minus<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-pub(crate) fn scaled<T: LegNumber>(a: &Vec3<T>, x: T) -> Vec3<T> {
+/// `x a`.
+pub fn scaled<T: LegNumber>(a: &Vec3<T>, x: T) -> Vec3<T> {
     a.map(|y| y * x)
 }
 
-pub(crate) fn unit<T: LegNumber>(a: &Vec3<T>) -> Option<Vec3<T>> {
+/// `a / |a|`; `None` where the norm may vanish.
+pub fn unit<T: LegNumber>(a: &Vec3<T>) -> Option<Vec3<T>> {
     let length = dot(a, a).root()?;
     Some([a[0].over(length)?, a[1].over(length)?, a[2].over(length)?])
 }
 
 /// The direction of the part of `v` across an axis.
-pub(crate) fn across<T: LegNumber>(axis: &Vec3<T>, v: &Vec3<T>) -> Option<Vec3<T>> {
+pub(super) fn across<T: LegNumber>(axis: &Vec3<T>, v: &Vec3<T>) -> Option<Vec3<T>> {
     unit(&cross(axis, &cross(v, axis)))
 }
 
 /// A leg at a pose, base frame.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PlacedLeg<T> {
+pub struct PlacedLeg<T> {
     /// From base joint to platform joint.
-    pub(crate) line: Vec3<T>,
+    pub line: Vec3<T>,
     /// From the platform origin to the platform joint.
-    pub(crate) arm: Vec3<T>,
+    pub arm: Vec3<T>,
     /// First axes at the base and at the platform, unit vectors; anything where a joint is a ball.
-    pub(crate) axes: [Vec3<T>; 2],
+    pub axes: [Vec3<T>; 2],
     /// From the first axis of a joint to its second one.
-    pub(crate) offsets: [T; 2],
+    pub offsets: [T; 2],
 }
 
 impl<T: LegNumber> PlacedLeg<T> {
     /// Where the second axes are seen from the first ones when the other end is where `other` says: unit vectors across the first axes, from base to platform.
-    pub(crate) fn direction(&self, end: usize, other: &Vec3<T>) -> Option<Vec3<T>> {
+    pub fn direction(&self, end: usize, other: &Vec3<T>) -> Option<Vec3<T>> {
         let reach = scaled(other, self.offsets[1 - end]);
         across(&self.axes[end], &minus(&self.line, &reach))
     }
 
     /// From the second axis at the base to that at the platform.
-    pub(crate) fn between(&self, ends: &[Vec3<T>; 2]) -> Vec3<T> {
+    pub fn between(&self, ends: &[Vec3<T>; 2]) -> Vec3<T> {
         let moved = scaled(&ends[0], self.offsets[0]);
         minus(&minus(&self.line, &moved), &scaled(&ends[1], self.offsets[1]))
     }
 
     /// Sine and cosine of the angle about the leg from the second axis at the base to that at the platform.
-    pub(crate) fn twist(&self, ends: &[Vec3<T>; 2]) -> Option<[T; 2]> {
+    pub fn twist(&self, ends: &[Vec3<T>; 2]) -> Option<[T; 2]> {
         let u = unit(&self.between(ends))?;
         let second = self.second_axes(ends);
         Some([dot(&u, &cross(&second[0], &second[1])), dot(&second[0], &second[1])])
@@ -134,7 +140,7 @@ impl<T: LegNumber> PlacedLeg<T> {
     /// d (e.e') q' + (s.w' + d') q'' = (v + omega x m - omega x s) . e'
     /// psi' = u . omega + (u . b) q'' - (u . a) q'
     /// ```
-    pub(crate) fn rates(&self, ends: &[Vec3<T>; 2], with_twist: bool) -> Option<[[T; 6]; 2]> {
+    pub fn rates(&self, ends: &[Vec3<T>; 2], with_twist: bool) -> Option<[[T; 6]; 2]> {
         let s = self.between(ends);
         let u = unit(&s)?;
         let m = minus(&self.arm, &scaled(&ends[1], self.offsets[1]));

@@ -17,10 +17,10 @@ use nalgebra::{Matrix6, Vector3};
 use thiserror::Error;
 
 use super::Hardware;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator};
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator};
 
-pub(crate) use self::leg::{LegNumber, PlacedLeg, Vec3, cross, dot, minus, scaled, unit};
+pub use self::leg::{LegNumber, PlacedLeg, Vec3, cross, dot, minus, scaled, unit};
 
 /// Most steps of the fixed point of the two directions of a leg: a factor of a half needs 55.
 const STEPS: usize = 400;
@@ -70,15 +70,18 @@ pub struct DriveState {
 /// The legs of a machine whose joints are not ideal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoupledLegs {
-    pub(crate) manipulator: Manipulator,
+    /// The joint centres.
+    pub manipulator: Manipulator,
     /// First axes at base and platform, in the frames of the bodies.
-    pub(crate) axes: [[Vector3<f64>; 6]; 2],
-    pub(crate) offsets: [f64; 2],
+    pub axes: [[Vector3<f64>; 6]; 2],
+    /// Distances of the two axes of a universal joint, at base and platform.
+    pub offsets: [f64; 2],
     /// Per radian.
-    pub(crate) lead: f64,
-    pub(crate) home: Pose,
+    pub lead: f64,
+    /// Where twists are `at_home`.
+    pub home: Pose,
     /// Twists at home, radians.
-    pub(crate) at_home: [f64; 6],
+    pub at_home: [f64; 6],
 }
 
 impl CoupledLegs {
@@ -149,7 +152,7 @@ impl CoupledLegs {
     }
 
     /// Whether the second axis at an end matters.
-    pub(crate) fn needs(&self, end: usize) -> bool {
+    pub fn needs(&self, end: usize) -> bool {
         self.offsets[end] != 0.0 || self.lead != 0.0
     }
 
@@ -189,7 +192,10 @@ impl CoupledLegs {
     }
 
     /// One leg at a pose.
-    pub(crate) fn state_of(&self, i: usize, pose: &Pose) -> Result<DriveState, NoDriveLength> {
+    ///
+    /// # Errors
+    /// A pose that the leg does not reach.
+    pub fn state_of(&self, i: usize, pose: &Pose) -> Result<DriveState, NoDriveLength> {
         let placed = self.placed(i, pose);
         let ends = self.ends(i, &placed)?;
         let failed = NoDriveLength::NotFinite(i + 1);

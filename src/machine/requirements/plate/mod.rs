@@ -9,14 +9,13 @@ mod tests;
 use nalgebra::Point2;
 
 use super::hardware::Hardware;
-use crate::platform::manipulator::Body;
+use platform::manipulator::Body;
 
-pub(crate) use moments::PlateBody;
-pub(crate) use outline::on_circle;
+pub use moments::PlateBody;
+pub use outline::on_circle;
 pub use outline::{Outline, OutlinePart};
 pub use solid::{PlateSeat, PlateSolid};
-#[cfg(any(feature = "files", feature = "optimize"))]
-pub(crate) use solid::{frame_of, plate_normal};
+pub use solid::{frame_of, plate_normal};
 
 /// Materials that are known by name, with their densities in kg/m^3: rounded values of tables of engineering materials at room temperature.
 pub const MATERIALS: [(&str, f64); 8] = [

@@ -9,10 +9,10 @@ use super::{PlateDesign, PlateSolid};
 
 /// Integrals over a plane region: of 1, of the coordinates, of their products.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct AreaMoments {
-    pub(crate) area: f64,
-    pub(crate) first: Vector2<f64>,
-    pub(crate) second: Matrix2<f64>,
+pub struct AreaMoments {
+    pub area: f64,
+    pub first: Vector2<f64>,
+    pub second: Matrix2<f64>,
 }
 
 impl AreaMoments {
@@ -65,7 +65,7 @@ impl AreaMoments {
     }
 
     /// Of what an outline encloses.
-    pub(crate) fn of(outline: &Outline) -> Self {
+    pub fn of(outline: &Outline) -> Self {
         let mut out = if outline.hull.len() > 2 { Self::polygon(&outline.hull) } else { Self::default() };
         let n = outline.hull.len();
         let mut edge = 0;
@@ -101,18 +101,18 @@ impl AreaMoments {
 
 /// A plate as a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct PlateBody {
+pub struct PlateBody {
     /// Mass, kilograms.
-    pub(crate) mass: f64,
+    pub mass: f64,
     /// Centre of mass, frame of the body, design units.
-    pub(crate) center: Point3<f64>,
+    pub center: Point3<f64>,
     /// Inertia about it, axes of the body, kilograms times design units squared.
-    pub(crate) inertia: Matrix3<f64>,
+    pub inertia: Matrix3<f64>,
 }
 
 impl PlateSolid {
     /// Area of the plate without its holes, and its moments, plate coordinates.
-    pub(crate) fn moments(&self, plate: &PlateDesign) -> AreaMoments {
+    pub fn moments(&self, plate: &PlateDesign) -> AreaMoments {
         let mut out = AreaMoments::of(&self.outline);
         for seat in &self.seats {
             out.without_hole(&seat.at, plate.hole);
@@ -124,7 +124,7 @@ impl PlateSolid {
     }
 
     /// The plate as a rigid body, where a design unit is so many metres; `None` where its density is not known.
-    pub(crate) fn rigid(&self, plate: &PlateDesign, metres: f64) -> Option<PlateBody> {
+    pub fn rigid(&self, plate: &PlateDesign, metres: f64) -> Option<PlateBody> {
         let moments = self.moments(plate);
         let per_unit = plate.kilograms_per_cubic_metre()? * metres.powi(3) * self.thickness;
         let mass = moments.area * per_unit;

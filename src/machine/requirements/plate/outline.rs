@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Point2, Vector2};
 
-use crate::platform::geom::convex_hull;
+use platform::geom::convex_hull;
 
 /// A piece of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -161,7 +161,7 @@ impl Outline {
 }
 
 /// A point of a circle.
-pub(crate) fn on_circle(centre: &Point2<f64>, radius: f64, angle: f64) -> Point2<f64> {
+pub fn on_circle(centre: &Point2<f64>, radius: f64, angle: f64) -> Point2<f64> {
     let (s, c) = angle.sin_cos();
     Point2::new(centre.x + radius * c, centre.y + radius * s)
 }

@@ -5,15 +5,15 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3};
 use super::super::hardware::Hardware;
 use super::PlateDesign;
 use super::outline::Outline;
-use crate::platform::geom::{Pose, any_across};
-use crate::platform::manipulator::{Body, Manipulator};
+use platform::geom::{Pose, any_across};
+use platform::manipulator::{Body, Manipulator};
 
 /// Joints nearer than this share of the size are one seat.
 const SAME: f64 = 1e-9;
 
 /// Normal of the greatest triangle of the joints, towards positive z (then y, then x); the direction across their line nearest to `along` where they
 /// lie on one.
-pub(crate) fn plate_normal(points: &[Point3<f64>], along: &Vector3<f64>, size: f64) -> Vector3<f64> {
+pub fn plate_normal(points: &[Point3<f64>], along: &Vector3<f64>, size: f64) -> Vector3<f64> {
     let mut best = Vector3::zeros();
     let mut line = Vector3::zeros();
     for (i, p) in points.iter().enumerate() {
@@ -43,7 +43,7 @@ pub(crate) fn plate_normal(points: &[Point3<f64>], along: &Vector3<f64>, size: f
 }
 
 /// The axes `(u, v, n)`: `u` the body's x-axis in the plane, or its y-axis where x is along `n`.
-pub(crate) fn frame_of(n: &Vector3<f64>) -> Matrix3<f64> {
+pub fn frame_of(n: &Vector3<f64>) -> Matrix3<f64> {
     let first = if n.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
     let u = (first - n * n.dot(&first)).normalize();
     Matrix3::from_columns(&[u, n.cross(&u), *n])
@@ -219,7 +219,7 @@ impl PlateSolid {
     }
 
     /// The greatest length that coordinates of its points are computed from.
-    pub(crate) fn extent(&self) -> f64 {
+    pub fn extent(&self) -> f64 {
         let far = self.seats.iter().flat_map(|s| s.bolts.iter().chain([&s.at]));
         let far = far.map(|p| p.coords.norm()).fold(0.0, f64::max);
         far + self.outline.margin + self.face.abs() + self.thickness

@@ -6,13 +6,13 @@ use nalgebra::{Matrix2, Point2, Point3, Rotation3, Vector2, Vector3};
 
 use super::moments::AreaMoments;
 use super::*;
-use crate::machine::requirements::{
+use crate::requirements::{
     AssessOptions, Hardware, KeepOutShape, LegBody, MarginVerdict, Requirements, Standing, TermKind, Terms,
     assess, prove,
 };
-use crate::num::Rng;
-use crate::platform::geom::{Pose, PoseSpace};
-use crate::platform::manipulator::Manipulator;
+use num::Rng;
+use platform::geom::{Pose, PoseSpace};
+use platform::manipulator::Manipulator;
 
 fn stated() -> PlateDesign {
     PlateDesign {
@@ -247,7 +247,7 @@ fn holes_of_a_hexagon_by_hand() {
     let standing = |plate: &PlateDesign| {
         let r = required(plate);
         let space = PoseSpace::at(home);
-        let found = assess(&m, &r, &space, &AssessOptions { points: 4, ..AssessOptions::default() });
+        let found = assess(&m, &r, &space, &AssessOptions::new().points(4));
         found.margins.iter().find(|x| x.term.kind == TermKind::BaseHoleEdge).unwrap().standing
     };
     assert_eq!(standing(&plate), Standing::AtLimit);
@@ -326,7 +326,7 @@ fn legs_that_lean_come_near_their_own_plates_by_what_trigonometry_says_and_it_is
     let mut r = required(&plate);
     // legs lean up to 45 degrees: from the housing on, half a unit along the leg, a cylinder of radius 0.5 over a face 0.6 below the joint
     let space = PoseSpace { translation: Vector3::new(10.0, 0.0, 0.0), ..PoseSpace::at(home) };
-    let quick = AssessOptions { points: 60, searches: 1, ..AssessOptions::default() };
+    let quick = AssessOptions::new().points(60).searches(1);
     let of = |r: &Requirements| {
         let proof = prove(&m, r, &space, &quick, 3000);
         proof.bounds.into_iter().find(|b| b.found.term.kind == TermKind::PlateClearance).unwrap()
@@ -358,7 +358,7 @@ fn no_sampled_pose_is_below_a_proved_clearance() {
     r.hardware.leg_body = Some(LegBody { diameter: 0.8, rod: Some((5.0, 0.3)) });
     let half = Vector3::new(3.0, 2.0, 1.5);
     let space = PoseSpace { translation: half, rotation_deg: Vector3::repeat(15.0), ..PoseSpace::at(home) };
-    let quick = AssessOptions { points: 40, searches: 1, ..AssessOptions::default() };
+    let quick = AssessOptions::new().points(40).searches(1);
     let proof = prove(&m, &r, &space, &quick, 600);
     let bound = proof.bounds.iter().find(|b| b.found.term.kind == TermKind::PlateClearance).unwrap();
     assert!(bound.below.is_finite() && bound.below <= bound.found.value, "{bound:?}");

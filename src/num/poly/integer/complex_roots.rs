@@ -6,7 +6,7 @@ use num_traits::{ToPrimitive, Zero};
 use thiserror::Error;
 
 use super::{Dyadic, IntPoly, squarefree_factors};
-use crate::num::poly::roots;
+use crate::poly::roots;
 
 /// A disc that holds exactly one distinct root.
 #[derive(Debug, Clone, PartialEq)]

@@ -139,7 +139,7 @@ mod tests {
     #![allow(clippy::float_cmp, reason = "the values are exact")]
 
     use super::*;
-    use crate::num::Rng;
+    use crate::Rng;
 
     #[test]
     fn doubles_read_back_bit_for_bit() {

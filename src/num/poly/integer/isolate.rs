@@ -120,6 +120,7 @@ impl RealRoot {
 /// Square-free factors by Yun's algorithm, then Descartes' rule of signs on halved intervals (Collins, Akritas 1976), in integers throughout: the number of roots is proved.
 ///
 /// ```
+/// # mod equipod { pub use equipod_num::Cancel; pub mod methods { pub use equipod_num::poly; } }
 /// use equipod::methods::poly::{IntPoly, real_roots};
 /// // (x^2 - 2) (x - 3)^2
 /// let p = IntPoly::from_i64(&[-18, 12, 7, -6, 1]);

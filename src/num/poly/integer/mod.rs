@@ -25,6 +25,7 @@ pub use sturm::sturm_count;
 /// The zero polynomial has no coefficients and no degree. Products use Kronecker substitution, so that they cost one product of large integers.
 ///
 /// ```
+/// # mod equipod { pub use equipod_num::Cancel; pub mod methods { pub use equipod_num::poly; } }
 /// use equipod::methods::poly::IntPoly;
 /// let p = IntPoly::from_i64(&[-1, 1]); // x - 1
 /// let q = IntPoly::from_i64(&[2, 1]); // x + 2
@@ -193,7 +194,7 @@ impl IntPoly {
     }
 
     /// `2^(n k) p(x / 2^k)`, for `k < 0` `p(2^-k x)`: roots multiplied by `2^k`.
-    pub(crate) fn stretched(&self, k: i64) -> Self {
+    pub fn stretched(&self, k: i64) -> Self {
         let n = self.0.len().saturating_sub(1);
         let shift = |(i, c): (usize, &BigInt)| {
             let places = if k >= 0 { n - i } else { i };

@@ -3,7 +3,7 @@
 use num_bigint::{BigInt, Sign};
 
 use super::IntPoly;
-use crate::num::modular::{Field, all_fields};
+use crate::modular::{Field, all_fields};
 
 /// A prime modulus below `2^61`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,7 +100,7 @@ pub(super) fn may_divide(divisor: &IntPoly, p: &IntPoly) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::modular::is_prime;
+    use crate::modular::is_prime;
 
     #[test]
     fn primes_and_residues() {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::num::Rng;
+use crate::Rng;
 
 fn linear(root: i64) -> IntPoly {
     IntPoly::from_i64(&[-root, 1])

@@ -11,15 +11,15 @@ use super::linear::LinearBound;
 use super::model::{ConstraintGroup, Model, Task};
 use super::outcome::smallest_cap;
 use super::*;
-use crate::machine::requirements::{
+use machine::requirements::{
     AssessOptions, BoltPattern, BoltsFrom, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape,
     LegBody, LegMasses, LegPart, LengthLimits, Load, MovingBodies, Objective, PlateDesign, Plates,
     PlatformSpeed, PlatformStiffness, PoseSpace, Requirements, Swing, TermKind, Terms, UniversalJoint,
     VariableKind, VibratingMasses, assess,
 };
-use crate::num::Rng;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Manipulator};
+use num::Rng;
+use platform::geom::Pose;
+use platform::manipulator::{Body, Manipulator};
 
 fn octahedral() -> (Manipulator, Pose) {
     let joint = |r: f64, k: f64| {
@@ -308,7 +308,7 @@ fn stiffness_and_frequency_are_those_of_the_margins() {
         *known = f64::min(*known, item.value);
     });
     let m = model.shape.manipulator(&x).unwrap();
-    let margins = crate::machine::requirements::Terms::new(&m, &p.requirements, &p.space.home).at(&at.pose);
+    let margins = machine::requirements::Terms::new(&m, &p.requirements, &p.space.home).at(&at.pose);
     for kind in [TermKind::LinearStiffness, TermKind::AngularStiffness, TermKind::NaturalFrequency] {
         let asked = p.requirements.least_stiffness_of(kind).unwrap();
         let margin = margins.iter().find(|(t, _)| t.kind == kind).unwrap().1;
@@ -328,7 +328,7 @@ fn a_least_frequency_is_obeyed_and_the_greatest_one_is_sought() {
     let mut p = crowded(&[VariableKind::SymmetricOffsets, VariableKind::HomeHeight], JointAxes::Home);
     let own = p.requirements.clone();
     p.requirements = Requirements {
-        hardware: crate::machine::requirements::Hardware {
+        hardware: machine::requirements::Hardware {
             leg_length: own.hardware.leg_length,
             leg_stiffness: own.hardware.leg_stiffness,
             ..Default::default()
@@ -349,7 +349,7 @@ fn a_least_frequency_is_obeyed_and_the_greatest_one_is_sought() {
         let cube = space.cube_points(200, &mut Rng::new(3));
         let poses = s.poses.iter().copied().chain(cube.iter().map(|x| space.pose(x)));
         poses
-            .map(|pose| crate::machine::requirements::lowest_frequency(&s.manipulator, &pose, &masses))
+            .map(|pose| machine::requirements::lowest_frequency(&s.manipulator, &pose, &masses))
             .fold(f64::INFINITY, f64::min)
     };
     let (spacing, s, space) = best(&p);
@@ -470,7 +470,7 @@ fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
         .unwrap();
     assert!(matches!(found.outcome, DimensionalOutcome::Optimal(_)), "{found:?}");
     let s = found.solution().unwrap();
-    let options = AssessOptions { points: 300, ..AssessOptions::default() };
+    let options = AssessOptions::new().points(300);
     let dense = assess(&s.manipulator, &p.requirements, &p.space, &options);
     assert!(dense.all_met(), "{dense:?}");
     let value = evaluate(&p, &s.manipulator, &p.space, &[], 300, 5)[0];
@@ -543,7 +543,7 @@ fn units_and_frames_do_not_change_the_answer() {
     let mut same = p.clone();
     (same.space.translation, same.space.rotation_deg) = (Vector3::repeat(20.0), Vector3::zeros());
     for q in [&mut other, &mut same] {
-        q.space.region = crate::machine::requirements::Region::Ellipsoid;
+        q.space.region = machine::requirements::Region::Ellipsoid;
     }
     other.characteristic_length *= scale;
     other.requirements.min_joint_distance = Some(0.025);
@@ -581,8 +581,7 @@ fn families_of_an_octahedral_design_are_its_offsets() {
     }
     // the leg map decides: |det A| by both modules
     let m = model.shape.manipulator(&x).unwrap();
-    let map =
-        crate::synthesis::leg_map(&p.manipulator, &m, crate::synthesis::LegMapTolerances::default()).unwrap();
+    let map = synthesis::leg_map(&p.manipulator, &m, synthesis::LegMapTolerances::default()).unwrap();
     let (own, det) = (model.shape.determinant(&x).unwrap().0, map.determinant);
     assert!((own - det).abs() < 1e-9 && det.abs() > 1e-3, "{own} {det}");
 }
@@ -658,7 +657,7 @@ fn angles_of_universal_joints_are_those_of_the_margins() {
                 return;
             }
             let margin = margins.iter().find(|(t, _)| t.kind == kind && t.first == leg).unwrap().1;
-            if item.id.3 == 0 && kind.hinge().unwrap().1 == crate::machine::requirements::HingeAngle::First {
+            if item.id.3 == 0 && kind.hinge().unwrap().1 == machine::requirements::HingeAngle::First {
                 assert_eq!(item.value > 0.0, margin > 0.0, "{kind:?} {leg}");
                 signs[usize::from(margin > 0.0)] += 1;
             } else {

@@ -9,8 +9,8 @@ use super::super::model::Task;
 use super::super::search::{Watch, expects_no_other, refine};
 use super::super::*;
 use super::{ConstraintGroup, Model, everything, problem, quick};
-use crate::machine::requirements::{JointAxes, LengthLimits, Objective, Swing, TermKind, VariableKind};
-use crate::platform::manipulator::Manipulator;
+use machine::requirements::{JointAxes, LengthLimits, Objective, Swing, TermKind, VariableKind};
+use platform::manipulator::Manipulator;
 
 #[test]
 fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
@@ -56,13 +56,7 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
     let proved = |p: &DimensionalProblem, group: ConstraintGroup| {
         let model = Model::new(p).unwrap();
         let x = [0.4; 6];
-        crate::optimize::dimensional::conflict::proved_empty(
-            &model,
-            &model.first_poses(),
-            &x,
-            &[group],
-            &everything(1),
-        )
+        crate::dimensional::conflict::proved_empty(&model, &model.first_poses(), &x, &[group], &everything(1))
     };
     assert!(proved(&p, ConstraintGroup::Term(TermKind::BaseSwing)));
     // spacing is not convex: nothing is proved about it
@@ -167,7 +161,7 @@ fn long_struts(limits: LengthLimits) -> DimensionalProblem {
     p.manipulator = Manipulator::try_new(base, platform, pairs).unwrap();
     p.characteristic_length = p.manipulator.platform_rms_radius();
     p.space.home.position.z = 20.0;
-    p.space.region = crate::machine::requirements::Region::Ellipsoid;
+    p.space.region = machine::requirements::Region::Ellipsoid;
     p.space.translation = Vector3::new(4.0, 4.0, 3.0);
     p.space.rotation_deg = Vector3::repeat(10.0);
     p.variables.offset_bounds = [(0.0, 1.0); 6];

@@ -20,10 +20,10 @@ use nalgebra::Matrix6;
 
 use super::multipliers::game;
 use super::rows::LegRow;
-use crate::num::ball::Real;
-use crate::num::small::bounded_svd;
-use crate::optimize::offsets::conditioning::PoseLegs;
-use crate::optimize::offsets::limits::OffsetRanges;
+use crate::offsets::conditioning::PoseLegs;
+use crate::offsets::limits::OffsetRanges;
+use num::ball::Real;
+use num::small::bounded_svd;
 
 /// `a . b`.
 fn dot(a: &[Real; 6], b: &[Real; 6]) -> Real {

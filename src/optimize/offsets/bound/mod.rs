@@ -18,9 +18,9 @@ use self::rows::{LegRow, Quotient, greatest};
 use super::conditioning::{PoseLegs, worst_case_above};
 use super::limits::{OffsetLimits, OffsetRanges, point};
 use super::problem::{OffsetModel, OffsetProblem};
-use crate::num::parallel::parallel;
-use crate::num::small::bounded_svd;
-use crate::synthesis::sides;
+use num::parallel::parallel;
+use num::small::bounded_svd;
+use synthesis::sides;
 
 /// No offsets within the limits of the problem reach more than `upper`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +35,7 @@ pub struct GlobalBound {
 
 impl GlobalBound {
     /// The same with the gap to the value that was reached in the end.
-    pub(crate) fn above(self, value: Option<f64>) -> Self {
+    pub fn above(self, value: Option<f64>) -> Self {
         Self { gap: value.map_or(self.gap, |v| self.upper / v - 1.0), ..self }
     }
 }
@@ -44,10 +44,10 @@ impl GlobalBound {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BoundOptions {
     /// Relative gap to prove.
-    pub(crate) gap: f64,
+    pub gap: f64,
     /// Boxes after which the gap is widened.
-    pub(crate) boxes: usize,
-    pub(crate) threads: usize,
+    pub boxes: usize,
+    pub threads: usize,
 }
 
 /// A box of offsets that may still hold something better.
@@ -84,7 +84,7 @@ fn middle(bounds: &OffsetRanges) -> [f64; 6] {
 }
 
 /// The search tree with what it needs of the problem.
-pub(crate) struct Bounding<'a> {
+pub(super) struct Bounding<'a> {
     model: &'a OffsetModel,
     limits: &'a OffsetLimits,
     poses: Vec<EnclosedPose>,
@@ -92,13 +92,13 @@ pub(crate) struct Bounding<'a> {
 
 impl<'a> Bounding<'a> {
     /// `None` when the data do not make intervals.
-    pub(crate) fn new(
+    pub(super) fn new(
         problem: &OffsetProblem,
         model: &'a OffsetModel,
         limits: &'a OffsetLimits,
     ) -> Option<Self> {
         let plain = sides(&problem.octahedral, 1.0);
-        let rows = |pose: &crate::platform::geom::Pose| -> Option<EnclosedPose> {
+        let rows = |pose: &platform::geom::Pose| -> Option<EnclosedPose> {
             let rows: Option<Vec<LegRow>> =
                 plain.iter().map(|s| LegRow::new(s, pose, problem.characteristic_length)).collect();
             Some(EnclosedPose { rows: rows?.try_into().ok()? })
@@ -108,7 +108,7 @@ impl<'a> Bounding<'a> {
     }
 
     /// The bound for the gap asked for, and for a tenth of it where that was easy; see [`Self::prove_once`].
-    pub(crate) fn prove(
+    pub(super) fn prove(
         &self,
         boxes: Vec<OffsetRanges>,
         value: f64,

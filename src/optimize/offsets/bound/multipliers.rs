@@ -191,8 +191,8 @@ impl Tableau {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Rng;
-    use crate::num::conic::{ConicAnswer, ConicProgram};
+    use num::Rng;
+    use num::conic::{ConicAnswer, ConicProgram};
 
     fn value(samples: &[Sampled], mu: &[f64]) -> f64 {
         let greatest = |i: usize| {

@@ -2,12 +2,12 @@
 
 use nalgebra::{Matrix3, Point3};
 
-use crate::num::ball::Real;
-use crate::num::interval::Interval;
-use crate::optimize::offsets::limits::{Vector, cross, dot, minus, plus, point, vector};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
-use crate::synthesis::HexagonSide;
+use crate::offsets::limits::{Vector, cross, dot, minus, plus, point, vector};
+use num::ball::Real;
+use num::interval::Interval;
+use platform::geom::Pose;
+use platform::manipulator::Body;
+use synthesis::HexagonSide;
 
 fn difference(a: &Point3<f64>, b: &Vector) -> Vector {
     minus(&vector(&a.coords), b)

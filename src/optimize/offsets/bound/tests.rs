@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use super::rows::{LegRow, greatest};
 use super::*;
 use super::{Test, test};
-use crate::num::Rng;
-use crate::optimize::offsets::conditioning::worst_case;
-use crate::optimize::offsets::limits::point;
-use crate::optimize::offsets::tests::{example, poses_about};
-use crate::optimize::offsets::{OffsetOutcome, OffsetSearchOptions, optimize};
+use crate::offsets::conditioning::worst_case;
+use crate::offsets::limits::point;
+use crate::offsets::tests::{example, poses_about};
+use crate::offsets::{OffsetOutcome, OffsetSearchOptions, optimize};
+use num::Rng;
 
 fn problem() -> OffsetProblem {
     OffsetProblem::with_defaults(example(), poses_about(std::f64::consts::PI, 5))

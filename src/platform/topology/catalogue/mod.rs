@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::graph::{AlwaysSingular, Topology};
-use crate::platform::manipulator::Manipulator;
+use crate::manipulator::Manipulator;
 
 /// A topology with its place in [`catalogue`].
 ///

@@ -1,8 +1,8 @@
 //! The catalogue against exact ranks.
 
 use super::*;
-use crate::num::Rng;
 use nalgebra::Point3;
+use num::Rng;
 
 const PRIME: i128 = (1 << 61) - 1;
 

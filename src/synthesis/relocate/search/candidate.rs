@@ -6,13 +6,13 @@ use nalgebra::Matrix6;
 
 use super::pool::{JointPattern, Pool, shared};
 use super::wishes::{Wish, WishMargin, Wishes};
-use crate::num::Rng;
-use crate::num::linalg::LinalgError;
-use crate::platform::geom::{Pose, segment_distance};
-use crate::platform::manipulator::{Leg, LegIndex, Manipulator, inverse_condition, jacobian_of_legs};
-use crate::synthesis::components::Components;
-use crate::synthesis::leg_map::{LegMapOutcome, LegMapTolerances, leg_map_to_legs};
-use crate::synthesis::relocate::{Assembled, assemble};
+use crate::components::Components;
+use crate::leg_map::{LegMapOutcome, LegMapTolerances, leg_map_to_legs};
+use crate::relocate::{Assembled, assemble};
+use num::Rng;
+use num::linalg::LinalgError;
+use platform::geom::{Pose, segment_distance};
+use platform::manipulator::{Leg, LegIndex, Manipulator, inverse_condition, jacobian_of_legs};
 
 /// Margins of the platforms of one pattern.
 pub(super) struct Scorer<'a> {

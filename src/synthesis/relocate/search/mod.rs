@@ -24,9 +24,9 @@ pub use wishes::{Hole, Wish, WishMargin, Wishes};
 use self::candidate::Scorer;
 use self::pool::{JointPattern, patterns};
 use super::super::components::{Components, PartKind, Reading, SingularKind};
-use crate::num::Rng;
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::Manipulator;
+use num::Rng;
+use num::linalg::LinalgError;
+use platform::manipulator::Manipulator;
 use pool::Pool;
 
 /// How long to search.
@@ -83,7 +83,6 @@ pub enum SearchError {
 
 /// Why no equivalent platform fulfils the wishes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Impossibility {
     /// No replaceable leg ends at the hole (index): exactly, and not within the tolerance either.
     NoLegAtHole(usize),

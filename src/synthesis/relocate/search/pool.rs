@@ -3,10 +3,10 @@
 
 use super::candidate::LegSource;
 use super::wishes::{Hole, HoleAnswer, JudgedHole, Wishes};
-use crate::num::Rng;
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::{Body, Leg, LegIndex, Manipulator};
-use crate::synthesis::components::{Component, Components, MovingPoint, Parametrisation};
+use crate::components::{Component, Components, MovingPoint, Parametrisation};
+use num::Rng;
+use num::linalg::LinalgError;
+use platform::manipulator::{Body, Leg, LegIndex, Manipulator};
 
 /// A place, with generic legs from it.
 #[derive(Debug)]
@@ -47,7 +47,7 @@ impl Place {
                 let end = if platform_end { platform } else { base };
                 end.terms.iter().all(|(exponents, _)| *exponents == [0; 3])
             }
-            _ => false,
+            Parametrisation::Cubic(_) => false,
         };
         constant && self.support.is_some()
     }

@@ -4,10 +4,10 @@ use nalgebra::Point3;
 
 use super::super::tests::{corner, octahedral};
 use super::*;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, Leg, LegIndex, Manipulator, default_home};
-use crate::synthesis::components::{ComponentOptions, components};
-use crate::synthesis::{LegMapTolerances, leg_map};
+use crate::components::{ComponentOptions, components};
+use crate::{LegMapTolerances, leg_map};
+use platform::geom::Pose;
+use platform::manipulator::{Body, Leg, LegIndex, Manipulator, default_home};
 
 /// Four legs in pairs at two platform joints, two others: nothing but the two pairs can be moved.
 fn six_four() -> Manipulator {
@@ -173,9 +173,9 @@ fn a_named_joint_goes_to_the_hole_with_one_of_its_legs() {
 #[test]
 fn nothing_is_impossible_by_a_tolerance() {
     // turned by angles that doubles round, the families exist within the tolerance only: what was proved before is proved no more
-    let mut rng = crate::num::Rng::new(8);
+    let mut rng = num::Rng::new(8);
     for _ in 0..6 {
-        let turn = crate::platform::geom::random_rotation(&mut rng);
+        let turn = platform::geom::random_rotation(&mut rng);
         let legs = six_four().legs().map(|l| Leg { base: turn * l.base, platform: turn * l.platform });
         let m = Manipulator::from_legs(legs).unwrap();
         let mut w = wishes(&m);

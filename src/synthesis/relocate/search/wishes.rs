@@ -3,12 +3,12 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{Impossibility, SearchError};
-use crate::num::linalg::LinalgError;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, LegIndex, Manipulator};
-use crate::synthesis::components::spectrum::Spectrum;
-use crate::synthesis::components::{Components, MovingPoint, Parametrisation, exact_partners};
-use crate::synthesis::leg_vector::LegSpan;
+use crate::components::spectrum::Spectrum;
+use crate::components::{Components, MovingPoint, Parametrisation, exact_partners};
+use crate::leg_vector::LegSpan;
+use num::linalg::LinalgError;
+use platform::geom::Pose;
+use platform::manipulator::{Body, LegIndex, Manipulator};
 
 /// A place where a joint has to be.
 #[derive(Debug, Clone, PartialEq)]
@@ -180,7 +180,7 @@ fn partners(span: &LegSpan, hole: &Hole, tolerance: f64) -> Result<(HoleAnswer, 
     let n = span.normalisation();
     let on_base = hole.body == Body::Base;
     // the leg with the hole at both ends: only the end on its own body is used
-    let place = n.apply(&crate::platform::manipulator::Leg { base: hole.point, platform: hole.point });
+    let place = n.apply(&platform::manipulator::Leg { base: hole.point, platform: hole.point });
     let x = place.end(hole.body);
     let alpha = nalgebra::Vector4::new(1.0, x.x, x.y, x.z).normalize();
     let rows: Vec<Vec<f64>> = span

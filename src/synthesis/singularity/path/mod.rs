@@ -20,10 +20,10 @@ mod tests;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use crate::num::Rng;
-use crate::num::interval::Interval;
-use crate::platform::geom::{Pose, random_rotation};
-use crate::platform::manipulator::{Manipulator, plucker_matrix};
+use num::Rng;
+use num::interval::Interval;
+use platform::geom::{Pose, random_rotation};
+use platform::manipulator::{Manipulator, plucker_matrix};
 
 /// Pieces are halved this often before they are left open.
 const DEPTH: u32 = 40;

@@ -1,9 +1,9 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::*;
-use crate::num::Rng;
-use crate::platform::geom::{random_rotation, rotation_vector, turn_between};
-use crate::platform::manipulator::{Leg, plucker_matrix};
+use num::Rng;
+use platform::geom::{random_rotation, rotation_vector, turn_between};
+use platform::manipulator::{Leg, plucker_matrix};
 
 fn design(rng: &mut Rng) -> Manipulator {
     let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal());

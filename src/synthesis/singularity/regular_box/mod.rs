@@ -21,15 +21,15 @@ mod tests;
 
 use nalgebra::{Matrix6, Vector3};
 
-use crate::num::Rng;
-use crate::num::interval::Interval;
-use crate::platform::geom::enclosed::{
+use num::Rng;
+use num::interval::Interval;
+use platform::geom::enclosed::{
     IntervalMatrix, IntervalVector, apply, contraction, cross, determinant, times,
 };
-use crate::platform::geom::{
+use platform::geom::{
     Bisection, Chart, ChartCell, Covered, Pose, PoseSpace, Region, combination, turn, turn_slope,
 };
-use crate::platform::manipulator::{Manipulator, leg_determinant};
+use platform::manipulator::{Manipulator, leg_determinant};
 
 /// What set is sought, and how hard.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -230,7 +230,7 @@ fn reach(chart: &Chart, cell: &ChartCell) -> f64 {
 
 /// Twelve cells that cover the outer box less the inner one, fewer where axes have no width; one that covers it all where the sets are not boxes.
 fn slabs(chart: &Chart, inner: f64, outer: f64) -> Vec<ChartCell> {
-    let axes = chart.len();
+    let axes = chart.coordinates();
     let cube = |half: f64| {
         let mut cell = ChartCell::point([0.0; 6]);
         for k in 0..axes {
@@ -396,7 +396,7 @@ fn nearest_change(
     let mut direction_of = None;
     for k in 0..RAYS + IMPROVEMENTS {
         let mut direction = [0.0; 6];
-        for x in direction.iter_mut().take(chart.len()) {
+        for x in direction.iter_mut().take(chart.coordinates()) {
             *x = rng.uniform(-1.0, 1.0);
         }
         if k >= RAYS {
@@ -404,7 +404,7 @@ fn nearest_change(
             // steps that shrink: the nearest point is usually on edges of the box
             let width = 0.5 * (1.0 - (k - RAYS) as f64 / IMPROVEMENTS as f64).powi(2) + 1e-3;
             let near: [f64; 6] = u;
-            for (x, y) in direction.iter_mut().zip(near).take(chart.len()) {
+            for (x, y) in direction.iter_mut().zip(near).take(chart.coordinates()) {
                 *x = (y + width * rng.normal()).clamp(-1.0, 1.0);
             }
         }

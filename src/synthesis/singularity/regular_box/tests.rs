@@ -1,8 +1,8 @@
 use super::*;
-use crate::num::Rng;
-use crate::platform::manipulator::fixtures::symmetric_hexapod;
-use crate::platform::manipulator::{Leg, default_home, plucker_matrix};
+use crate::fixtures::symmetric_hexapod;
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
+use num::Rng;
+use platform::manipulator::{Leg, default_home, plucker_matrix};
 
 fn home(m: &Manipulator) -> Pose {
     let mut home = default_home(m);

@@ -14,12 +14,12 @@
 
 use nalgebra::{DMatrix, Matrix6, Quaternion, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3, Vector6};
 
-use crate::num::Rng;
-use crate::num::interval::Interval;
-use crate::num::small::bounded_svd;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
-use crate::synthesis::singularity::Architecture;
+use crate::singularity::Architecture;
+use num::Rng;
+use num::interval::Interval;
+use num::small::bounded_svd;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// Singular values of the leg lines below this times the largest count as zero.
 const ZERO: f64 = 1e-9;

@@ -17,9 +17,9 @@ use super::slices::{
     Condition, CurveDegree, LegEquations, Plane, SliceSweep, Slicer, System, Z, draw, gather, is_regular,
     same,
 };
-use crate::num::{Purpose, Rng};
-use crate::platform::geom::{ComplexPose, Pose};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use num::{Purpose, Rng};
+use platform::geom::{ComplexPose, Pose};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Degree of `D`.
 const FORMS: usize = 7;

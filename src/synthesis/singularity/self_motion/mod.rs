@@ -18,9 +18,9 @@ mod trace;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use self::slices::{LegEquations, Point};
-use crate::num::Rng;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use num::Rng;
+use platform::geom::Pose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 use trace::Tracer;
 
 pub use self::at_pose::{AtPose, MotionEvidence, PoseVerdict, motion_at};
@@ -204,7 +204,7 @@ fn curve(path: &trace::TracedCurve, start: usize, m: &Manipulator, s: &SquaredLe
         arc += last.map_or(0.0, |l| (on.y - l).norm());
         last = Some(on.y);
         let pose = pose(&on.y, m.size());
-        let error = |(leg, wanted): (&crate::platform::manipulator::Leg, f64)| {
+        let error = |(leg, wanted): (&platform::manipulator::Leg, f64)| {
             ((pose.transform(&leg.platform) - leg.base).norm() - wanted).abs() / m.size()
         };
         let length_error = m.legs().iter().zip(wanted).map(error).fold(0.0, f64::max);

@@ -11,10 +11,10 @@ use nalgebra::{ComplexField, SMatrix, SVector, Vector3};
 use num_complex::Complex64;
 
 use super::point;
-use crate::num::Rng;
-use crate::num::small::singular_values;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use num::Rng;
+use num::small::singular_values;
+use platform::geom::Pose;
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// `(e, g)`, `g = p e` with `p` in units of the size.
 pub(super) type Point<T> = SVector<T, 8>;

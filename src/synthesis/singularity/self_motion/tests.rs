@@ -1,6 +1,6 @@
 use super::*;
-use crate::platform::manipulator::{Leg, default_home};
 use nalgebra::{Point3, Rotation3};
+use platform::manipulator::{Leg, default_home};
 
 fn p(x: f64, y: f64, z: f64) -> Point3<f64> {
     Point3::new(x, y, z)
@@ -98,13 +98,13 @@ fn singular_poses_of_random_designs_are_proved_to_be_isolated() {
         let m = Manipulator::from_legs(std::array::from_fn(|_| Leg { base: point(), platform: point() }))
             .unwrap();
         let mut pose = || Pose {
-            rotation: crate::platform::geom::random_rotation(&mut rng),
+            rotation: platform::geom::random_rotation(&mut rng),
             position: Vector3::from_fn(|_, _| rng.normal()),
         };
         let (from, to) = (pose(), pose());
-        let signs = crate::synthesis::singularity::signs_along(&m, &from, &to);
+        let signs = crate::singularity::signs_along(&m, &from, &to);
         let Some(change) = signs.changes().next() else { continue };
-        let at = crate::synthesis::singularity::between(&from, &to, 0.5 * (change.from + change.to));
+        let at = crate::singularity::between(&from, &to, 0.5 * (change.from + change.to));
         let found = motion_at(&m, &at, 1);
         all += 1;
         assert_eq!(found.tangent_dimension, 1, "{found:?}");

@@ -4,8 +4,8 @@ use nalgebra::{Matrix2, SMatrix, SVector, SymmetricEigen};
 
 use super::slices::{EQUATIONS, LegEquations, Point};
 use super::{CurveEnd, MotionOptions};
-use crate::num::Rng;
-use crate::num::small::bounded_svd;
+use num::Rng;
+use num::small::bounded_svd;
 
 type Square = SMatrix<f64, 8, 8>;
 

@@ -12,7 +12,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::OutputPath;
 use crate::app::cli::output::Answer;
 use crate::app::records::{BenchAnswer, BenchClassRecord};
-use crate::fk::{self, Homotopy, Method};
+use fk::{self, Homotopy, Method};
 
 /// Arguments of `bench`.
 #[derive(Debug, clap::Args)]

@@ -11,7 +11,7 @@ use crate::app::cli::files;
 use crate::app::cli::output::Answer;
 use crate::app::records::{BenchAnswer, NoiseAnswer, NoiseLevelRecord, NoiseRowRecord, SpreadRecord};
 use crate::files::plot::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
-use crate::fk::{ForwardKinematics, Threads};
+use fk::{ForwardKinematics, Threads};
 
 /// Levels the published figure shows, other than zero.
 const PUBLISHED: (f64, f64) = (1e-4, 8e-4);

@@ -18,11 +18,11 @@ use crate::app::records::{
     ResidualsRecord,
 };
 use crate::files::design::{Design, SeriesKind};
-use crate::machine::calibration::{
+use machine::calibration::{
     CalibrateOptions, Calibration, CalibrationError, CalibrationStatus, CarriedFrames, HeldParts, Loss,
     LossUnit, Measurement, MeasurementNoise, NextPose, StartChoice, Unknowns, next_poses, planning_root,
 };
-use crate::platform::geom::{InvalidPose, Pose};
+use platform::geom::{InvalidPose, Pose};
 
 /// Arguments of `calibrate`.
 #[derive(Debug, clap::Args)]

@@ -6,8 +6,8 @@ use crate::app::cli::numbers::significant;
 use crate::app::records::{
     CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationRecord, Number, ResidualsRecord,
 };
-use crate::machine::calibration::{NoiseSource, StartName};
-use crate::num::shown::fixed;
+use machine::calibration::{NoiseSource, StartName};
+use num::shown::fixed;
 
 /// Unobservable changes that are written out.
 const CHANGES: usize = 12;

@@ -13,8 +13,8 @@ use crate::app::entrance::leg_map;
 use crate::app::equivalents::{Original, Origins};
 use crate::app::records::{FamilyAnswer, InstanceRecord, PatternPlace, PatternRecord};
 use crate::files::design::Design;
-use crate::platform::manipulator::{Body, Octahedral};
-use crate::synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
+use platform::manipulator::{Body, Octahedral};
+use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]

@@ -9,8 +9,8 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::records::{CorrespondenceRecord, MapAnswer, MapRecord};
-use crate::num::shown::fixed;
-use crate::synthesis::{LegCorrespondence, Relation};
+use num::shown::fixed;
+use synthesis::{LegCorrespondence, Relation};
 
 /// Arguments of `equivalents map`.
 #[derive(Debug, clap::Args)]

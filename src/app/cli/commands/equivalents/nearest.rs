@@ -12,8 +12,8 @@ use crate::app::cli::output::Answer;
 use crate::app::equivalents::NearestDesigns;
 use crate::app::records::NearestAnswer;
 use crate::files::design::Design;
-use crate::optimize::offsets::DEFAULT_MIN_ABS_DET;
-use crate::synthesis::NearestOptions;
+use optimize::offsets::DEFAULT_MIN_ABS_DET;
+use synthesis::NearestOptions;
 
 /// How far a joint of the design may stand beyond a corner of the triangles sought, in lengths of the side, where nothing is said: what exists is recognised, nothing is chosen.
 pub(in crate::app::cli::commands) const EXTENSION: f64 = 1.0;

@@ -9,9 +9,9 @@ use crate::files::design::Design;
 use crate::files::plot::{
     ModesFigure, OffsetPlane, PlaneAxis, PlanePoint, assembly_modes, determinant_plane,
 };
-use crate::fk::Reality;
-use crate::platform::manipulator::Octahedral;
-use crate::synthesis::edge_lengths;
+use fk::Reality;
+use platform::manipulator::Octahedral;
+use synthesis::edge_lengths;
 
 /// Edges or offsets that agree this well are equal for a picture.
 const SAME: f64 = 1e-9;

@@ -22,8 +22,8 @@ use crate::app::records::{
     VerdictWord,
 };
 use crate::files::design::Design;
-use crate::fk::{FkOptions, PoseCounting};
-use crate::synthesis::components::{ComponentOptions, Components, components};
+use fk::{FkOptions, PoseCounting};
+use synthesis::components::{ComponentOptions, Components, components};
 
 /// What is worked with in all stages.
 struct Run<'a> {
@@ -63,7 +63,7 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
     progress.stage(4, "requirements");
     let met = requirements(&mut run, near.as_ref().map(|n| &n.0))?;
     progress.stage(5, "comparison");
-    let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
+    let options = FkOptions::new().seed(seed).pose_count(PoseCounting::Never);
     let verified = compared(&mut run, args.samples, &options, moves.as_ref(), near.as_ref().map(|n| &n.0))?;
 
     progress.stage(6, "forward kinematics");

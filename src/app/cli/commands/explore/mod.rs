@@ -38,13 +38,13 @@ use crate::app::records::{
 };
 use crate::files::design::{Design, DriveTable};
 use crate::files::export::{ExportFormat, PartLine};
-use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
-use crate::machine::manufacture::NoRounding;
-use crate::machine::requirements::KeptSymmetry;
-use crate::platform::geom::SamplePlan;
-use crate::platform::manipulator::{LegLengths, Octahedral};
-use crate::synthesis::{Family, FamilyMember};
-use crate::verify::{Verification, verify};
+use fk::{self, FkOptions, FkSolutions, PoseCounting};
+use machine::manufacture::NoRounding;
+use machine::requirements::KeptSymmetry;
+use platform::geom::SamplePlan;
+use platform::manipulator::{LegLengths, Octahedral};
+use synthesis::{Family, FamilyMember};
+use verify::{Verification, verify};
 
 /// Arguments of `explore`.
 #[derive(Debug, clap::Args)]
@@ -320,7 +320,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let mut progress = ProgressLine::new(context.quiet());
     let seed = context.seed();
     let provenance = context.provenance();
-    let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
+    let options = FkOptions::new().seed(seed).pose_count(PoseCounting::Never);
     let copy = with_table_beside(&design, args, &mut folder, seed)?;
     folder.keep(folder::ORIGINAL, copy.to_toml());
 

@@ -11,11 +11,11 @@ use crate::app::entrance::optimizing::offset_reserves;
 use crate::app::entrance::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
 use crate::app::records::{AssessAnswer, DriveSearchRecord, LengthsOrigin, Number};
 use crate::files::export::PART_COLUMNS;
-use crate::fk::{Completeness, FkSolutions};
-use crate::optimize::offsets::OffsetSolution;
-use crate::platform::manipulator::LegIndex;
-use crate::synthesis::AffineLegMap;
-use crate::verify::SAME_POSE;
+use fk::{Completeness, FkSolutions};
+use optimize::offsets::OffsetSolution;
+use platform::manipulator::LegIndex;
+use synthesis::AffineLegMap;
+use verify::SAME_POSE;
 
 /// The whole report. Writing to a string cannot fail, so the results of `write!` are dropped.
 pub(super) fn markdown(r: &Results, headline: &[String]) -> String {

@@ -15,11 +15,11 @@ use crate::app::records::{
     ProvenanceRecord, SymmetryRecord,
 };
 use crate::files::design::{Combination, Design};
-use crate::machine::manufacture::NoRounding;
-use crate::machine::requirements::StartSymmetry;
-use crate::optimize::dimensional::{Progress, ShapeSearchOptions, Stage, Triangles};
-use crate::optimize::offsets;
-use crate::verify::Verdict;
+use ::optimize::dimensional::{Progress, ShapeSearchOptions, Stage, Triangles};
+use ::optimize::offsets;
+use machine::manufacture::NoRounding;
+use machine::requirements::StartSymmetry;
+use verify::Verdict;
 
 /// What was searched, and what came out.
 #[derive(Debug)]

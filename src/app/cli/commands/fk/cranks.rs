@@ -18,10 +18,10 @@ use crate::app::records::{
     FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
 };
 use crate::files::design::{Design, SeriesKind, SeriesRow, TimeSeries};
-use crate::fk::{self, FkOptions, FkSolutions};
-use crate::machine::rotary::{RotaryFkError, RotaryPlatform, RotaryTracker};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use fk::{self, FkOptions, FkSolutions};
+use machine::rotary::{RotaryFkError, RotaryPlatform, RotaryTracker};
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// Six angles in degrees.
 type AnglesDeg = [f64; 6];
@@ -78,7 +78,8 @@ pub(super) fn run(
             )?;
         }
         let method = args.method.method();
-        let options = FkOptions { seed: machine.seed, method, ..FkOptions::default() };
+        let mut options = FkOptions::new().seed(machine.seed);
+        options.method = method;
         let solve = |i: usize| machine.solve(&series.rows[i].value, &options);
         let solved = fk::in_order(series.rows.len(), threads(args.threads), &solve);
         if let (true, Some(Err(failure))) = (one, solved.first()) {
@@ -153,7 +154,7 @@ impl CrankMachine<'_> {
         let angles = degrees.map(f64::to_radians);
         let found: FkSolutions = self.platform.fk(&angles, options).map_err(|why| match why {
             RotaryFkError::Fk(why) => failure_of(&why),
-            other => Failure::refused(BAD_ANGLES, other.to_string()),
+            other @ RotaryFkError::Manipulator(_) => Failure::refused(BAD_ANGLES, other.to_string()),
         })?;
         let tips = self.tips(&angles)?;
         let solved = SolvedRecord::from(&found).with_real_poses(&tips, &self.home);

@@ -9,10 +9,10 @@ use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use crate::app::records::{DriveSolutionRecord, NearWord};
 use crate::files::design::Design;
-use crate::fk::Reality;
-use crate::machine::coupled::{CoupledLegs, CoupledOutcome, CoupledStatus, CoupledTracker};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::LegLengths;
+use fk::Reality;
+use machine::coupled::{CoupledLegs, CoupledOutcome, CoupledStatus, CoupledTracker};
+use platform::geom::Pose;
+use platform::manipulator::LegLengths;
 
 /// Refuses what takes the lengths of drives for distances of joints.
 pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {

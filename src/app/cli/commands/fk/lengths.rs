@@ -6,7 +6,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::rows::{self, TableName};
 use crate::files::design::{Design, SeriesKind, SeriesRow, TimeSeries};
-use crate::platform::manipulator::LegLengths;
+use platform::manipulator::LegLengths;
 
 /// Lengths as the legs show them, and the distances of their joints: less the offsets of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -20,9 +20,9 @@ use crate::app::cli::poses;
 use crate::app::records::{
     ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
 };
-use crate::fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{LegLengths, Manipulator};
+use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
+use platform::geom::Pose;
+use platform::manipulator::{LegLengths, Manipulator};
 
 use self::csv::Table;
 use self::lengths::Given;
@@ -102,7 +102,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return Ok(near::run(&design, &given, start, context.seed(), &table));
     }
     let (m, home) = (design.manipulator(), poses::home(&design));
-    let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
+    let options = FkOptions::new().seed(context.seed());
     match given {
         Given::One(l) => {
             context.no_effect(

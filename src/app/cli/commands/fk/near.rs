@@ -13,12 +13,10 @@ use crate::app::records::{
     SolvedRecord,
 };
 use crate::files::design::Design;
-use crate::fk::solve::certify::{Certifier, ProvedReality, RootCertificate};
-use crate::fk::{
-    Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet,
-};
-use crate::platform::geom::{ComplexPose, Pose};
-use crate::platform::manipulator::{LegLengths, Manipulator, inverse_condition, jacobian};
+use fk::solve::certify::{Certifier, ProvedReality, RootCertificate};
+use fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet};
+use platform::geom::{ComplexPose, Pose};
+use platform::manipulator::{LegLengths, Manipulator, inverse_condition, jacobian};
 
 /// What is followed: joints and legs, from where real poses are measured, and the length that turns angles into lengths.
 pub(super) struct Machine<'a> {

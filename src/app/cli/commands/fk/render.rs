@@ -7,8 +7,8 @@ use crate::app::records::{
     ClosureRecord, CompletenessWord, FkRowOutcome, FkRowRecord, SolutionRecord, SolutionSetRecord,
     SolvedRecord,
 };
-use crate::fk::Method;
-use crate::platform::geom::{ComplexPose, Pose};
+use fk::Method;
+use platform::geom::{ComplexPose, Pose};
 
 /// What people read.
 pub(super) fn text(name: &str, s: &SolvedRecord) -> String {
@@ -164,12 +164,12 @@ pub(super) fn closure(closure: &ClosureRecord) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fk::{
+    use fk::{
         Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Reason, Rejected,
         RejectionReason, SolutionSet,
     };
-    use crate::platform::geom::{ComplexPose, Pose};
     use nalgebra::{Rotation3, Vector3};
+    use platform::geom::{ComplexPose, Pose};
     use serde_json::{Value, json};
 
     fn solutions(condition: f64) -> FkSolutions {

@@ -5,8 +5,8 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::table::{column_unit, csv_line, number};
 use crate::app::records::{IkAnswer, RotaryIkRecord, RotaryIkRowsAnswer};
 use crate::files::design::{Design, TimeSeries};
-use crate::machine::rotary::RotaryPlatform;
-use crate::platform::geom::Pose;
+use machine::rotary::RotaryPlatform;
+use platform::geom::Pose;
 
 /// Exit 1 where a rod does not reach at one of the poses.
 pub(super) fn run(

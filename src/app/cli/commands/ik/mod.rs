@@ -12,9 +12,9 @@ use crate::app::cli::table::{column_unit, csv_line, number};
 use crate::app::cli::{poses, rows};
 use crate::app::records::{IkAnswer, IkRecord, IkRowsAnswer, Number};
 use crate::files::design::{Design, SeriesRow, TimeSeries};
-use crate::machine::requirements::Terms;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::LegLengths;
+use machine::requirements::Terms;
+use platform::geom::Pose;
+use platform::manipulator::LegLengths;
 
 /// Arguments of `ik`.
 #[derive(Debug, clap::Args)]

@@ -14,9 +14,9 @@ use crate::app::entrance::{MotionMasses, MotionReport, PlatformMotion};
 use crate::app::records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
 use crate::files::design::Design;
 use crate::files::export::LengthUnit;
-use crate::machine::dynamics::{InvalidManoeuvre, Manoeuvre, PathEnds, PosePath};
-use crate::machine::requirements::{ForceUnit, Load};
-use crate::platform::geom::Pose;
+use machine::dynamics::{InvalidManoeuvre, Manoeuvre, PathEnds, PosePath};
+use machine::requirements::{ForceUnit, Load};
+use platform::geom::Pose;
 
 /// Arguments of `motion`.
 #[derive(Debug, clap::Args)]

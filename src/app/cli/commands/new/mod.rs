@@ -16,8 +16,8 @@ use crate::files::design::{
     Design, Format, HexapodSizes, InvalidPointTable, PointTable, RigSheet, SheetDialect, octahedral_toml,
     parse_with_cranks, with_lengths,
 };
-use crate::platform::geom::{Angles, Pose};
-use crate::synthesis::singularity::Architecture;
+use platform::geom::{Angles, Pose};
+use synthesis::singularity::Architecture;
 
 use self::ask::Asked;
 

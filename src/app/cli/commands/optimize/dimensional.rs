@@ -19,8 +19,8 @@ use crate::app::records::{
     DriveSearchRecord, FreedomRecord, OptimizeAnswer, OptimizeWord, OptimumRecord, SymmetryRecord,
 };
 use crate::files::design::{Design, Drive, DriveTable};
-use crate::machine::requirements::StartSymmetry;
-use crate::optimize::dimensional::{
+use machine::requirements::StartSymmetry;
+use optimize::dimensional::{
     DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Progress, ShapeSearchOptions,
 };
 

@@ -80,7 +80,7 @@ mod tests {
     use crate::app::cli::exit::Exit;
     use crate::app::records::OptimizeWord;
     use crate::files::design::{Format, parse};
-    use crate::optimize::dimensional::ParetoReport;
+    use optimize::dimensional::ParetoReport;
 
     #[test]
     fn an_interrupted_front_is_not_called_complete() {

@@ -24,11 +24,9 @@ use crate::app::entrance::optimizing::{
 use crate::app::records::{OptimizeAnswer, OptimizeWord};
 use crate::files::design::{Combination, Design};
 use crate::files::plot::SearchStep;
-use crate::optimize::dimensional::InvalidProblem;
-use crate::optimize::offsets::{
-    self, OffsetProblem, OffsetReport, OffsetSearchOptions, OffsetSolution, optimize,
-};
-use crate::platform::manipulator::Octahedral;
+use optimize::dimensional::InvalidProblem;
+use optimize::offsets::{self, OffsetProblem, OffsetReport, OffsetSearchOptions, OffsetSolution, optimize};
+use platform::manipulator::Octahedral;
 
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
@@ -115,7 +113,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         let done = dimensional::run(&design, args, context)?;
         let shown = done.report.solution().or(done.report.nearest.as_deref());
         if let (Some(path), Some(s)) = (&args.history, shown) {
-            let of = |h: &crate::optimize::dimensional::HistoryStep| {
+            let of = |h: &optimize::dimensional::HistoryStep| {
                 (SearchStep { value: h.gain, violation: h.violation, accepted: h.accepted }, h.radius)
             };
             let rows: Vec<history::Row> = s.history.iter().map(of).collect();

@@ -9,8 +9,8 @@ use crate::app::records::{
     FrontMemberRecord, MarginRecord, NearestPlatformRecord, Number, OptimalityWord, OptimizeAnswer,
     OptimizeWord, OptimumRecord, VariableRecord,
 };
-use crate::optimize::offsets::Zone;
-use crate::synthesis::sliding_body;
+use optimize::offsets::Zone;
+use synthesis::sliding_body;
 
 /// For people. Writing to a string cannot fail, so the results of `write!` are dropped.
 pub(super) fn text(name: &str, a: &OptimizeAnswer) -> String {
@@ -307,8 +307,8 @@ fn conflict_text(out: &mut String, c: &ConflictRecord) {
 mod tests {
     use super::*;
     use crate::files::design::{Format, parse};
-    use crate::machine::requirements::TermKind;
-    use crate::optimize::dimensional::{ConstraintConflict, Demand, Give};
+    use machine::requirements::TermKind;
+    use optimize::dimensional::{ConstraintConflict, Demand, Give};
 
     #[test]
     fn nobody_has_to_give_by_zero() {

@@ -6,8 +6,8 @@ use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers;
 use crate::files::plot::{SliceAxis, SliceFigure, singular_slice};
-use crate::platform::manipulator::Octahedral;
-use crate::synthesis::offset_determinant;
+use platform::manipulator::Octahedral;
+use synthesis::offset_determinant;
 
 /// Grid points a side.
 const SIDE: usize = 201;

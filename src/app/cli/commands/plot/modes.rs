@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::app::cli::commands::{explore, fk};
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
-use crate::fk::FkOptions;
+use ::fk::FkOptions;
 
 /// Arguments of `plot modes`.
 #[derive(Debug, clap::Args)]
@@ -26,5 +26,5 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
                 .with_help("give six lengths separated by commas")
         })?);
     }
-    explore::modes_picture(&design, &FkOptions { seed: context.seed(), ..FkOptions::default() })
+    explore::modes_picture(&design, &FkOptions::new().seed(context.seed()))
 }

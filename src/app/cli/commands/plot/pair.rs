@@ -7,8 +7,8 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::poses;
 use crate::files::plot::{PairFigure, platform_pair};
-use crate::synthesis::Relation;
-use crate::verify::judge;
+use synthesis::Relation;
+use verify::judge;
 
 /// Arguments of `plot pair`.
 #[derive(Debug, clap::Args)]

@@ -9,8 +9,8 @@ use crate::app::cli::numbers;
 use crate::app::cli::poses;
 use crate::files::design::Design;
 use crate::files::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};
-use crate::machine::requirements::{Limit, Limits, Region};
-use crate::platform::geom::{Pose, turn_between};
+use machine::requirements::{Limit, Limits, Region};
+use platform::geom::{Pose, turn_between};
 
 /// Rotations shown each way where neither option nor design says more, degrees.
 const DEGREES: f64 = 90.0;
@@ -77,7 +77,7 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
 /// A kind of limit, whichever leg it is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
-    Requirement(crate::machine::requirements::TermKind),
+    Requirement(machine::requirements::TermKind),
     Singular,
 }
 
@@ -187,7 +187,7 @@ fn notes(design: &Design, limits: &Limits<'_>) -> Vec<String> {
     if !limits.judges_singularity() {
         out.push("Home is singular: singular poses are not shown as a limit.".into());
     }
-    if design.requirements() == crate::machine::requirements::Requirements::default() {
+    if design.requirements() == machine::requirements::Requirements::default() {
         out.push(
             "The design has no limits of its own: give leg_length, swing .. in the table hardware.".into(),
         );
@@ -201,7 +201,7 @@ mod tests {
 
     use super::*;
     use crate::app::cli::freedoms::Freedoms;
-    use crate::machine::requirements::TermKind;
+    use machine::requirements::TermKind;
 
     #[test]
     fn every_limit_has_its_colour() {

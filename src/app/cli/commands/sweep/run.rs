@@ -20,8 +20,8 @@ use crate::app::cli::sweep_folder::{
 };
 use crate::app::records::{SweepColumnRecord, SweepEstimateAnswer, SweepRunAnswer};
 use crate::app::sweep::{Sweep, shard_range};
-use crate::fk::Threads;
-use crate::num::{Cancel, Purpose};
+use fk::Threads;
+use num::{Cancel, Purpose};
 
 /// Arguments of `sweep run`.
 #[derive(Debug, clap::Args)]

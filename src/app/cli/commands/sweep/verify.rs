@@ -13,7 +13,7 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
 use crate::app::records::SweepVerifyAnswer;
 use crate::app::sweep::{Sweep, SweepCell, SweepRow, shard_range};
-use crate::num::Purpose;
+use num::Purpose;
 
 /// Arguments of `sweep verify`.
 #[derive(Debug, clap::Args)]

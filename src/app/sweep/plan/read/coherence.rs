@@ -6,7 +6,7 @@ use crate::app::sweep::column::SweepColumn;
 use crate::app::sweep::plan::{AnswerField, AnswerName, AxisValues, FreeQuantity, SweepPlan, SweepTask};
 use crate::files::design::Code;
 use crate::files::design::spanned::{Span, shown};
-use crate::synthesis::Pattern;
+use synthesis::Pattern;
 impl Reader<'_, '_> {
     pub(super) fn count(&mut self, plan: &SweepPlan, place: &Span) {
         let counts: Vec<u64> = plan.blocks.iter().map(|b| b.count).collect();

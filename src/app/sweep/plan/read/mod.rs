@@ -12,7 +12,7 @@ use crate::files::design::spanned::{
     text,
 };
 use crate::files::design::{Code, PRESETS, Violation};
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 const TOP_LEVEL: [&str; 12] = [
     "name",
@@ -239,5 +239,5 @@ impl Reader<'_, '_> {
 
 /// The pose of six coordinates, angles in degrees.
 pub(in crate::app::sweep) fn pose_of([x, y, z, roll, pitch, yaw]: [f64; 6]) -> Pose {
-    Pose::new([x, y, z], crate::platform::geom::Angles::from_degrees([roll, pitch, yaw]))
+    Pose::new([x, y, z], platform::geom::Angles::from_degrees([roll, pitch, yaw]))
 }

@@ -9,7 +9,7 @@ use crate::files::design::Code;
 use crate::files::design::spanned::{
     Entry, Node, Value, check_keys, find, nearest_help, number, shown, text,
 };
-use crate::synthesis::{Family, Pattern};
+use synthesis::{Family, Pattern};
 impl Reader<'_, '_> {
     /// The axes of a quantity: `offsets` and `lengths` stand for six.
     pub(super) fn axes(&mut self, path: &str, entry: &Entry, grid: bool) -> Option<Vec<PlanAxis>> {

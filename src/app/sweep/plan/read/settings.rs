@@ -4,8 +4,8 @@ use super::{Reader, pose_of};
 use crate::app::sweep::plan::{AssessEffort, PoseChoice};
 use crate::files::design::Code;
 use crate::files::design::spanned::{Entry, Node, Value, check_keys, find, number, shown, table};
-use crate::machine::manufacture::ErrorBound;
-use crate::platform::geom::Pose;
+use machine::manufacture::ErrorBound;
+use platform::geom::Pose;
 impl Reader<'_, '_> {
     pub(super) fn poses(&mut self, entry: Option<&Entry>) -> Option<PoseChoice> {
         const FORM: &str = "write \"workspace\", \"home\", { region = N } or a list of poses [x, y, z, roll_deg, pitch_deg, yaw_deg]";

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// The elements whose attributes a class may give.
 const WITH_DEFAULTS: [&str; 3] = ["joint", "site", "equality"];

@@ -3,7 +3,7 @@ use std::fmt::Write as _;
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::*;
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 const BASE: [[f64; 3]; 6] = [
     [0.5, -0.1, 0.0],

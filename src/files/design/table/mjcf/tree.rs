@@ -7,7 +7,7 @@ use roxmltree::Node;
 
 use super::attributes::{Settings, at, elements};
 use crate::files::design::table::placed::{identity, within};
-use crate::platform::geom::Pose;
+use platform::geom::Pose;
 
 /// The group of the world.
 pub(super) const WORLD: usize = 0;

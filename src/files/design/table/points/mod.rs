@@ -9,8 +9,8 @@ use super::mjcf;
 use super::sheet::{InvalidSheet, Sheet, SheetRow};
 use super::text::decode;
 use crate::files::design::{Design, NameCount};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
+use platform::geom::Pose;
+use platform::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
 
 /// Rows have at least so many numbers: the joints of a flat body are often given by x and y alone.
 const LEAST_NUMBERS: usize = 2;

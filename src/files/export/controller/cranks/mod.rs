@@ -9,10 +9,10 @@ use nalgebra::{Point3, Vector3};
 use super::vectors::{list, moved, pose_numbers, row};
 use super::{ExportedFile, OwnLibrary, braces, heading, matrix, number, points, reals};
 use crate::files::export::{Export, ExportCranks};
-use crate::fk::NearOutcome;
-use crate::machine::rotary::{Elbow, RotaryTracker};
-use crate::num::Rng;
-use crate::platform::geom::Pose;
+use fk::NearOutcome;
+use machine::rotary::{Elbow, RotaryTracker};
+use num::Rng;
+use platform::geom::Pose;
 
 /// Seed of the poses.
 const SEED: u64 = 23;

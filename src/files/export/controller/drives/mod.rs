@@ -11,11 +11,11 @@ use super::{
     ExportedFile, OwnLibrary, SwingAxes, braces, heading, legs, limits, matrix, number, points, reals,
 };
 use crate::files::export::Export;
-use crate::fk::NearOptions;
-use crate::machine::coupled::{CoupledLegs, CoupledStatus, CoupledTracker};
-use crate::num::Rng;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Body;
+use fk::NearOptions;
+use machine::coupled::{CoupledLegs, CoupledStatus, CoupledTracker};
+use num::Rng;
+use platform::geom::Pose;
+use platform::manipulator::Body;
 
 /// Seed of the poses.
 const SEED: u64 = 29;

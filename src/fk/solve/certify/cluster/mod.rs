@@ -49,10 +49,10 @@ use super::certificate::{PoseEnclosure, ProvedReality, WhyUncertified};
 use super::coordinates::{enclose_pose_widely, rounded_pose, study_of};
 use super::krawczyk::largest;
 use super::system::{LegSystem, N, RealScalar, Study, U};
-use crate::num::ball::{TINY, UP};
-use crate::num::double_double::DoubleDouble;
-use crate::num::small::bounded_svd;
-use crate::platform::geom::ComplexPose;
+use num::ball::{TINY, UP};
+use num::double_double::DoubleDouble;
+use num::small::bounded_svd;
+use platform::geom::ComplexPose;
 
 /// Newton steps towards the middle of a cluster.
 const STEPS: usize = 12;
@@ -155,7 +155,7 @@ impl ClusterCertificate {
     }
 
     /// The nearest doubles of the centre with `g` in design units.
-    pub(crate) fn point(&self) -> [Complex64; 8] {
+    pub fn point(&self) -> [Complex64; 8] {
         std::array::from_fn(|k| if k < 4 { self.centre[k] } else { self.centre[k] * self.unit })
     }
 }

@@ -1,9 +1,9 @@
 use super::*;
-use crate::fk::solve::certify::{Certificate, Certifier, RootRelation, is_of, relation};
-use crate::num::Rng;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use crate::solve::certify::{Certificate, Certifier, RootRelation, is_of, relation};
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use num::Rng;
+use platform::geom::Pose;
+use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 
 /// Joints and position in whole numbers, the identity as rotation, every leg perpendicular to the velocity of its platform joint in one twist: the pose is singular
 /// exactly, and the squared lengths are whole numbers.
@@ -55,7 +55,7 @@ fn triple_problem(rng: &mut Rng) -> (Manipulator, Pose, SquaredLegLengths) {
         let Ok(m) = Manipulator::from_legs(legs) else { continue };
         let pose = Pose { rotation: Rotation3::identity(), position };
         let Some(s) = pose.squared_lengths(&m) else { continue };
-        let values = crate::platform::manipulator::plucker_matrix(&m, &pose, m.size()).singular_values();
+        let values = platform::manipulator::plucker_matrix(&m, &pose, m.size()).singular_values();
         if values[4] > 1e-2 * values[0] {
             return (m, pose, s);
         }

@@ -26,8 +26,8 @@ use super::differences;
 use super::inverse::{approximate_inverse, subtract};
 use super::octuple;
 use super::system::{LegSystem, N, RealScalar, Study, U};
-use crate::num::ball::{TINY, UP};
-use crate::num::double_double::DoubleDouble;
+use num::ball::{TINY, UP};
+use num::double_double::DoubleDouble;
 
 /// A ball about a centre that holds exactly one root, with the proof's numbers.
 #[derive(Debug, Clone, Copy)]

@@ -1,10 +1,10 @@
 use super::super::refine::refine_study;
 use super::*;
-use crate::fk::solve::certify::coordinates::study_of;
-use crate::num::Rng;
-use crate::platform::geom::{ComplexPose, Pose, random_rotation};
-use crate::platform::manipulator::{Leg, Manipulator};
+use crate::solve::certify::coordinates::study_of;
 use nalgebra::{Point3, Vector3};
+use num::Rng;
+use platform::geom::{ComplexPose, Pose, random_rotation};
+use platform::manipulator::{Leg, Manipulator};
 
 /// A system with a real root, and the root.
 fn random_problem(rng: &mut Rng) -> (LegSystem, Study<f64>) {

@@ -7,35 +7,35 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::num::ball::{Real, TINY, UP};
-use crate::num::batch::{ComplexBatch, LANES};
+use num::ball::{Real, TINY, UP};
+use num::batch::{ComplexBatch, LANES};
 
 const U: f64 = f64::EPSILON / 2.0;
 
 /// Encloses `1 / x`; the radius is infinite when the ball may hold zero.
-pub(in crate::fk::solve::certify) fn reciprocal(x: Real) -> Real {
+pub(in crate::solve::certify) fn reciprocal(x: Real) -> Real {
     x.reciprocal().unwrap_or(Real { centre: x.centre.recip(), radius: f64::INFINITY })
 }
 
 /// Encloses the positive root; the radius is infinite when the ball may hold zero or less.
-pub(in crate::fk::solve::certify) fn root(x: Real) -> Real {
+pub(in crate::solve::certify) fn root(x: Real) -> Real {
     x.sqrt().unwrap_or(Real { centre: x.centre.sqrt(), radius: f64::INFINITY })
 }
 
 /// Eight reals.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::fk::solve::certify) struct Reals(pub(in crate::fk::solve::certify) [f64; LANES]);
+pub(in crate::solve::certify) struct Reals(pub(in crate::solve::certify) [f64; LANES]);
 
 impl Reals {
-    pub(in crate::fk::solve::certify) const ZERO: Self = Self([0.0; LANES]);
+    pub(in crate::solve::certify) const ZERO: Self = Self([0.0; LANES]);
 
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn all(x: f64) -> Self {
+    pub(in crate::solve::certify) fn all(x: f64) -> Self {
         Self([x; LANES])
     }
 
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+    pub(in crate::solve::certify) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let mut out = Self::ZERO;
         for k in 0..LANES {
             out.0[k] = f(self.0[k], other.0[k]);
@@ -44,7 +44,7 @@ impl Reals {
     }
 
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn map(self, f: impl Fn(f64) -> f64) -> Self {
+    pub(in crate::solve::certify) fn map(self, f: impl Fn(f64) -> f64) -> Self {
         let mut out = Self::ZERO;
         for k in 0..LANES {
             out.0[k] = f(self.0[k]);
@@ -54,23 +54,23 @@ impl Reals {
 
     /// The larger, or NaN where one is NaN.
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn largest(self, other: Self) -> Self {
+    pub(in crate::solve::certify) fn largest(self, other: Self) -> Self {
         self.zip(other, |a, b| if a >= b { a } else { b + 0.0 * a })
     }
 
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn times(self, c: f64) -> Self {
+    pub(in crate::solve::certify) fn times(self, c: f64) -> Self {
         self.map(|x| x * c)
     }
 
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn plus(self, c: f64) -> Self {
+    pub(in crate::solve::certify) fn plus(self, c: f64) -> Self {
         self.map(|x| x + c)
     }
 
     /// Makes a bound computed in fewer than a thousand operations on non-negative numbers an upper bound.
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn up(self) -> Self {
+    pub(in crate::solve::certify) fn up(self) -> Self {
         self.map(|x| (x + TINY) * UP)
     }
 }
@@ -93,7 +93,7 @@ impl Mul for Reals {
 
 /// `|re| + |im|`, at least the modulus.
 #[inline(always)]
-pub(in crate::fk::solve::certify) fn sizes(z: &ComplexBatch) -> Reals {
+pub(in crate::solve::certify) fn sizes(z: &ComplexBatch) -> Reals {
     let mut out = Reals::ZERO;
     for k in 0..LANES {
         out.0[k] = z.re[k].abs() + z.im[k].abs();
@@ -103,7 +103,7 @@ pub(in crate::fk::solve::certify) fn sizes(z: &ComplexBatch) -> Reals {
 
 /// The larger of `|re|` and `|im|`, at most the modulus.
 #[inline(always)]
-pub(in crate::fk::solve::certify) fn parts(z: &ComplexBatch) -> Reals {
+pub(in crate::solve::certify) fn parts(z: &ComplexBatch) -> Reals {
     let mut out = Reals::ZERO;
     for k in 0..LANES {
         let (re, im) = (z.re[k].abs(), z.im[k].abs());
@@ -114,29 +114,29 @@ pub(in crate::fk::solve::certify) fn parts(z: &ComplexBatch) -> Reals {
 
 /// Eight discs; an infinite or NaN radius says nothing.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::fk::solve::certify) struct Discs {
-    pub(in crate::fk::solve::certify) c: ComplexBatch,
-    pub(in crate::fk::solve::certify) r: Reals,
+pub(in crate::solve::certify) struct Discs {
+    pub(in crate::solve::certify) c: ComplexBatch,
+    pub(in crate::solve::certify) r: Reals,
 }
 
 impl Discs {
-    pub(in crate::fk::solve::certify) const ZERO: Self = Self { c: ComplexBatch::ZERO, r: Reals::ZERO };
+    pub(in crate::solve::certify) const ZERO: Self = Self { c: ComplexBatch::ZERO, r: Reals::ZERO };
 
     /// Upper bounds of the moduli.
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn magnitude(&self) -> Reals {
+    pub(in crate::solve::certify) fn magnitude(&self) -> Reals {
         (sizes(&self.c) + self.r).up()
     }
 
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn plus(self, x: Real) -> Self {
+    pub(in crate::solve::certify) fn plus(self, x: Real) -> Self {
         let c = self.c.plus(x.centre);
         Self { c, r: (self.r.plus(x.radius) + sizes(&c).times(U)).up() }
     }
 
     /// Product with a real ball: two roundings less than a complex product.
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn times(self, x: Real) -> Self {
+    pub(in crate::solve::certify) fn times(self, x: Real) -> Self {
         let z = sizes(&self.c);
         let (size, rest) = (x.centre.abs(), x.radius);
         let r = z.times(rest + 2.0 * U * size) + self.r.times(size + rest);
@@ -144,13 +144,13 @@ impl Discs {
     }
 
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn widen(&mut self, by: Reals) {
+    pub(in crate::solve::certify) fn widen(&mut self, by: Reals) {
         self.r = (self.r + by).up();
     }
 
     /// Encloses `1 / z`; infinite or NaN radius where the disc may hold zero. See `Disc::reciprocal`.
     #[inline(always)]
-    pub(in crate::fk::solve::certify) fn reciprocal(self) -> Self {
+    pub(in crate::solve::certify) fn reciprocal(self) -> Self {
         let c = self.c.reciprocal();
         let mut r = Reals::ZERO;
         for k in 0..LANES {
@@ -203,7 +203,7 @@ impl Mul for Discs {
 }
 
 /// A point or vector, coordinate by coordinate.
-pub(in crate::fk::solve::certify) type RealVector = [Real; 3];
+pub(in crate::solve::certify) type RealVector = [Real; 3];
 
 fn dot(a: &RealVector, b: &RealVector) -> Real {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -215,21 +215,21 @@ fn cross(a: &RealVector, b: &RealVector) -> RealVector {
 
 /// A triangle `A, B, C`: products of `b = B - A`, `c = C - A`, and a frame with `B = (len, 0)`, `C = (u, v)`.
 #[derive(Debug, Clone)]
-pub(in crate::fk::solve::certify) struct Triangle {
-    pub(in crate::fk::solve::certify) bb: Real,
-    pub(in crate::fk::solve::certify) cc: Real,
+pub(in crate::solve::certify) struct Triangle {
+    pub(in crate::solve::certify) bb: Real,
+    pub(in crate::solve::certify) cc: Real,
     /// `|b - c|^2`.
-    pub(in crate::fk::solve::certify) opposite: Real,
-    pub(in crate::fk::solve::certify) len: Real,
-    pub(in crate::fk::solve::certify) u: Real,
-    pub(in crate::fk::solve::certify) v: Real,
+    pub(in crate::solve::certify) opposite: Real,
+    pub(in crate::solve::certify) len: Real,
+    pub(in crate::solve::certify) u: Real,
+    pub(in crate::solve::certify) v: Real,
     /// Rows: along `b`, in the plane towards `C`, normal.
-    pub(in crate::fk::solve::certify) axes: [RealVector; 3],
+    pub(in crate::solve::certify) axes: [RealVector; 3],
 }
 
 impl Triangle {
     /// From enclosed corners.
-    pub(in crate::fk::solve::certify) fn of(p: [RealVector; 3]) -> Self {
+    pub(in crate::solve::certify) fn of(p: [RealVector; 3]) -> Self {
         let side = |i: usize, j: usize| -> RealVector { [0, 1, 2].map(|k| p[i][k] - p[j][k]) };
         let (b, c, a) = (side(1, 0), side(2, 0), side(2, 1));
         let normal = cross(&b, &c);
@@ -244,7 +244,7 @@ impl Triangle {
     }
 
     /// Largest radius of an entry of the frame.
-    pub(in crate::fk::solve::certify) fn axes_radius(&self) -> f64 {
+    pub(in crate::solve::certify) fn axes_radius(&self) -> f64 {
         self.axes.iter().flatten().fold(0.0, |m, z| if z.radius <= m { m } else { z.radius })
     }
 }

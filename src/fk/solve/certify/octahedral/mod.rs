@@ -16,14 +16,14 @@ use num_complex::Complex64;
 
 use super::certificate::{PoseEnclosure, ProvedReality, WhyUncertified};
 use super::system::{SquareData, exact_product, power_of_two_below, scale_point, scaled_radius};
-use crate::num::ball::{Disc, Real, UP};
-use crate::num::batch::LANES;
-use crate::num::rounding::check_arithmetic;
-use crate::num::vector_unit::on_vector_unit;
-use crate::platform::geom::ComplexPose;
-use crate::platform::manipulator::{Body, LegIndex, Octahedral};
 use arithmetic::{RealVector, Triangle, parts};
 use circles::{Sides, Zeros, one_zero_about};
+use num::ball::{Disc, Real, UP};
+use num::batch::LANES;
+use num::rounding::check_arithmetic;
+use num::vector_unit::on_vector_unit;
+use platform::geom::ComplexPose;
+use platform::manipulator::{Body, LegIndex, Octahedral};
 use poses::{Given, corners_of, deviation, place};
 
 /// Pairs of poses of an octahedral platform.

@@ -17,9 +17,9 @@
 use super::arithmetic::{Discs, Reals, parts, reciprocal, sizes};
 use super::circles::{Circle, OnCircle, Zeros};
 use super::{OctahedralCertifier, PAIRS, U};
-use crate::num::ball::Real;
-use crate::num::batch::{ComplexBatch, LANES};
-use crate::platform::geom::ComplexPose;
+use num::ball::Real;
+use num::batch::{ComplexBatch, LANES};
+use platform::geom::ComplexPose;
 
 pub(super) type Points = [Discs; 3];
 

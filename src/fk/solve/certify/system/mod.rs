@@ -50,11 +50,11 @@ use num_complex::Complex64;
 
 use super::certificate::WhyUncertified;
 use super::second_order::SecondOrder;
-use crate::num::ball::{TINY, UP};
-use crate::num::double_double::DoubleDouble;
-use crate::num::interval::Interval;
-use crate::num::rounding::check_arithmetic;
-use crate::platform::manipulator::{Body, Manipulator, SquaredLegLengths};
+use num::ball::{TINY, UP};
+use num::double_double::DoubleDouble;
+use num::interval::Interval;
+use num::rounding::check_arithmetic;
+use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 
 /// Unknowns on an affine patch, and equations.
 pub(super) const N: usize = 7;
@@ -295,7 +295,7 @@ impl LegSystem {
 
     /// `radii` are the sums of the radii of both ends of the legs.
     fn scaled(
-        legs: &[crate::platform::manipulator::Leg; 6],
+        legs: &[platform::manipulator::Leg; 6],
         radii: &[f64; 6],
         s: &SquareData,
         unit: f64,

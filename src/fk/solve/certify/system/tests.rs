@@ -3,10 +3,10 @@
 use num_rational::BigRational;
 
 use super::*;
-use crate::num::Rng;
-use crate::num::interval::Interval;
-use crate::platform::manipulator::{Leg, LegLengths};
 use nalgebra::Point3;
+use num::Rng;
+use num::interval::Interval;
+use platform::manipulator::{Leg, LegLengths};
 
 type ExactComplex = (BigRational, BigRational);
 type Quaternion = [ExactComplex; 4];

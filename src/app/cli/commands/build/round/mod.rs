@@ -16,10 +16,10 @@ use crate::app::cli::requirements;
 use crate::app::entrance::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use crate::app::records::{AssessAnswer, DesignRoleWord, VariantWord};
 use crate::files::design::Design;
-use crate::machine::manufacture::{NoRounding, Rounding};
-use crate::machine::requirements::{Grid, HoleCircles, HolePattern};
-use crate::platform::manipulator::{Body, Manipulator};
-use crate::verify::{Verdict, Verification};
+use machine::manufacture::{NoRounding, Rounding};
+use machine::requirements::{Grid, HoleCircles, HolePattern};
+use platform::manipulator::{Body, Manipulator};
+use verify::{Verdict, Verification};
 
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]

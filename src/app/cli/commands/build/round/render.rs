@@ -9,7 +9,7 @@ use crate::app::records::{
     RoundAnswer, RoundedJointRecord, VariantWord,
 };
 use crate::files::design::Design;
-use crate::machine::manufacture::Rounding;
+use machine::manufacture::Rounding;
 
 /// Everything there is to tell.
 #[derive(Debug)]

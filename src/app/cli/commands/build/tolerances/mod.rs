@@ -14,13 +14,13 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use crate::app::records::PoseDeviations;
 use crate::files::design::Design;
-use crate::machine::manufacture::{
+use machine::manufacture::{
     Budget, ErrorAtPose, ErrorBound, JointErrors, MachineErrors, MachineUncertainty, PoseSearch,
     ToleranceError, Trials, budget, error_map, solved_error, trials,
 };
-use crate::machine::requirements::PoseSpace;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::Manipulator;
+use machine::requirements::PoseSpace;
+use platform::geom::Pose;
+use platform::manipulator::Manipulator;
 
 /// Arguments of `build tolerances`.
 #[derive(Debug, clap::Args)]

@@ -12,7 +12,7 @@ use crate::app::records::{
     WorkspaceWord, WorstErrorsRecord,
 };
 use crate::files::design::Design;
-use crate::machine::manufacture::{ErrorAtPose, ErrorParts, Trials};
+use machine::manufacture::{ErrorAtPose, ErrorParts, Trials};
 
 /// The record of the answer.
 pub(super) fn record(design: &Design, f: &Found, seed: u64, path: Option<String>) -> TolerancesAnswer {

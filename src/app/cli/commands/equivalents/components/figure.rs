@@ -4,9 +4,9 @@ use nalgebra::{Point3, Vector3};
 
 use crate::files::design::Design;
 use crate::files::plot::{CurveFigure, CurveMark, CurvePanel, component_curves};
-use crate::num::Purpose;
-use crate::platform::manipulator::LegIndex;
-use crate::synthesis::components::{Components, FlatPair, PlaneCurve, PlanePair, flat_name};
+use num::Purpose;
+use platform::manipulator::LegIndex;
+use synthesis::components::{Components, FlatPair, PlaneCurve, PlanePair, flat_name};
 
 /// Corresponding points that are marked.
 const MARKS: usize = 8;
@@ -91,7 +91,7 @@ fn coordinates(curve: &PlaneCurve, p: &Point3<f64>) -> [f64; 2] {
 /// Legs of the families between the planes, near enough to be shown.
 fn partners(found: &Components, planes: &PlanePair, seed: u64) -> Vec<(Point3<f64>, Point3<f64>)> {
     let pair = &found.pairs[planes.pair];
-    let inside = |c: &&crate::synthesis::components::Component| {
+    let inside = |c: &&synthesis::components::Component| {
         c.support.iter().all(|l| pair.legs.contains(l)) && c.exact != Some(false)
     };
     let families: Vec<_> = found.components.iter().filter(inside).collect();

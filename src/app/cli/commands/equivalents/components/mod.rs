@@ -12,8 +12,8 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::records::{ComponentRecord, ComponentsAnswer};
 use crate::files::design::Design;
-use crate::num::Purpose;
-use crate::synthesis::components::{
+use num::Purpose;
+use synthesis::components::{
     Component, ComponentOptions, Components, ComponentsError, SampledLeg, components,
 };
 

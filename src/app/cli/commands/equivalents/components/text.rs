@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::files::design::Design;
-use crate::platform::manipulator::LegIndex;
-use crate::synthesis::components::{Component, Components, PlaneCurve, SampledLeg, flat_name};
+use platform::manipulator::LegIndex;
+use synthesis::components::{Component, Components, PlaneCurve, SampledLeg, flat_name};
 
 fn names(list: &[LegIndex]) -> String {
     list.iter().map(|l| (l.get() + 1).to_string()).collect::<Vec<_>>().join(" ")

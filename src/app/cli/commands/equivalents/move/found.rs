@@ -15,13 +15,13 @@ use crate::app::records::{
     Number, PlacementRecord, SearchWord, WishMarginRecord,
 };
 use crate::files::design::Design;
-use crate::synthesis::LegMapOutcome;
-use crate::synthesis::components::{ComponentOptions, Components};
-use crate::synthesis::relocate::search::{
+use synthesis::LegMapOutcome;
+use synthesis::components::{ComponentOptions, Components};
+use synthesis::relocate::search::{
     Candidate, Impossibility, LegSource, MoveSearchOptions, Placement, SearchError, SearchOutcome,
     SearchVerdict, Wishes, search,
 };
-use crate::verify::judge;
+use verify::judge;
 
 /// Searches, and writes the designs found.
 pub(super) fn run(

@@ -15,13 +15,13 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::records::MoveAnswer;
 use crate::files::design::Design;
-use crate::platform::manipulator::Body;
-use crate::synthesis::components::{ComponentOptions, Components, ComponentsError, components};
-use crate::synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
-use crate::synthesis::{LegMapOutcome, LegMapTolerances, Relation};
-use crate::verify::judge;
 use naming::{Meant, family_names, list_families, moved_design, resolve};
+use platform::manipulator::Body;
 use request::{Request, requests};
+use synthesis::components::{ComponentOptions, Components, ComponentsError, components};
+use synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
+use synthesis::{LegMapOutcome, LegMapTolerances, Relation};
+use verify::judge;
 
 /// Arguments of `equivalents move`.
 #[derive(Debug, clap::Args)]

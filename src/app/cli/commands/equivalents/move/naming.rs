@@ -5,10 +5,10 @@ use nalgebra::Point3;
 use super::request::Along;
 use crate::app::cli::failure::Failure;
 use crate::files::design::{Design, Origin};
-use crate::num::linalg::LinalgError;
-use crate::platform::manipulator::Body;
-use crate::synthesis::components::{Components, Parametrisation};
-use crate::synthesis::relocate::{Assembled, JointOrigin, counted_from, family_between, spanning_joints};
+use num::linalg::LinalgError;
+use platform::manipulator::Body;
+use synthesis::components::{Components, Parametrisation};
+use synthesis::relocate::{Assembled, JointOrigin, counted_from, family_between, spanning_joints};
 
 fn internal(e: &LinalgError) -> Failure {
     Failure::internal(e.to_string())

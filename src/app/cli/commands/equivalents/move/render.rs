@@ -9,8 +9,8 @@ use crate::app::records::{
     SingularParametersRecord,
 };
 use crate::files::design::Design;
-use crate::synthesis::Relation;
-use crate::synthesis::relocate::{Chain, MovedLeg, Relocation};
+use synthesis::Relation;
+use synthesis::relocate::{Chain, MovedLeg, Relocation};
 
 /// Moves of one run.
 pub(super) struct Record<'a> {

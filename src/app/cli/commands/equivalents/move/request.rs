@@ -1,7 +1,7 @@
 //! The moves asked for on the command line.
 
 use crate::app::cli::failure::Failure;
-use crate::platform::manipulator::LegIndex;
+use platform::manipulator::LegIndex;
 
 const FORM: &str = "a move is LEG:FAMILY:T[,U,..], for instance 1:3:0.25 or 1:P1:P4-P5:0.25";
 

@@ -5,8 +5,8 @@ use nalgebra::Point3;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::poses;
 use crate::files::design::Design;
-use crate::platform::manipulator::{Body, LegIndex, inverse_condition, jacobian};
-use crate::synthesis::relocate::search::{Hole, MoveSearchOptions, Wishes};
+use platform::manipulator::{Body, LegIndex, inverse_condition, jacobian};
+use synthesis::relocate::search::{Hole, MoveSearchOptions, Wishes};
 
 /// What an equivalent platform is to fulfil.
 #[derive(Debug, Default, clap::Args)]

@@ -20,11 +20,11 @@ use crate::app::records::{
 };
 use crate::files::design::Design;
 use crate::files::plot::{TopologyFigure, topology_diagram, topology_sheet};
-use crate::fk::distance::{ClosureDegrees, generic_degrees};
-use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
-use crate::num::Purpose;
-use crate::platform::manipulator::{Manipulator, default_home};
-use crate::platform::topology::{NamedTopology, Recognised, Sequence, catalogue, recognise};
+use fk::distance::{ClosureDegrees, generic_degrees};
+use fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
+use num::Purpose;
+use platform::manipulator::{Manipulator, default_home};
+use platform::topology::{NamedTopology, Recognised, Sequence, catalogue, recognise};
 
 /// Arguments of `equivalents topologies`.
 #[derive(Debug, clap::Args)]
@@ -102,7 +102,7 @@ fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<TopologyEntry,
         let internal =
             |e: &dyn std::fmt::Display| Failure::internal(format!("{}, member {k}: {e}", named.id()));
         let member = problem(class, LengthsFrom::Pose, seed, k).map_err(|e| internal(&e))?;
-        let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
+        let options = FkOptions::new().seed(seed).pose_count(PoseCounting::Never);
         let found =
             Homotopy.solve(&member.manipulator, &member.squares, &options).map_err(|e| internal(&e))?;
         let vote = votes.entry(found.count_with_multiplicity()).or_default();

@@ -7,9 +7,9 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::records::RearrangementRecord;
 use crate::files::design::Design;
-use crate::platform::manipulator::default_home;
-use crate::platform::topology::NamedTopology;
-use crate::synthesis::rearrangement::{Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement};
+use platform::manipulator::default_home;
+use platform::topology::NamedTopology;
+use synthesis::rearrangement::{Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement};
 
 /// All cases of these topologies.
 pub(super) fn cases(list: &[NamedTopology]) -> Result<Vec<Rearrangement>, Failure> {

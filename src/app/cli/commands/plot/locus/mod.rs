@@ -15,9 +15,9 @@ use crate::app::cli::output::Answer;
 use crate::app::records::LocusWord;
 use crate::files::design::Design;
 use crate::files::plot::{LocusStep, LocusValue};
-use crate::fk::{self, FkOptions, FkSolutions, PoseCounting, Reality, SolutionSet, Threads};
-use crate::platform::manipulator::{Leg, LegLengths, Manipulator};
-use crate::platform::topology::Topology;
+use fk::{self, FkOptions, FkSolutions, PoseCounting, Reality, SolutionSet, Threads};
+use platform::manipulator::{Leg, LegLengths, Manipulator};
+use platform::topology::Topology;
 
 /// Arguments of `plot locus`.
 #[derive(Debug, clap::Args)]
@@ -138,7 +138,7 @@ fn solve(args: &Args, context: &mut Context) -> Result<Locus, Failure> {
     };
     let lengths = varied(args, &given.distances)?;
     let squares: Vec<_> = lengths.iter().map(LegLengths::squared).collect();
-    let options = FkOptions { seed: context.seed(), pose_count: PoseCounting::Never, ..FkOptions::default() };
+    let options = FkOptions::new().seed(context.seed()).pose_count(PoseCounting::Never);
     let solver = fk::solver(method);
     let results = fk::solve_batch(solver.as_ref(), m, &squares, &options, Threads::All);
     let mut rows = Vec::with_capacity(results.len());

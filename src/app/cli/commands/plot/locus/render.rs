@@ -9,7 +9,7 @@ use crate::app::records::{
     LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord, Number,
 };
 use crate::files::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
-use crate::fk::{FkRoot, Reality};
+use fk::{FkRoot, Reality};
 
 pub(super) fn picture(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {
     let without = rows.iter().filter(|r| r.status() != LocusWord::Isolated).count();

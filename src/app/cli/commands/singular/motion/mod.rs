@@ -14,10 +14,10 @@ use crate::app::cli::poses;
 use crate::app::records::OriginWord;
 use crate::files::design::Design;
 use crate::files::plot::{MotionFigure, motion};
-use crate::fk::{FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, SolutionSet};
-use crate::platform::geom::{ComplexPose, Pose};
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
-use crate::synthesis::singularity::{
+use fk::{FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, SolutionSet};
+use platform::geom::{ComplexPose, Pose};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
+use synthesis::singularity::{
     CriticalPoses, CurveDegree, CurveEnd, MotionOptions, SelfMotion, critical_poses, curve_degree,
     rounds_to_singular, self_motion,
 };
@@ -203,7 +203,7 @@ fn sections(
 ) -> Result<PoseSections, Failure> {
     let mut out = PoseSections { dimension: 0, points: Vec::new(), established: true };
     for k in 0..searches {
-        let options = FkOptions { seed: seed.wrapping_add(k), ..FkOptions::default() };
+        let options = FkOptions::new().seed(seed.wrapping_add(k));
         let found = Homotopy.solve(m, s, &options);
         let found = found.map_err(|e| Failure::internal(format!("looking for further poses: {e}")))?;
         if let SolutionSet::PositiveDimensional { witnesses, dimension, established } = &found.solution_set {

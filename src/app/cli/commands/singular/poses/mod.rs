@@ -16,10 +16,10 @@ use crate::app::cli::poses;
 use crate::app::entrance::BOX_CELLS;
 use crate::files::design::Design;
 use crate::files::plot::singular_slice;
-use crate::fk::{Automatic, FkOptions, ForwardKinematics};
-use crate::platform::geom::{Pose, PoseSpace, Region};
-use crate::platform::manipulator::{LegLengths, Octahedral, inverse_condition, jacobian, leg_determinant};
-use crate::synthesis::singularity::{
+use fk::{Automatic, FkOptions, ForwardKinematics};
+use platform::geom::{Pose, PoseSpace, Region};
+use platform::manipulator::{LegLengths, Octahedral, inverse_condition, jacobian, leg_determinant};
+use synthesis::singularity::{
     BoxOptions, RegularBox, Regularity, four_planes, regular_box, regular_workspace,
 };
 
@@ -108,7 +108,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Failure::refused("poses::bad_pose", "the leg lengths at this pose are not finite positive numbers")
     })?;
     let octahedral = Octahedral::recognise(m).ok();
-    let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
+    let options = FkOptions::new().seed(context.seed());
     let solutions = Automatic
         .solve(m, &lengths.squared(), &options)
         .map_err(|e| Failure::internal(format!("assembly modes: {e}")))?;

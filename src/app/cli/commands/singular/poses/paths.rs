@@ -12,9 +12,9 @@ use crate::app::records::{
 };
 use crate::files::design::Design;
 use crate::files::plot::{AlongFigure, AlongPart, sign_along};
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::leg_determinant;
-use crate::synthesis::singularity::{JoinOptions, Joined, Sign, SignsAlong, between, join, signs_along};
+use platform::geom::Pose;
+use platform::manipulator::leg_determinant;
+use synthesis::singularity::{JoinOptions, Joined, Sign, SignsAlong, between, join, signs_along};
 
 /// Values of det J listed on each straight part of a path.
 const STEPS: usize = 100;

@@ -9,9 +9,9 @@ use crate::app::records::{
     RegularityWord, ScaledPoseRecord, SingularitiesAnswer,
 };
 use crate::files::design::Design;
-use crate::platform::geom::Region;
-use crate::platform::manipulator::LegLengths;
-use crate::synthesis::singularity::BoxOptions;
+use platform::geom::Region;
+use platform::manipulator::LegLengths;
+use synthesis::singularity::BoxOptions;
 
 fn judged(j: &Judged) -> JudgedPoseRecord {
     JudgedPoseRecord {

@@ -3,9 +3,9 @@
 use crate::app::cli::freedoms::{Freedoms, PoseGrid};
 use crate::files::design::Design;
 use crate::files::plot::SliceFigure;
-use crate::platform::geom::Pose;
-use crate::platform::manipulator::plucker_matrix;
-use crate::synthesis::singularity::BoxOptions;
+use platform::geom::Pose;
+use platform::manipulator::plucker_matrix;
+use synthesis::singularity::BoxOptions;
 
 /// Grid points a side.
 const SIDE: usize = 161;

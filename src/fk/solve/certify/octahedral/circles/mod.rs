@@ -29,8 +29,8 @@
 
 use super::U;
 use super::arithmetic::{Discs, Reals, Triangle, reciprocal, root, sizes};
-use crate::num::ball::{Real, UP};
-use crate::num::batch::{ComplexBatch, LANES};
+use num::ball::{Real, UP};
+use num::batch::{ComplexBatch, LANES};
 
 /// The sides of the base triangle about which `P4`, `P5`, `P6` turn: `P1 P2`, `P2 P3`, `P3 P1`, in the frame of the triangle.
 #[derive(Debug, Clone)]

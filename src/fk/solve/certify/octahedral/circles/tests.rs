@@ -1,5 +1,5 @@
 use super::*;
-use crate::num::Rng;
+use num::Rng;
 use num_rational::BigRational;
 
 type Exact = BigRational;

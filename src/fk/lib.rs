@@ -18,7 +18,7 @@ mod cluster;
 mod collect;
 mod completeness;
 mod dependent;
-pub(crate) mod distance;
+pub mod distance;
 #[cfg(feature = "lab")]
 mod elimination;
 mod evidence;
@@ -31,23 +31,22 @@ mod newton;
 mod octic;
 mod real_points;
 mod solutions;
-pub(crate) mod solve;
+pub mod solve;
 #[cfg(feature = "lab")]
 mod sylvester;
 #[cfg(feature = "lab")]
 mod template;
 mod trilateration;
 
-pub(crate) use batch::in_order;
+pub use batch::in_order;
 pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems};
-#[cfg(feature = "synthesis")]
-pub(crate) use bounds::pose_bound;
+pub use bounds::pose_bound;
 pub use choose::{Automatic, solver};
 pub use closure::{Closure, NoClosure, closure};
 pub use closure_poses::closure_candidates;
 pub use completeness::{Completeness, PathsEnded, Reason, Reasons, Theorem, Tried};
 pub use homotopy::Homotopy;
-pub(crate) use near::NearNumbers;
+pub use near::NearNumbers;
 use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
@@ -60,12 +59,13 @@ pub use sylvester::Sylvester;
 pub use template::Template;
 pub use trilateration::Trilateration;
 
-use crate::platform::manipulator::{Manipulator, SquaredLegLengths};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 use thiserror::Error;
 
 /// Options of forward kinematics.
 ///
 /// ```
+/// # mod equipod { pub use equipod_fk::*; pub mod methods { pub use equipod_fk as fk; pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
 /// use equipod::{FkOptions, Method};
 /// let options = FkOptions::new().method(Method::Homotopy).seed(7);
 /// assert_eq!((options.seed, options.method), (7, Some(Method::Homotopy)));
@@ -83,7 +83,7 @@ pub struct FkOptions {
     pub tolerances: FkTolerances,
 }
 
-/// When the finite poses are counted (see [`crate::fk::solve::pose_count`]).
+/// When the finite poses are counted (see [`crate::solve::pose_count`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PoseCounting {
     /// Where no theorem says that the poses found are all.
@@ -160,7 +160,6 @@ impl FkOptions {
 
 /// A question a method could not take or an answer it could not compute.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
 pub enum FkError {
     /// The method does not apply to this manipulator.
     #[error("the {method} method does not apply: {reason}")]

@@ -8,16 +8,13 @@
 //!
 //! A manipulator with its requirements becomes margins at poses; a search looks for the worst pose and interval arithmetic proves that there is no worse one.
 
-#[cfg(feature = "synthesis")]
-pub(crate) mod calibration;
-#[cfg(any(feature = "files", feature = "synthesis"))]
-pub(crate) mod coupled;
-#[cfg(any(feature = "files", feature = "synthesis"))]
-pub(crate) mod dynamics;
-#[cfg(feature = "synthesis")]
-pub(crate) mod manufacture;
-#[cfg(any(feature = "files", feature = "synthesis"))]
-pub(crate) mod reach;
-#[cfg(any(feature = "files", feature = "synthesis"))]
-pub(crate) mod requirements;
-pub(crate) mod rotary;
+pub mod calibration;
+pub mod coupled;
+pub mod dynamics;
+#[cfg(test)]
+#[path = "../platform/manipulator/fixtures.rs"]
+mod fixtures;
+pub mod manufacture;
+pub mod reach;
+pub mod requirements;
+pub mod rotary;

@@ -8,6 +8,6 @@
 //!
 //! A manipulator is checked once where it is made; lengths follow from it and a pose, and everything else in the library takes both.
 
-pub(crate) mod geom;
-pub(crate) mod manipulator;
-pub(crate) mod topology;
+pub mod geom;
+pub mod manipulator;
+pub mod topology;

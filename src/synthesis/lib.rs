@@ -16,9 +16,11 @@ mod determinant;
 mod dot;
 mod drawing;
 mod enumerate;
-#[cfg(feature = "files")]
 pub(crate) mod exact_map;
 mod family;
+#[cfg(test)]
+#[path = "../platform/manipulator/fixtures.rs"]
+mod fixtures;
 mod hexagon;
 mod leg_map;
 mod leg_vector;
@@ -28,17 +30,15 @@ mod nearest;
 mod pattern;
 pub mod rearrangement;
 pub mod relocate;
-pub(crate) mod singularity;
-mod topology;
+pub mod singularity;
 
-pub use crate::platform::topology::Topology;
 pub use correspondence::LegCorrespondence;
 pub use determinant::{Factor, offset_determinant, singular_offset};
-pub(crate) use determinant::{determinant_gradient, determinant_hessian, offset_products};
+pub use determinant::{determinant_gradient, determinant_hessian, offset_products};
 pub use enumerate::{Symmetry, enumerate, representative};
 pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
 pub use hexagon::{HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body};
-pub(crate) use hexagon::{HexagonSide, corner, edge, sides};
+pub use hexagon::{HexagonSide, corner, edge, sides};
 pub use leg_map::{
     AffineLegMap, ExactNumbers, LegMapOutcome, LegMapTolerances, NotRealizable, Relation, SingularMap,
     leg_map,
@@ -50,3 +50,4 @@ pub use nearest::{
     LegEnd, LengthDeviation, NearestOctahedral, NearestOptions, length_deviation, nearest_octahedral,
 };
 pub use pattern::{InstantiateError, ParsePatternError, Pattern, joint_free};
+pub use platform::topology::Topology;

@@ -8,5 +8,5 @@
 //!
 //! Starts are drawn, evolved and climbed by conic programs over linearised margins; what was found is judged by `machine` over the whole workspace.
 
-pub(crate) mod dimensional;
-pub(crate) mod offsets;
+pub mod dimensional;
+pub mod offsets;
