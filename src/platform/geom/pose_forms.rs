@@ -105,7 +105,7 @@ impl Pose {
     /// let isometry: nalgebra::Isometry3<f64> = pose.into();
     /// assert!((pose.matrix() - isometry.to_homogeneous()).amax() < 1e-15);
     /// assert!((Pose::try_from(pose.matrix())?.angles().degrees()[1] - 10.0).abs() < 1e-12);
-    /// # Ok::<(), Error>(())
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
     pub fn new(position: impl Into<Vector3<f64>>, rotation: impl Into<Rotation3<f64>>) -> Self {
