@@ -118,11 +118,8 @@ fn one(
     reference: &dyn ForwardKinematics,
 ) -> Result<Outcome, NotDrawn> {
     let problem = problem(plan.class, plan.lengths, plan.seed, k)?;
-    let options = FkOptions::new().seed(plan.seed).pose_count(if plan.count_poses {
-        PoseCounting::WhenUnproved
-    } else {
-        PoseCounting::Never
-    });
+    let counting = if plan.count_poses { PoseCounting::WhenUnproved } else { PoseCounting::Never };
+    let options = FkOptions::new().seed(plan.seed).pose_count(counting);
     let start = Instant::now();
     let solved = solver.solve(&problem.manipulator, &problem.squares, &options);
     let solve_us = start.elapsed().as_secs_f64() * 1e6;

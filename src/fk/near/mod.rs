@@ -93,7 +93,7 @@ pub struct NearNumbers {
     pub base: [[f64; 3]; 6],
     /// Platform joints relative to `centre`, in units of `unit`.
     pub platform: [[f64; 3]; 6],
-    /// How far each joint of base and platform may be from its numbers, in units of `unit`.
+    /// Greatest distance of each joint of base and platform from its numbers, in units of `unit`.
     pub loose: [[f64; 6]; 2],
     /// Centroid of the base joints.
     pub origin: [f64; 3],
@@ -101,7 +101,7 @@ pub struct NearNumbers {
     pub centre: [f64; 3],
     /// The unit of length.
     pub unit: f64,
-    /// What residuals are divided by.
+    /// Divisor of residuals.
     pub residual_scale: f64,
 }
 

@@ -117,10 +117,6 @@ fn asked(args: &Args, context: &Context) -> Result<Asked, Failure> {
     Ok(Asked { motions, accuracy: accuracy.transpose()?, points: args.points as usize, seed: context.seed() })
 }
 
-fn force_unit(design: &Design) -> &'static str {
-    design.force_unit().label()
-}
-
 /// The figures and pictures of all designs.
 ///
 /// # Errors
@@ -128,7 +124,8 @@ fn force_unit(design: &Design) -> &'static str {
 pub(super) fn compare(designs: &[(String, Design)], asked: &Asked) -> Result<Comparison, Failure> {
     let all =
         |unit: &dyn Fn(&Design) -> String| designs.iter().map(|(_, d)| unit(d)).collect::<BTreeSet<_>>();
-    let (lengths, forces) = (all(&|d| d.units.trim().to_string()), all(&|d| force_unit(d).to_string()));
+    let (lengths, forces) =
+        (all(&|d| d.units.trim().to_string()), all(&|d| d.force_unit().label().to_string()));
     for (what, units) in [("length", &lengths), ("force", &forces)] {
         if units.len() > 1 {
             let list = units.iter().cloned().collect::<Vec<_>>().join(", ");

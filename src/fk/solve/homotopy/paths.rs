@@ -57,9 +57,9 @@ pub enum EndKind {
 /// One path.
 #[derive(Debug, Clone, Copy)]
 pub struct HomotopyPath {
-    /// Where it ends, in Study coordinates.
+    /// Its end, in Study coordinates.
     pub x: [Complex64; 8],
-    /// What it ends at.
+    /// The kind of its end.
     pub kind: EndKind,
     /// Accepted steps.
     pub steps: u32,
@@ -69,7 +69,7 @@ pub struct HomotopyPath {
     pub winding: u32,
     /// How often it was tracked again with tighter steps.
     pub retracked: u32,
-    /// Of a winding number of two: half the distance of two roots not told apart, see `endgame::EndPoint`.
+    /// Half the distance of two roots not told apart, where the winding number is two; see `endgame::EndPoint`.
     pub split: Option<[Complex64; 8]>,
     /// Smallest over largest pivot modulus of the Newton matrix at the end.
     pub pivot_ratio: f64,

@@ -78,7 +78,7 @@ pub struct CoupledLegs {
     pub offsets: [f64; 2],
     /// Per radian.
     pub lead: f64,
-    /// Where twists are `at_home`.
+    /// The pose at which the twists are `at_home`.
     pub home: Pose,
     /// Twists at home, radians.
     pub at_home: [f64; 6],

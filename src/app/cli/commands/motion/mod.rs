@@ -15,7 +15,7 @@ use crate::app::records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
 use crate::files::design::Design;
 use crate::files::export::LengthUnit;
 use machine::dynamics::{InvalidManoeuvre, Manoeuvre, PathEnds, PosePath};
-use machine::requirements::{ForceUnit, Load};
+use machine::requirements::Load;
 use platform::geom::Pose;
 
 /// Arguments of `motion`.
@@ -146,7 +146,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         name: design.name.clone(),
         met: records.iter().all(|r| r.met),
         length_unit: design.units.clone(),
-        force_unit: force_unit(&design).label().into(),
+        force_unit: design.force_unit().label().into(),
         assumptions: design.mass_assumptions(),
         motions: records,
         stiffness,
@@ -155,10 +155,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let exit = if answer.met { Exit::Yes } else { Exit::No };
     let text = render::text(&answer);
     Ok(Answer::new(exit, answer, text))
-}
-
-fn force_unit(design: &Design) -> ForceUnit {
-    design.force_unit()
 }
 
 fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Result<(), Failure> {

@@ -241,7 +241,7 @@ fn requirements(out: &mut String, motion: &MotionRunRecord) {
 /// Every instant of every motion.
 pub(super) fn csv(design: &Design, motions: &[(String, MotionReport)]) -> String {
     let unit = column_unit(&design.units);
-    let force = super::force_unit(design).label();
+    let force = design.force_unit().label();
     let mut header: Vec<String> = ["motion", "t_s"].map(String::from).to_vec();
     header.extend(["x", "y", "z"].map(|axis| format!("{axis}_{unit}")));
     header.extend(["qw", "qx", "qy", "qz"].map(String::from));
