@@ -9,6 +9,16 @@ pub fn fixed(x: f64, decimals: usize) -> String {
     }
 }
 
+/// A positive number, rounded down to three digits that count: a limit that is kept where this one is.
+pub fn rounded_down(x: f64) -> String {
+    let (mut decimals, mut scale) = (0, 1.0);
+    while x * scale < 100.0 && decimals < 300 {
+        decimals += 1;
+        scale *= 10.0;
+    }
+    format!("{:.decimals$}", (x * scale).floor() / scale)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -17,6 +27,8 @@ mod tests {
     fn what_rounds_to_zero_has_no_sign() {
         let four = [-1e-9, 0.0, -0.0, -5.1e-5, 1.0, -12.5].map(|x| fixed(x, 4));
         assert_eq!(four, ["0.0000", "0.0000", "0.0000", "-0.0001", "1.0000", "-12.5000"]);
+        let down = [0.012_399, 1.0, 0.999_99, 123.4, 5432.1, 6.015e-7].map(rounded_down);
+        assert_eq!(down, ["0.0123", "1.00", "0.999", "123", "5432", "0.000000601"]);
         assert_eq!([-0.4, -0.6, f64::NEG_INFINITY].map(|x| fixed(x, 0)), ["0", "-1", "-inf"]);
     }
 }

@@ -2,11 +2,8 @@
 
 use num::linalg::LinalgError;
 use platform::manipulator::{Level, Manipulator};
-use synthesis::singularity::{Architecture, rounded_singular};
+use synthesis::singularity::SingularityVerdict;
 use synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
-
-/// Seed of the search for a singular design within rounding.
-const SEED: u64 = 1;
 
 /// What platforms A and B, described in the same two frames and units, have to do with each other.
 ///
@@ -26,19 +23,16 @@ pub fn judge(a: &Manipulator, b: &Manipulator) -> Result<LegMapOutcome, LinalgEr
     if map.relation == Relation::Singular {
         return Ok(map);
     }
+    let found = [SingularityVerdict::of(a)?, SingularityVerdict::of(b)?];
     // independent leg vectors may belong to dependent lines
-    for m in [a, b] {
-        let found = Architecture::of(m);
-        if let (Some(true), Some(level)) = (found.is_singular(), found.level) {
-            return Ok(map.with_dependent_lines(level));
-        }
+    if let Some(level) =
+        found.iter().find(|f| f.is_singular() == Some(true)).and_then(SingularityVerdict::level)
+    {
+        return Ok(map.with_dependent_lines(level));
     }
-    if map.relation == Relation::Equivalent && map.level == Level::DoublesAsWritten {
-        for m in [a, b] {
-            if let Some(near) = rounded_singular(m, SEED)? {
-                return Ok(map.near_singular(near.distance));
-            }
-        }
+    let doubles = map.relation == Relation::Equivalent && map.level == Level::DoublesAsWritten;
+    match found.iter().find_map(|f| f.meant.as_ref()) {
+        Some(near) if doubles => Ok(map.near_singular(near.distance)),
+        _ => Ok(map),
     }
-    Ok(map)
 }

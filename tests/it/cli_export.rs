@@ -144,6 +144,37 @@ fn refusals() {
     assert_eq!(read(folder.path(), "platform.json"), before);
 }
 
+/// Hole plans and tables have the tolerance that `build tolerances` gives for the same bound.
+#[test]
+fn drawings_carry_the_tolerance_of_the_places_of_holes() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().to_str().unwrap();
+    let design = "designs/rbt-octahedral.toml";
+    let asked = ["--bound", "0.1,0.5", "--tool", "0,0,1"];
+    let (code, doc) = run(&[&[design, "--to", "dxf,csv", "-o", to], &asked[..]].concat());
+    assert_eq!(code, Some(0), "{doc}");
+    let budget =
+        equipod(&[&["build", "tolerances", design, "--trials", "10", "--json"], &asked[..]].concat());
+    let radius = document(&budget)["solved"]["radius"].as_f64().unwrap();
+    let shown = |text: &str, before: &str| -> f64 {
+        text.split_once(before).unwrap().1.split_whitespace().next().unwrap().parse().unwrap()
+    };
+    for (name, before) in
+        [("base-plate.dxf", "within circles of diameter "), ("joints.csv", "a ball of diameter ")]
+    {
+        let diameter = shown(&read(folder.path(), name), before);
+        assert!(diameter <= 2.0 * radius && diameter > 1.98 * radius, "{name}: {diameter}, {radius}");
+    }
+    let refused = |more: &[&str]| {
+        let (code, doc) = run(&[&[design, "-o", to], more].concat());
+        assert_eq!(code, Some(2), "{doc}");
+        doc["error"]["code"].as_str().unwrap().to_owned()
+    };
+    assert_eq!(refused(&["--to", "step", "--bound", "0.1,0.5"]), "usage::no_effect");
+    assert_eq!(refused(&["--to", "dxf", "--tool", "0,0,1"]), "usage::no_effect");
+    assert_eq!(refused(&["--to", "dxf", "--bound", "0,0.5"]), "tolerances::bad_bound");
+}
+
 /// Files of the format `c`, in the order in which they are told.
 const C_FILES: [&str; 11] = [
     "equipod.h",

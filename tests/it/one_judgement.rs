@@ -282,7 +282,7 @@ fn check_map_and_verify_agree_on_exact_designs() {
                 let name = format!("{n} {} {t:?} of {}", member.pattern, original.name);
                 let check = design.check().unwrap();
                 assert_eq!(
-                    (check.is_singular(), check.level()),
+                    (check.is_singular(), check.verdict.level()),
                     (Some(expected), Some(Level::ExactJoints)),
                     "{name}"
                 );

@@ -154,8 +154,12 @@ impl std::str::FromStr for TimeLimit {
 #[derive(Debug, Clone)]
 pub(crate) struct Interrupt {
     asked: Arc<AtomicBool>,
-    end: Option<Instant>,
+    /// When the search ends, and when the judging of what it found.
+    ends: Option<[Instant; 2]>,
 }
+
+/// What is kept of a limit of time for the judging, as a share and at most.
+const FOR_JUDGING: (u32, Duration) = (4, Duration::from_secs(10));
 
 impl Interrupt {
     /// Takes over Ctrl-C from now on. Where that is not possible the key ends the process as ever.
@@ -163,7 +167,7 @@ impl Interrupt {
         Self::watch_for(None)
     }
 
-    /// The same, and after a limit of time the search is to end as well.
+    /// The same, and after a limit of time everything is to end: the search earlier, so that what it found can be judged.
     pub(crate) fn watch_for(limit: Option<TimeLimit>) -> Self {
         let flag = Arc::new(AtomicBool::new(false));
         let seen = Arc::clone(&flag);
@@ -174,13 +178,22 @@ impl Interrupt {
         };
         // an error means that somebody else has the key: the search then cannot be interrupted gently
         let _ = ctrlc::set_handler(handler);
-        let end = limit.and_then(|TimeLimit(time)| Instant::now().checked_add(time));
-        Self { asked: flag, end }
+        let ends = limit.and_then(|TimeLimit(time)| {
+            let now = Instant::now();
+            let kept = (time / FOR_JUDGING.0).min(FOR_JUDGING.1);
+            Some([now.checked_add(time.saturating_sub(kept))?, now.checked_add(time)?])
+        });
+        Self { asked: flag, ends }
+    }
+
+    /// When the judging of what a search found ends.
+    pub(crate) fn until(&self) -> Option<Instant> {
+        self.ends.map(|[_, judging]| judging)
     }
 
     /// What a search is told.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
-        let late = self.end.is_some_and(|end| Instant::now() >= end);
+        let late = self.ends.is_some_and(|[search, _]| Instant::now() >= search);
         if late || self.asked.load(Ordering::Relaxed) {
             ControlFlow::Break(())
         } else {

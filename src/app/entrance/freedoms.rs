@@ -450,7 +450,7 @@ impl FreedomSearch<'_, '_> {
         if ended && found.is_none() {
             return Ok(Some(ControlFlow::Break(())));
         }
-        let judged = found.map(|s| checked(design, problem, &s, self.options.seed)).transpose()?;
+        let judged = found.map(|s| checked(design, problem, &s, (&self.options).into())).transpose()?;
         let met = judged.filter(|c| c.met() != Some(false));
         Ok(Some(ControlFlow::Continue(met.map(Box::new))))
     }

@@ -1,5 +1,7 @@
 //! Is the design singular, and does it meet its requirements?
 
+use std::time::Instant;
+
 use super::{Error, SingularHome};
 use crate::app::equivalents::Equivalents;
 use crate::files::design::{Design, Workspace};
@@ -14,8 +16,8 @@ use machine::requirements::{
 use platform::geom::{PoseSpace, Region};
 use platform::manipulator::{Level, Manipulator};
 use synthesis::singularity::{
-    Architecture, Assembly, BoxOptions, Conditioning, NearestSingular, Regularity, assembly, conditioning,
-    nearest_singular, regular_workspace, singular_distance_at_least,
+    Assembly, BoxOptions, Conditioning, NearestSingular, Regularity, SingularityVerdict, assembly,
+    conditioning, nearest_singular, regular_workspace, singular_distance_at_least,
 };
 
 /// Whether a design is architecturally singular, and why.
@@ -24,9 +26,9 @@ use synthesis::singularity::{
 pub struct CheckReport {
     /// The design.
     pub design: Design,
-    /// The decision on the joints as written, in exact arithmetic, with its proof.
-    pub architecture: Architecture,
-    /// A singular design nearby; for a regular design only.
+    /// Whether it is singular, with the proof.
+    pub verdict: SingularityVerdict,
+    /// A singular design nearby; for a design that is not singular as written.
     pub nearest: Option<NearestSingular>,
     /// No singular design is nearer, design units; 0 for a singular one.
     pub at_least: f64,
@@ -45,35 +47,10 @@ pub struct CheckReport {
 }
 
 impl CheckReport {
-    /// Whether the design is architecturally singular: proved either way. `None` where plain numbers may be rounded values of a singular design ([`meant`](Self::meant)), and where joints
-    /// are known between bounds only.
+    /// Whether the design is architecturally singular: proved either way, or `None` ([`SingularityVerdict`]).
     #[must_use]
     pub fn is_singular(&self) -> Option<bool> {
-        if self.meant().is_some() { None } else { self.architecture.is_singular() }
-    }
-
-    /// The singular design that may have been meant: within rounding, or to the digits given.
-    #[must_use]
-    pub fn meant(&self) -> Option<&NearestSingular> {
-        let plain = self.architecture.level == Some(Level::DoublesAsWritten);
-        self.nearest.as_ref().filter(|n| plain && n.may_be_meant())
-    }
-
-    /// What the answer is proved about; `None` where it is not decided.
-    #[must_use]
-    pub fn level(&self) -> Option<Level> {
-        if self.meant().is_some() { Some(Level::WithinRounding) } else { self.architecture.level }
-    }
-
-    /// The reason in a short code, `None` for a regular design.
-    #[must_use]
-    pub fn reason(&self) -> Option<&'static str> {
-        match (self.meant(), self.is_singular()) {
-            (Some(n), _) if n.within_rounding => Some("singular_within_rounding"),
-            (Some(_), _) => Some("singular_to_digits_given"),
-            (None, None) => Some("joints_not_exact"),
-            (None, Some(_)) => self.architecture.findings.first().map(|f| f.case.reason()),
-        }
+        self.verdict.is_singular()
     }
 }
 
@@ -81,20 +58,17 @@ impl CheckReport {
 impl std::fmt::Display for CheckReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let (name, units) = (&self.design.name, &self.design.units);
-        if let Some(n) = self.meant() {
-            return write!(f, "{name} is {}", n.words(units));
+        if let Some(words) = self.verdict.undecided_in_words(units) {
+            return write!(f, "{name} is {words}");
         }
-        let about = self.architecture.level.map_or("", Level::words);
-        match (self.is_singular(), self.reason()) {
-            (None, _) => write!(f, "{name} is not decided: joints are known between bounds only"),
-            (Some(false), _) => {
-                write!(f, "{name} is not architecturally singular: proved {about}")?;
-                if self.singular_home.is_some() { write!(f, "; its home pose is singular") } else { Ok(()) }
-            }
-            (Some(true), Some(reason)) => {
-                write!(f, "{name} is architecturally singular: proved {about} ({reason})")
-            }
-            (Some(true), None) => write!(f, "{name} is architecturally singular: proved {about}"),
+        let about = self.verdict.level().map_or("", Level::words);
+        let singular = self.is_singular() == Some(true);
+        let word = if singular { "architecturally singular" } else { "not architecturally singular" };
+        write!(f, "{name} is {word}: proved {about}")?;
+        match self.verdict.reason() {
+            Some(reason) => write!(f, " ({reason})"),
+            None if !singular && self.singular_home.is_some() => write!(f, "; its home pose is singular"),
+            None => Ok(()),
         }
     }
 }
@@ -335,12 +309,16 @@ impl Design {
     /// A decomposition that does not converge.
     pub fn check_with(&self, seed: u64) -> Result<CheckReport, Error> {
         let m = self.manipulator();
-        let architecture = Architecture::of(m);
-        let singular = architecture.is_singular();
-        let nearest = if singular == Some(true) { None } else { nearest_singular(m, seed)? };
+        let verdict = SingularityVerdict::of(m)?;
+        let singular = verdict.architecture.is_singular();
+        let nearest = match &verdict.meant {
+            None if singular == Some(true) => None,
+            None => nearest_singular(m, seed)?,
+            meant => meant.clone(),
+        };
         let at_least = if nearest.is_some() { singular_distance_at_least(m, seed) } else { 0.0 };
         let conditioning = conditioning(m, seed)?;
-        let singular_hexagon = architecture.griffis_duffy.as_ref().filter(|g| g.is_nearly_singular());
+        let singular_hexagon = verdict.architecture.griffis_duffy.as_ref().filter(|g| g.is_nearly_singular());
         let assembly = match (singular_hexagon, self.lengths) {
             (Some(g), Some(l)) => Some(assembly(g, m, &l.squared())?),
             _ => None,
@@ -358,7 +336,7 @@ impl Design {
         let pose_bound = pose_bound(m);
         Ok(CheckReport {
             design,
-            architecture,
+            verdict,
             nearest,
             at_least,
             assembly,
@@ -417,7 +395,9 @@ impl Design {
             return Err(Error::NothingRequired);
         }
         tell(AssessStage::SingularPoses);
-        let of_rods = regular_rods(m, &required, &space, cells.max(options.patient_cells), options.seed);
+        let cells = if options.is_late() { 1 } else { cells };
+        let patient = if options.is_late() { cells } else { cells.max(options.patient_cells) };
+        let of_rods = regular_rods(m, &required, &space, patient, options.seed);
         let (regularity, regularity_cells) = of_rods.map_or_else(
             || regular_workspace(m, &space, cells, options.seed),
             |(of_rods, cells)| (as_regularity(&of_rods), cells),
@@ -445,7 +425,16 @@ impl Design {
     ///
     /// Proofs end where they decide: the proved margins may be smaller than those of `assess`.
     pub(crate) fn assessed(&self, seed: u64) -> Option<AssessReport> {
-        self.assessed_beside(seed, self.characteristic_length()).0
+        self.assessed_until(seed, None)
+    }
+
+    /// The same; proofs end at a time with what they have.
+    pub(crate) fn assessed_until(&self, seed: u64, until: Option<Instant>) -> Option<AssessReport> {
+        self.decided_by(&deciding(seed).until(until), self.characteristic_length())
+    }
+
+    fn decided_by(&self, options: &AssessOptions, length: f64) -> Option<AssessReport> {
+        self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, &mut |_| {}).ok()
     }
 
     /// The same with the conditioning by a given length, that of all designs of a comparison; the conditioning also where the design requires nothing.
@@ -455,8 +444,7 @@ impl Design {
         length: f64,
     ) -> (Option<AssessReport>, LeastConditioning) {
         let options = deciding(seed);
-        let found =
-            self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, &mut |_| {}).ok();
+        let found = self.decided_by(&options, length);
         let conditioning = found.as_ref().map(|f| f.conditioning);
         (found, conditioning.unwrap_or_else(|| self.least_conditioning(&options, length)))
     }

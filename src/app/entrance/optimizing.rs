@@ -1,6 +1,7 @@
 //! The best platform for a design.
 
 use std::ops::ControlFlow;
+use std::time::Instant;
 
 use super::equivalence::sample_plan;
 use super::platform_search::find_platform;
@@ -299,7 +300,8 @@ impl Design {
             let found = find_platform(self, options.extension, &search, true, &mut |p| {
                 options.flow(OptimizeProgress::Dimensions(p))
             })?;
-            let of = |s: &DimensionalSolution| checked(self, &found.problem, s, seed);
+            let judging = Judging::from(&search);
+            let of = |s: &DimensionalSolution| checked(self, &found.problem, s, judging);
             let others = if options.candidates { &found.report.others[..] } else { &[] };
             let candidates = others.iter().map(of).collect::<Result<Vec<Checked>, VerifyError>>()?;
             return Ok(OptimizeReport {
@@ -326,7 +328,8 @@ impl Design {
         let problem = offset_problem(self, octahedral, poses, options.extension);
         let report =
             offsets::optimize(&problem, &search, &mut |p| options.flow(OptimizeProgress::Offsets(p)))?;
-        let of = |s: &OffsetSolution| checked_offsets(self, &problem, s, seed);
+        let judging = Judging { seed, until: None };
+        let of = |s: &OffsetSolution| checked_offsets(self, &problem, s, judging);
         let checked = report.solution().map(of).transpose()?;
         Ok(OptimizeReport {
             status: offset_status(&report, checked.as_ref()),
@@ -582,17 +585,32 @@ fn fixed_ends(design: &Design) -> [[bool; 6]; 2] {
     [pairs.map(|(base, _)| fixed[0][base]), pairs.map(|(_, platform)| fixed[1][platform])]
 }
 
+/// How a platform that was found is judged.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Judging {
+    /// Seed of the search, and of the poses looked at.
+    pub(crate) seed: u64,
+    /// When proofs end with what they have.
+    pub(crate) until: Option<Instant>,
+}
+
+impl From<&ShapeSearchOptions> for Judging {
+    fn from(options: &ShapeSearchOptions) -> Self {
+        Self { seed: options.seed, until: options.until }
+    }
+}
+
 /// The platform as a design, evaluated by code that the optimiser does not use.
 pub(crate) fn checked(
     design: &Design,
     problem: &DimensionalProblem,
     s: &DimensionalSolution,
-    seed: u64,
+    judging: Judging,
 ) -> Result<Checked, VerifyError> {
-    let out = optimised(design, problem, s, seed);
+    let out = optimised(design, problem, s, judging.seed);
     let v = &problem.variables;
     let keeps_class = (v.offsets || v.components) && v.triangles == Triangles::Fixed;
-    judged(design, problem, out, (&s.home, &s.poses), keeps_class, seed)
+    judged(design, problem, out, (&s.home, &s.poses), keeps_class, judging)
 }
 
 /// The platform of a search for offsets, evaluated in the same way.
@@ -600,11 +618,11 @@ pub(crate) fn checked_offsets(
     design: &Design,
     problem: &OffsetProblem,
     s: &OffsetSolution,
-    seed: u64,
+    judging: Judging,
 ) -> Result<Checked, VerifyError> {
     let general = as_dimensional(design, problem);
-    let out = optimised_design(design, problem, s, seed);
-    judged(design, &general, out, (&design.home_or_default(), &problem.poses), true, seed)
+    let out = optimised_design(design, problem, s, judging.seed);
+    judged(design, &general, out, (&design.home_or_default(), &problem.poses), true, judging)
 }
 
 /// The question of a search for offsets as that of a search under requirements.
@@ -625,7 +643,7 @@ fn judged(
     out: Design,
     (home, held): (&Pose, &[Pose]),
     keeps_class: bool,
-    seed: u64,
+    Judging { seed, until }: Judging,
 ) -> Result<Checked, VerifyError> {
     let space = problem.space.with_home(*home);
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
@@ -645,7 +663,7 @@ fn judged(
     } else {
         None
     };
-    let assessed = out.assessed(seed);
+    let assessed = out.assessed_until(seed, until);
     Ok(Checked { design: out, assessment, assessed, objectives, worst_pose, verification })
 }
 

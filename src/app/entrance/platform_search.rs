@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use super::Error;
-use super::optimizing::{Checked, OptimizeStatus, checked, dimensional_problem, dimensional_status};
+use super::optimizing::{Checked, Judging, OptimizeStatus, checked, dimensional_problem, dimensional_status};
 use crate::files::design::Design;
 use machine::manufacture::holes_turn;
 use machine::requirements::{KeptSymmetry, StartSymmetry};
@@ -60,9 +60,9 @@ impl FoundPlatform {
         problem: DimensionalProblem,
         report: DimensionalReport,
         symmetry: Option<StartSymmetry>,
-        seed: u64,
+        judging: Judging,
     ) -> Result<Self, VerifyError> {
-        let of = |s: &DimensionalSolution| checked(design, &problem, s, seed);
+        let of = |s: &DimensionalSolution| checked(design, &problem, s, judging);
         let found = report.solution().map(of).transpose()?;
         let nearest = report.nearest.as_deref().map(of).transpose()?;
         Ok(Self { checked: found, nearest, problem, report, symmetry })
@@ -110,15 +110,15 @@ pub(crate) fn find_platform(
     };
     let Some(kept) = keeps_symmetry_of_start(design, &free) else {
         let report = search(&free, progress)?;
-        return Ok(FoundPlatform::judged(design, free, report, None, options.seed)?);
+        return Ok(FoundPlatform::judged(design, free, report, None, options.into())?);
     };
     let report = optimize_without_conflict(&kept, options, progress)?;
-    let symmetric = FoundPlatform::judged(design, kept, report, Some(StartSymmetry::Kept), options.seed)?;
+    let symmetric = FoundPlatform::judged(design, kept, report, Some(StartSymmetry::Kept), options.into())?;
     if symmetric.is_met() || symmetric.report.interrupted {
         return Ok(symmetric);
     }
     let report = search(&free, progress)?;
-    let other = FoundPlatform::judged(design, free, report, Some(StartSymmetry::GivenUp), options.seed)?;
+    let other = FoundPlatform::judged(design, free, report, Some(StartSymmetry::GivenUp), options.into())?;
     if other.rank() >= symmetric.rank() {
         return Ok(other);
     }
@@ -142,9 +142,10 @@ impl FoundFront {
         problem: &DimensionalProblem,
         report: ParetoReport,
         symmetry: Option<StartSymmetry>,
-        seed: u64,
+        judging: Judging,
     ) -> Result<Self, VerifyError> {
-        let of = |point: &optimize::dimensional::ParetoPoint| checked(design, problem, &point.solution, seed);
+        let of =
+            |point: &optimize::dimensional::ParetoPoint| checked(design, problem, &point.solution, judging);
         let members = report.front.iter().map(of).collect::<Result<Vec<Checked>, VerifyError>>()?;
         Ok(Self { report, members, symmetry })
     }
@@ -170,7 +171,7 @@ pub(crate) fn find_front(
     let symmetric = match keeps_symmetry_of_start(design, &free) {
         Some(kept) => {
             let report = pareto(&kept, points, options, progress)?;
-            Some(FoundFront::judged(design, &kept, report, Some(StartSymmetry::Kept), options.seed)?)
+            Some(FoundFront::judged(design, &kept, report, Some(StartSymmetry::Kept), options.into())?)
         }
         None => None,
     };
@@ -179,7 +180,7 @@ pub(crate) fn find_front(
         symmetric => {
             let given_up = symmetric.as_ref().map(|_| StartSymmetry::GivenUp);
             let report = pareto(&free, points, options, progress)?;
-            let other = FoundFront::judged(design, &free, report, given_up, options.seed)?;
+            let other = FoundFront::judged(design, &free, report, given_up, options.into())?;
             Ok(match symmetric {
                 Some(found) if other.members.is_empty() && !found.members.is_empty() => {
                     let interrupted = other.report.interrupted;

@@ -228,7 +228,7 @@ pub(crate) fn on_stated_holes(
         let brief = ShapeSearchOptions { populations: 3, generations: 6, starts: 4, polished: 2, ..*options };
         let found = dimensional::optimize(&problem, &[first.point.to_vec()], &brief, progress)?;
         let Some(s) = found.solution().filter(|_| !found.interrupted) else { break };
-        let again = checked(first.design, &problem, s, options.seed)?.design;
+        let again = checked(first.design, &problem, s, options.into())?.design;
         let Ok(next) = round_once(&again, grids, options, progress)? else { break };
         missed.clone_from(&next.assessed);
         if next.rank() > best.rank() {
@@ -312,7 +312,7 @@ fn fit(
     let Some(s) = report.solution().or(report.nearest.as_deref()) else {
         return Ok((design, assessed, Vec::new()));
     };
-    let found = checked(&asked, &problem, s, options.seed)?.design;
+    let found = checked(&asked, &problem, s, options.into())?.design;
     let mut again = design.clone();
     (again.home, again.hardware) = (found.home, found.hardware);
     let judged = again.assessed(options.seed);

@@ -9,7 +9,7 @@ use crate::app::records::PoseRecord;
 use crate::files::design::Design;
 use machine::requirements::Hardware;
 use platform::manipulator::Body;
-use synthesis::singularity::{Architecture, rounded_singular};
+use synthesis::singularity::SingularityVerdict;
 use synthesis::{Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body};
 
 /// A design with what a page can do about it.
@@ -174,16 +174,12 @@ struct LegRecord {
 
 /// Whether a design is architecturally singular, as `equipod check` says it, and why it is or why that is not decided.
 fn regularity(design: &Design) -> (Option<bool>, Option<String>) {
-    let m = design.manipulator();
-    let found = Architecture::of(m);
-    match found.is_singular() {
-        Some(true) => (Some(true), found.findings.first().map(|f| f.case.sentence())),
-        None => (None, Some("not decided: joints are known between bounds only".into())),
-        Some(false) => match rounded_singular(m, 1) {
-            Ok(None) => (Some(false), None),
-            Ok(Some(near)) => (None, Some(near.words(&design.units))),
-            Err(e) => (None, Some(format!("not decided: {e}"))),
-        },
+    match SingularityVerdict::of(design.manipulator()) {
+        Err(e) => (None, Some(format!("not decided: {e}"))),
+        Ok(found) => {
+            let why = || found.architecture.findings.first().map(|f| f.case.sentence());
+            (found.is_singular(), found.undecided_in_words(&design.units).or_else(why))
+        }
     }
 }
 

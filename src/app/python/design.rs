@@ -22,10 +22,10 @@ use machine::rotary::{InvalidRotary, RotaryPlatform, RotaryTracker};
 use num::Cancel;
 use platform::manipulator::{Body, Manipulator, NoSuchBody, jacobian_of_legs};
 use synthesis::InstantiateError;
-use synthesis::singularity::Architecture;
+use synthesis::singularity::SingularityVerdict;
 
-/// Above this `abs(det A)` is not zero whatever rounding did to it.
-const CLEARLY_REGULAR: f64 = 1e-6;
+/// A design, and `A` and `c` of the leg map to it.
+type WithLegMap<'py> = (NativeDesign, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
 
 /// A platform with names, units, home pose and requirements.
 #[pyclass(frozen, name = "Design", module = "equipod._core")]
@@ -440,14 +440,13 @@ impl NativeDesign {
         document(AssessAnswer::new(&self.design, &found), &[&self.design], Some(seed))
     }
 
-    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets; the design, `A`, `c`, and whether it is singular.
-    #[allow(clippy::type_complexity)]
+    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets; the design, `A` and `c`.
     fn equivalent<'py>(
         &self,
         py: Python<'py>,
         pattern: Option<&str>,
         offsets: Vec<f64>,
-    ) -> PyResult<(Self, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Option<bool>)> {
+    ) -> PyResult<WithLegMap<'py>> {
         self.only_of_legs(py, OF_LEG_MAPS)?;
         let built = || -> Result<_, Error> {
             let class = self.design.equivalents()?;
@@ -461,14 +460,16 @@ impl NativeDesign {
             Ok(class.joint_free(six)?)
         };
         let (design, map) = py.detach(built).map_err(|e| raised(py, e))?;
-        // a determinant that is far from zero needs no exact arithmetic
-        let singular = match map.a.determinant().abs() {
-            det if det > CLEARLY_REGULAR => Some(false),
-            _ => py.detach(|| Architecture::of(design.manipulator()).is_singular()),
-        };
         let a = Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]).into_pyarray(py);
         let c = ndarray::Array1::from_iter(map.c.iter().copied()).into_pyarray(py);
-        Ok((Self::of(design), a, c, singular))
+        Ok((Self::of(design), a, c))
+    }
+
+    /// Whether the design is architecturally singular: the verdict of `check`.
+    fn is_singular(&self, py: Python<'_>) -> PyResult<Option<bool>> {
+        self.only_of_legs(py, OF_LEG_MAPS)?;
+        let found = py.detach(|| SingularityVerdict::of(self.design.manipulator()));
+        Ok(found.map_err(|e| raised(py, e.into()))?.is_singular())
     }
 
     /// The files of a format: names and texts.

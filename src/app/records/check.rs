@@ -71,17 +71,17 @@ pub struct CheckAnswer {
 
 impl From<&CheckReport> for CheckAnswer {
     fn from(c: &CheckReport) -> Self {
-        let (a, f) = (&c.architecture, &c.conditioning);
+        let (a, f) = (&c.verdict.architecture, &c.conditioning);
         let lengths = c.design.lengths.as_ref();
         let dependencies: Vec<_> = a.dependencies.iter().map(|d| DependencyRecord::new(d, lengths)).collect();
         Self {
             name: c.design.name.clone(),
             joints: (&c.design.exactness()).into(),
             architecturally_singular: c.is_singular(),
-            level: c.level(),
+            level: c.verdict.level(),
             singular_as_written: a.is_singular(),
             singular_home: c.singular_home.map(|home| home.evidence.into()),
-            reason: c.reason().map(str::to_owned),
+            reason: c.verdict.reason().map(str::to_owned),
             explanation: explanation(c),
             proof: proof(a),
             proof_explanation: proof_explanation(a),
@@ -161,7 +161,7 @@ fn proof(a: &Architecture) -> ProofWord {
 
 /// Which design it is, in one sentence.
 fn explanation(c: &CheckReport) -> String {
-    if let Some(n) = c.meant() {
+    if let Some(n) = &c.verdict.meant {
         let units = &c.design.units;
         return match n.within_digits {
             Some(half) => format!(
@@ -174,7 +174,7 @@ fn explanation(c: &CheckReport) -> String {
             ),
         };
     }
-    match (c.is_singular(), c.architecture.findings.first()) {
+    match (c.is_singular(), c.verdict.architecture.findings.first()) {
         (None, _) => {
             "joints are known between bounds only, and no pose is proved to hold the platform".into()
         }

@@ -238,7 +238,7 @@ impl Sweep {
                 let found = c.checked()?;
                 vec![
                     SweepCell::truth(found.is_singular()),
-                    SweepCell::text(found.reason()),
+                    SweepCell::text(found.verdict.reason()),
                     SweepCell::Number(found.at_least),
                     found.pose_count.finite().map_or(SweepCell::Empty, SweepCell::count),
                 ]

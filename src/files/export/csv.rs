@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::hal::home_words;
 use super::text::{commented, csv_field, real, reals, scaled};
 use super::{Export, ExportCalibration, ExportedFile, Unsupported, Writer};
+use num::shown::rounded_down;
 use platform::geom::Pose;
 
 /// The format `csv`.
@@ -43,7 +44,11 @@ fn comments(export: &Export, more: &str) -> String {
 }
 
 fn joints(export: &Export) -> String {
-    let mut out = comments(export, "x, y, z of each joint centre in the frame of its body");
+    let places = export.hole_places.map_or_else(String::new, |diameter| {
+        let diameter = rounded_down(diameter * export.unit.millimetres);
+        format!("; each joint has to be within a ball of diameter {diameter} mm about its place")
+    });
+    let mut out = comments(export, &format!("x, y, z of each joint centre in the frame of its body{places}"));
     out.push_str("body,joint,x_mm,y_mm,z_mm\n");
     for body in &export.bodies {
         for joint in &body.joints {

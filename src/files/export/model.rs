@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, Point3, Vector3};
 
 use super::controller::EquivalentOctahedral;
 use super::plate::Plate;
-use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, moving};
+use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, moving, positive};
 use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
 use crate::files::design::{CalibratedNumber, Design};
@@ -234,6 +234,8 @@ pub struct Export {
     pub greatest_force: Option<f64>,
     /// Whether simulators are told to carry the weight of all bodies.
     pub gravity_compensation: bool,
+    /// Diameter of the circle in which the centre of each hole has to lie, design units, where it is known.
+    pub hole_places: Option<f64>,
     /// The sizes and where they come from.
     pub choices: Vec<SizeChoice>,
 }
@@ -304,6 +306,11 @@ impl Export {
             seated(Body::Platform, &platform, &-(home.rotation.inverse() * towards))?;
         let sizes = LegSizes::of(hardware, [base_ball, platform_ball], shortest, &mut choices);
         let moving = moving(design, options.mass, unit.metres, &mut choices)?;
+        if let Some(value) = options.hole_places {
+            positive("the circle of hole places", value)?;
+            let what = "diameter of the circle of each hole's place".to_owned();
+            choices.push(SizeChoice { what, value, unit: "design units", from: "option" });
+        }
         let bodies = [
             ExportBody { body: Body::Base, joints: base, ball_diameter: base_ball, plate: base_plate },
             ExportBody {
@@ -348,6 +355,7 @@ impl Export {
             gravity: design.gravity(),
             greatest_force: hardware.max_leg_force.map(|f| f * newtons),
             gravity_compensation: options.gravity_compensation,
+            hole_places: options.hole_places,
             choices,
         })
     }

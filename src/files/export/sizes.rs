@@ -22,6 +22,8 @@ pub struct ExportOptions {
     pub margin: Option<f64>,
     /// Diameter of the holes in the plates.
     pub hole: Option<f64>,
+    /// Diameter of the circle in which the centre of each hole has to lie.
+    pub hole_places: Option<f64>,
     /// Diameter of the balls of the joints.
     pub ball: Option<f64>,
     /// Mass of the platform with its payload, kilograms.
@@ -62,6 +64,13 @@ impl ExportOptions {
     #[must_use]
     pub fn hole(mut self, hole: f64) -> Self {
         self.hole = Some(hole);
+        self
+    }
+
+    /// Diameter of the circle in which the centre of each hole has to lie, design units: twice the radius that `build tolerances` allows all joints.
+    #[must_use]
+    pub fn hole_places(mut self, diameter: f64) -> Self {
+        self.hole_places = Some(diameter);
         self
     }
 

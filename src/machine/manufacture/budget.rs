@@ -6,6 +6,7 @@ use super::gauge::Gauge;
 use super::joint::{Joint, joints};
 use super::product::largest_product;
 use super::sample::{ErrorBound, ErrorKind, PoseSample, PoseSearch, SampleEntry, Shares, ToleranceError};
+use super::trials::solved_error;
 use crate::requirements::PoseSpace;
 use num::small::symmetric_eigen3;
 use platform::geom::Pose;
@@ -62,6 +63,43 @@ pub struct Budget {
     pub worst_errors: Vec<Vector3<f64>>,
     /// Poses of the sample.
     pub poses: usize,
+}
+
+/// Steps in which a radius is made smaller.
+const SHRINKING: usize = 30;
+
+impl Budget {
+    /// The share of the bounds that the worst errors of all joints use up at their pose, solved and not to first order, when they are of this length, either way. `None` where
+    /// a pose could not be followed.
+    #[must_use]
+    pub fn solved_share(
+        &self,
+        m: &Manipulator,
+        tool: &Point3<f64>,
+        bound: &ErrorBound,
+        radius: f64,
+    ) -> Option<f64> {
+        [1.0, -1.0].into_iter().try_fold(0.0_f64, |most, sign| {
+            let scale = sign * radius / self.radius.reached;
+            let errors: Vec<_> = self.worst_errors.iter().map(|e| e * scale).collect();
+            let (p, w) = solved_error(m, &errors, &self.radius.pose, tool)?;
+            Some(most.max(p.norm() / bound.position).max(w.norm().to_degrees() / bound.rotation_deg))
+        })
+    }
+
+    /// A radius, not above that of the budget, with which the worst errors at their pose keep the bound when they are solved, either way.
+    #[must_use]
+    pub fn solved_radius(&self, m: &Manipulator, tool: &Point3<f64>, bound: &ErrorBound) -> Option<f64> {
+        let mut radius = self.radius.value;
+        for _ in 0..SHRINKING {
+            match self.solved_share(m, tool, bound, radius) {
+                Some(used) if used <= 1.0 => return Some(radius),
+                Some(used) => radius *= (1.0 - 1e-9) / used.min(2.0),
+                None => radius *= 0.5,
+            }
+        }
+        None
+    }
 }
 
 /// The larger use of the two bounds, and which.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
+use std::time::Instant;
 
 use nalgebra::Vector6;
 
@@ -30,11 +31,22 @@ pub struct AssessOptions {
     pub patient_cells: usize,
     /// Threads for the proofs; `None`: as many as the process may run at the same time. No answer depends on it.
     pub threads: Option<NonZeroUsize>,
+    /// When proofs end with what they have; `None`: where they decide, or their cells are used up.
+    pub until: Option<Instant>,
 }
 
 impl Default for AssessOptions {
     fn default() -> Self {
-        Self { points: 5000, steps: 10, searches: 3, seed: 0, close: true, patient_cells: 0, threads: None }
+        Self {
+            points: 5000,
+            steps: 10,
+            searches: 3,
+            seed: 0,
+            close: true,
+            patient_cells: 0,
+            threads: None,
+            until: None,
+        }
     }
 }
 
@@ -85,6 +97,19 @@ impl AssessOptions {
     pub fn patient_cells(mut self, cells: usize) -> Self {
         self.patient_cells = cells;
         self
+    }
+
+    /// When proofs end with what they have, if at a time: what they leave open is not decided.
+    #[must_use]
+    pub fn until(mut self, until: Option<Instant>) -> Self {
+        self.until = until;
+        self
+    }
+
+    /// Whether the time of the proofs is over.
+    #[must_use]
+    pub fn is_late(&self) -> bool {
+        self.until.is_some_and(|end| Instant::now() >= end)
     }
 
     /// Seed of the random points and of the searches.

@@ -1,6 +1,7 @@
 //! Populations, climbs from their best members, and the best ends polished while poses are added until none is worse.
 
 use std::ops::ControlFlow;
+use std::time::Instant;
 
 use super::conflict::{Clash, conflict, demand, elastic, no_objective, unmet};
 use super::leg_lines::HeldPose;
@@ -31,11 +32,13 @@ pub struct ShapeSearchOptions {
     pub starts: usize,
     /// Runs that are polished.
     pub polished: usize,
+    /// When everything ends, the judging of what was found too, if at a time. The search itself ends where `progress` says so.
+    pub until: Option<Instant>,
 }
 
 impl Default for ShapeSearchOptions {
     fn default() -> Self {
-        Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 12, polished: 8 }
+        Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 12, polished: 8, until: None }
     }
 }
 

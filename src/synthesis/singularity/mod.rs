@@ -3,8 +3,8 @@
 //! *Architectural singularity*: platforms that no pose can hold, decided exactly and explained. *Parallel singularities*: single poses at which the legs
 //! do not hold the platform, and boxes of poses without any. *Self-motions*: curves of poses with constant leg lengths.
 //!
-//! A design is *architecturally singular* when its six leg lines are dependent at every pose. [`Architecture::of`] decides it, for every command: about the exact joints of a design with
-//! constructions, and about the binary numbers of plain joints, proved either way. Theory: `docs/theory/architectural-singularity.md`.
+//! A design is *architecturally singular* when its six leg lines are dependent at every pose. [`Architecture::of`] decides it about the joints as written: the exact joints of a design with
+//! constructions, the binary numbers of plain ones. [`SingularityVerdict`] is what every command says of it: plain numbers may be rounded values of a singular design. Theory: `docs/theory/architectural-singularity.md`.
 
 mod case;
 mod conditioning;
@@ -18,6 +18,7 @@ mod nearest;
 mod path;
 mod regular_box;
 mod self_motion;
+mod verdict;
 
 pub use self::case::PlanarMap;
 pub use self::griffis_duffy::{Assembly, CornerLengths, assembly};
@@ -29,7 +30,7 @@ pub use griffis_duffy::GriffisDuffy;
 pub use hold::{PoseHold, SingularEvidence, SingularOnPath, hold_at, singular_along};
 pub use lattice::{GenericRank, RankBound, RationalPose};
 pub use lower_bound::singular_distance_at_least;
-pub use nearest::{NearestSingular, nearest_singular, rounded_singular};
+pub use nearest::{NearestSingular, nearest_singular};
 pub use path::{
     ControlPoint, JoinOptions, Joined, PathPiece, Sign, SignsAlong, Way, between, join, signs_along,
     signs_on_curve, straight,
@@ -39,6 +40,7 @@ pub use self_motion::{
     AtPose, CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionEvidence, MotionOptions, MotionPoint,
     PoseVerdict, SelfMotion, critical_poses, curve_degree, motion_at, self_motion,
 };
+pub use verdict::SingularityVerdict;
 
 use self::dependency::subsets_by_size;
 use self::lattice::{candidate_poses, generic_rank, rank_at_least};

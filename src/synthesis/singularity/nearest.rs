@@ -60,21 +60,18 @@ impl NearestSingular {
     }
 }
 
-/// The singular design that plain doubles may be rounded values of, if any; asked of designs that are regular as written. Designs with exact joints are rounded values of none.
+/// The singular design that plain doubles may be rounded values of, if any; asked of designs that are regular as written.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.
-pub fn rounded_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSingular>, LinalgError> {
-    if m.level() == Level::ExactJoints {
-        return Ok(None);
-    }
+pub(super) fn rounded_singular(m: &Manipulator) -> Result<Option<NearestSingular>, LinalgError> {
     // a design that one pose proves farther from every singular one than rounding reaches needs no search
     let reach = ROUNDING * largest(m.base_joints()).max(largest(m.platform_joints()));
     let reach = 6.0 * half_unit_given(m).map_or(reach, |half| reach.max(half));
     if candidate_poses(m).take(4).any(|pose| proved_at_pose(m, &pose.pose()) > reach) {
         return Ok(None);
     }
-    Ok(nearest_singular(m, seed)?.filter(NearestSingular::may_be_meant))
+    Ok(nearest_singular(m, SEED)?.filter(NearestSingular::may_be_meant))
 }
 
 fn largest(points: &[Point3<f64>]) -> f64 {
@@ -106,6 +103,8 @@ impl Change {
     }
 }
 
+/// Seed of the search for a singular design that may have been meant: the verdict on a design is one, whatever seed a command is given.
+const SEED: u64 = 1;
 /// Share of the largest coordinate that counts as rounding: eight half units in its last place.
 const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
 /// Digits that are a greater share of the size than this are the design, not a rounding of it.

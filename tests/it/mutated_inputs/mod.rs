@@ -1,8 +1,15 @@
 //! Every reader of user input against files that are nearly right: designs, tables of lengths and of poses, answers read back, folders of results, requests of the page.
 //!
-//! Whatever stands in a file, the program ends by itself within a minute with 0, 1, 2 or 3 and one JSON document, which has an error record when the code is 2. Exit 4 would be a panic.
-//! Cases are drawn from a fixed seed and named by their number: `EQUIPOD_FUZZ_SEED` takes another seed, `EQUIPOD_FUZZ_CASES` that many times as many cases. The targets of `tests/fuzz` look
-//! for inputs by coverage in the same readers.
+//! Whatever stands in a file, the program ends by itself with 0, 1, 2 or 3 and one JSON document, which has an error record when the code is 2. Exit 4 would be a panic.
+//! It takes at most 1 GiB of memory and, in a build with optimisation, two seconds of processor time; the system ends it beyond that, which is a fault.
+//!
+//! Cases are drawn from a fixed seed and named by their number: `EQUIPOD_FUZZ_SEED` takes another seed, `EQUIPOD_FUZZ_CASES` that many times as many cases. Ten thousand inputs:
+//!
+//! ```sh
+//! EQUIPOD_FUZZ_CASES=50 cargo test --profile evidence --test it mutated_inputs
+//! ```
+//!
+//! The targets of `tests/fuzz` look for inputs by coverage in the same readers.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -16,7 +23,14 @@ mod mutate;
 use super::evidence::size;
 use mutate::{Draw, mutated};
 
+/// Longer than any processor time allowed, on a machine that has much else to do.
 const SLOWEST: Duration = Duration::from_secs(600);
+/// Processor time of a run, seconds.
+const PROCESSOR_SECONDS: u32 = if cfg!(debug_assertions) { 20 } else { 2 };
+/// Memory of a run, KiB.
+const MEMORY: u32 = 1 << 20;
+/// Runs a program within these limits, where the system has them.
+const WITHIN: &str = r#"ulimit -t "$0" 2>/dev/null; ulimit -v "$1" 2>/dev/null; shift; exec "$@""#;
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
 const CONSTRUCTED: &str = include_str!("../../fixtures/constructed.toml");
 const LENGTHS: &str = "l1,l2,l3,l4,l5,l6\n# home\n17,16,15,17,16,15\n16.5,16.25,15.75,17,16,15.5\n";
@@ -66,10 +80,18 @@ fn judge(out: &Output) -> Result<(), String> {
     Ok(())
 }
 
+/// Runs what is appended with at most so many seconds of processor time and so much memory.
+fn within(limits: [u32; 2]) -> Command {
+    let mut command = Command::new("sh");
+    command.args(["-c", WITHIN]).args(limits.map(|limit| limit.to_string()));
+    command
+}
+
 /// Runs the program with `--json` and judges how it ends.
 fn program(args: &[&str]) -> Result<(), String> {
-    let child = Command::new(env!("CARGO_BIN_EXE_equipod"))
+    let child = within([PROCESSOR_SECONDS, MEMORY])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .arg(env!("CARGO_BIN_EXE_equipod"))
         .args(args)
         .arg("--json")
         .stdin(Stdio::null())
@@ -318,6 +340,16 @@ fn planted_faults_are_found() {
         .map(|(name, _)| *name)
         .collect();
     assert_eq!(missed, Vec::<&str>::new());
+}
+
+/// What takes longer or more memory does not end well.
+#[cfg(target_os = "linux")]
+#[test]
+fn runs_beyond_their_limits_are_ended() {
+    let endless = within([1, MEMORY]).args(["sh", "-c", "while :; do :; done"]).output().unwrap();
+    assert_eq!(endless.status.code(), None);
+    let small = within([1, 4096]).args([env!("CARGO_BIN_EXE_equipod"), "--version"]).output().unwrap();
+    assert!(!small.status.success(), "{small:?}");
 }
 
 /// What the judge of a run has to refuse.

@@ -37,7 +37,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 /// The verdict with its level; a singular design that may have been meant is named here, with its distance.
 fn headline(found: &CheckReport) -> String {
     let name = &found.design.name;
-    match (found.meant(), found.is_singular()) {
+    match (&found.verdict.meant, found.is_singular()) {
         (Some(n), _) => format!("{name}: {}", n.words(&found.design.units)),
         (None, Some(true)) => format!("{name}: architecturally singular"),
         (None, Some(false)) => format!("{name}: regular"),

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 
+use super::build::tolerances;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -43,6 +44,12 @@ pub(crate) struct Args {
     /// Diameter of the balls, design units
     #[arg(long, value_name = "LENGTH")]
     ball_diameter: Option<f64>,
+    /// Greatest allowed error of the tool point and of the orientation: hole plans and tables then say how far the joints may be off, as `build tolerances` does
+    #[arg(long, value_name = "LENGTH,DEG")]
+    bound: Option<String>,
+    /// Tool point whose position counts, platform frame
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
+    tool: String,
     /// Mass of the platform with its payload in the simulation, kilograms
     #[arg(long, value_name = "KG")]
     mass: Option<f64>,
@@ -56,7 +63,7 @@ fn names() -> Vec<&'static str> {
     ExportFormat::ALL.map(ExportFormat::name).into_iter().chain(["all"]).collect()
 }
 
-fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
+fn model(args: &Args, design: &Design, hole_places: Option<f64>) -> Result<Export, Failure> {
     let unit = args.unit.as_deref().map(LengthUnit::of).transpose();
     let unit = unit.map_err(|e| Failure::refused("export::unknown_unit", format!("--unit: {e}")))?;
     let options = ExportOptions {
@@ -64,6 +71,7 @@ fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
         thickness: args.thickness,
         margin: args.margin,
         hole: args.hole_diameter,
+        hole_places,
         ball: args.ball_diameter,
         mass: args.mass,
         gravity_compensation: args.gravity_compensation,
@@ -103,12 +111,25 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
     Ok(files::write_into(folder, &file.name, &file.text)?.display().to_string())
 }
 
+/// The diameter in which the centre of each hole has to lie, where an accuracy is asked for: the joints are where their holes are.
+fn hole_places(args: &Args, design: &Design, context: &Context) -> Result<Option<f64>, Failure> {
+    let Some(bound) = &args.bound else {
+        context.no_effect("tool", "it is the point whose accuracy --bound asks for")?;
+        return Ok(None);
+    };
+    if !wanted(args).iter().any(|f| ["dxf", "csv"].contains(&f.name())) {
+        context.no_effect("bound", "only hole plans, dxf, and tables, csv, say how far joints may be off")?;
+    }
+    let radius = tolerances::joint_radius(design, (bound, &args.tool), context.seed())?;
+    Ok(Some(2.0 * radius))
+}
+
 /// Writes every format that can hold the design; exit 1 when one cannot.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let coupled = Context::coupled_of(&design)?.is_some();
-    if coupled && !wanted(args).iter().any(|f| f.takes_coupled()) {
-        // refused with the place in the file: no format asked for holds such joints
+    if args.bound.is_some() || (coupled && !wanted(args).iter().any(|f| f.takes_coupled())) {
+        // cranks and joints that are not ideal are refused with the place in the file: no format asked for holds them, or their tolerances are not known
         context.load(&args.design)?;
     }
     let simulated = args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name());
@@ -117,7 +138,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             context.no_effect(option, "only the simulator's format, mjcf, holds masses")?;
         }
     }
-    let mut export = model(args, &design)?;
+    let mut export = model(args, &design, hole_places(args, &design, context)?)?;
     let controller = wanted(args).iter().any(|f| f.name() == ExportFormat::C.name());
     if controller && export.cranks.is_none() && !coupled {
         export = export.with_octahedral(octahedral_of_controllers(&design));

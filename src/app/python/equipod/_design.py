@@ -7,6 +7,7 @@ import os
 import pathlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -175,14 +176,16 @@ class Equivalent:
     design : Design
     A : ndarray, float64, shape (6, 6)
     c : ndarray, float64, shape (6,)
-    singular : bool or None
-        True where the platform is architecturally singular, so that it is equivalent to none: ``det A = 0``, proved about its exact joints. None where it is not decided.
     """
 
     design: Design
     A: Floats
     c: Floats
-    singular: bool | None
+
+    @cached_property
+    def singular(self) -> bool | None:
+        """Whether the platform is architecturally singular, so that it is equivalent to none (``det A = 0``): the verdict of :meth:`Design.check`, None where it is not decided."""
+        return self.design._native.is_singular()
 
 
 @dataclass(frozen=True)
@@ -659,8 +662,8 @@ class Design:
         -------
         Equivalent
         """
-        design, a, c, singular = self._native.equivalent(pattern, [float(x) for x in offsets])
-        return Equivalent(Design(design), a, c, singular)
+        design, a, c = self._native.equivalent(pattern, [float(x) for x in offsets])
+        return Equivalent(Design(design), a, c)
 
     def optimize(
         self,
@@ -683,7 +686,7 @@ class Design:
         drives : path, optional
             A table of drives, as for :meth:`drives`: the platform is searched with each drive that could win, and the design has the chosen one, the cheapest with which the requirements are met where every drive has a price. ``answer.drive_search`` says what came of each.
         time_limit : float, optional
-            Seconds after which the search ends with the best so far.
+            Seconds after which the search has ended, with the best so far, and that is judged.
         progress : callable or bool, optional
             Is given lines of text; True writes them on one line.
 

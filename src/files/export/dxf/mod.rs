@@ -1,10 +1,11 @@
 //! Hole plans of the plates as DXF R12 in millimetres.
 
-use num::shown::fixed;
 mod dimension;
 mod page;
 
 use nalgebra::{Point2, Vector2};
+
+use num::shown::{fixed, rounded_down};
 
 use self::dimension::dimensions;
 use self::page::Page;
@@ -141,7 +142,15 @@ fn title_block(
         format!("{}: {} plate", one_line(&export.name), body.body),
         format!("material {material}, thickness {}", fixed(plate.thickness * mm, 4)),
         "mm, scale 1:1; ISO 2768-m for sizes, not for the places of holes".to_string(),
-        "places of holes: within what `equipod build tolerances` says".to_string(),
+        match export.hole_places {
+            Some(diameter) => {
+                format!(
+                    "centres of holes: within circles of diameter {} about their places",
+                    rounded_down(diameter * mm)
+                )
+            }
+            None => "places of holes: no tolerance asked for (equipod export --bound)".to_string(),
+        },
         datum.to_string(),
         export.program.clone(),
     ];

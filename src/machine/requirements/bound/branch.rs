@@ -169,7 +169,8 @@ impl CellJudge<'_> {
             };
             let decided = (upper < -slack && state.cells >= enough) || settles(below);
             // a cell that cannot be halved keeps its bound
-            let Some(mut jobs) = halves_of(&first).filter(|_| !decided && state.cells < most) else { break };
+            let over = state.cells >= most || self.options.is_late();
+            let Some(mut jobs) = halves_of(&first).filter(|_| !decided && !over) else { break };
             let mut places = vec![(first.function, first.chart)];
             for _ in 1..BATCH {
                 let next = state.heap.peek().filter(|next| !settles(next.below - reserve));

@@ -123,6 +123,7 @@ pub fn prove_telling(
         axes,
         charts: charts.clone(),
         threads,
+        options: o,
         close: false,
     };
     let judge = CellJudge { charts, close: o.close, ..patient };
@@ -139,6 +140,9 @@ pub fn prove_telling(
             let kind = bound.found.term.kind;
             if bound.is_decided() || kind.is_fixed() {
                 continue;
+            }
+            if o.is_late() {
+                break;
             }
             tell(AssessStage::Bounds { kind, number, of });
             let more = patient.proved(bound.found, o.patient_cells, o.seed);
@@ -201,6 +205,7 @@ struct CellJudge<'a> {
     charts: Vec<Chart>,
     /// Threads among which the cells of a batch are shared; no answer depends on it.
     threads: usize,
+    options: &'a AssessOptions,
     /// Whether bounds go on when they have decided.
     close: bool,
 }

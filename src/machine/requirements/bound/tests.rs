@@ -160,6 +160,23 @@ fn no_sampled_pose_is_below_a_proved_margin_and_bounds_come_close() {
     assert!(close > all * 3 / 4, "{close} of {all}");
 }
 
+/// A proof whose time is over has looked at hardly any cell, and says no more than the whole one.
+#[test]
+fn proofs_end_when_their_time_is_over() {
+    let mut rng = Rng::new(31);
+    let (m, home) = random_platform(&mut rng);
+    let space = random_space(home, &mut rng, Region::Box);
+    let required = everything();
+    let proved =
+        |options: AssessOptions| prove(&m, &required, &space, &options.patient_cells(400), 150).bounds;
+    let (whole, ended) = (proved(quick()), proved(quick().until(Some(std::time::Instant::now()))));
+    let cells = |bounds: &[MarginBound]| bounds.iter().map(|b| b.cells).sum::<usize>();
+    assert!(cells(&ended) < cells(&whole) / 4, "{} of {}", cells(&ended), cells(&whole));
+    for (a, b) in whole.iter().zip(&ended) {
+        assert!(b.below <= a.below && (!b.is_decided() || a.verdict == b.verdict), "{a:?} {b:?}");
+    }
+}
+
 /// Limits a little short of the worst value are found to be violated without a look at any pose but those of cells, or at least never called met; limits a little beyond it are
 /// never called violated, and lengths are proved to be met by these few cells: in boxes and ellipsoids.
 #[test]

@@ -63,7 +63,7 @@ pub(crate) struct Args {
     /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could win, as `optimize --drives` does, in place of that of the design (`drives` in `[hardware]`). Of octahedral designs
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
-    /// End the search after so many seconds, as Ctrl-C does: the folder has the best platform until then. Of octahedral designs
+    /// End the search after so many seconds, the judging of what it found included: the folder has the best platform until then. Of octahedral designs
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
     time_limit: Option<TimeLimit>,
 }

@@ -65,7 +65,7 @@ pub(super) fn search(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<S
             design,
             asked.drives,
             extension,
-            (&options(seed), asked.explains),
+            (&options(asked), asked.explains),
             &mut |_, p| {
                 part(progress, &p);
                 interrupt.flow()
@@ -73,8 +73,12 @@ pub(super) fn search(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<S
         )?;
         return Ok(Search::Dimensions(Box::new(done)));
     }
-    let done =
-        optimize::search(design, asked.octahedral.clone(), &Choices::plain(extension), seed, &mut |p| {
+    let done = optimize::search(
+        design,
+        asked.octahedral.clone(),
+        &Choices::plain(extension, interrupt.until()),
+        seed,
+        &mut |p| {
             match p {
                 offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
                 offsets::OffsetProgress::Polishing { done, total, .. } => {
@@ -85,12 +89,18 @@ pub(super) fn search(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<S
                 }
             }
             interrupt.flow()
-        })?;
+        },
+    )?;
     Ok(Search::Offsets(Box::new(done)))
 }
 
-fn options(seed: u64) -> ShapeSearchOptions {
-    ShapeSearchOptions { seed, threads: optimize::workers(None), ..ShapeSearchOptions::default() }
+fn options(asked: &Asked<'_>) -> ShapeSearchOptions {
+    ShapeSearchOptions {
+        seed: asked.context.seed(),
+        threads: optimize::workers(None),
+        until: asked.interrupt.until(),
+        ..ShapeSearchOptions::default()
+    }
 }
 
 fn part(progress: &mut ProgressLine, p: &Progress) {
@@ -113,7 +123,7 @@ impl Search {
     ) -> Result<(), Failure> {
         let Self::Dimensions(done) = self else { return Ok(()) };
         let Asked { design, extension, interrupt, .. } = *asked;
-        let options = options(asked.context.seed());
+        let options = options(asked);
         let mut keep = |name: &str, design: &Design| Ok(Some(folder.keep(name, design.to_toml())));
         dimensional::open_freedoms(done, design, extension, options, &mut keep, &mut |_, p| {
             part(progress, &p);
@@ -216,7 +226,7 @@ impl Search {
                 .map(|s| FirstSearch { design: done.asked(design), problem: &done.problem, point: &s.point }),
             Self::Offsets(_) => None,
         };
-        let options = options(asked.context.seed());
+        let options = options(asked);
         let found = on_stated_holes(wanted, &grids, first, &options, &mut |p| {
             part(progress, &p);
             interrupt.flow()

@@ -137,11 +137,12 @@ pub(super) fn refusal(why: &InvalidProblem) -> Failure {
     }
 }
 
-/// Threads and seed of the command line.
-pub(super) fn options(args: &super::Args, context: &Context) -> ShapeSearchOptions {
+/// Threads, seed and limit of time of the command line.
+pub(super) fn options(args: &super::Args, context: &Context, interrupt: &Interrupt) -> ShapeSearchOptions {
     ShapeSearchOptions {
         seed: context.seed(),
         threads: super::workers(args.threads),
+        until: interrupt.until(),
         ..ShapeSearchOptions::default()
     }
 }
@@ -201,11 +202,13 @@ pub(in crate::app::cli::commands) fn open_freedoms(
 fn write_candidates(
     done: &mut Done,
     design: &Design,
-    seed: u64,
+    options: &ShapeSearchOptions,
     folder: &Path,
 ) -> Result<Vec<String>, Failure> {
     let design = done.asked(design);
-    let of = |s: &DimensionalSolution| checked(design, &done.problem, s, seed).map_err(|e| failure_of(&e));
+    let of = |s: &DimensionalSolution| {
+        checked(design, &done.problem, s, options.into()).map_err(|e| failure_of(&e))
+    };
     let mut others = done.report.others.iter().map(of).collect::<Result<Vec<Checked>, Failure>>()?;
     files::make_folder(folder)?;
     let path = |k: usize| folder.join(format!("candidate-{k}.toml"));
@@ -252,7 +255,7 @@ pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Res
     let (mut progress, interrupt) =
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
     let table = drives::asked(args.drives.as_deref(), &args.design, design, context)?;
-    let options = options(args, context);
+    let options = options(args, context, &interrupt);
     let mut done = search(design, table.as_ref(), args.extension, (&options, true), &mut |drive, p| {
         let with = drive.map_or_else(String::new, |d| format!("{}: ", d.name));
         progress.note(&format!("{with}{p}"));
@@ -271,7 +274,7 @@ pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Res
     })?;
     if let Some(folder) = &args.candidates {
         progress.note("other local optima are judged");
-        done.candidate_paths = write_candidates(&mut done, design, context.seed(), folder)?;
+        done.candidate_paths = write_candidates(&mut done, design, &options, folder)?;
     }
     progress.end();
     Ok(done)

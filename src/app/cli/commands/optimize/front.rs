@@ -31,9 +31,9 @@ pub(super) fn run(
     args: &super::Args,
     context: &Context,
 ) -> Result<Answer, Failure> {
-    let options = options(args, context);
     let (mut progress, interrupt) =
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
+    let options = options(args, context, &interrupt);
     let found = find_front(design, points, args.extension, &options, &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()

@@ -9,6 +9,7 @@ pub(super) use self::render::drives_text;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::time::Instant;
 
 use crate::app::cli::commands::verify::failure_of;
 use crate::app::cli::context::Context;
@@ -18,8 +19,8 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::app::entrance::optimizing::{
-    Checked, EXTENSION, asks_for_more, checked_offsets, dimensional_problem, hopeless_home, offset_problem,
-    offset_status, with_sizes_to_choose,
+    Checked, EXTENSION, Judging, asks_for_more, checked_offsets, dimensional_problem, hopeless_home,
+    offset_problem, offset_status, with_sizes_to_choose,
 };
 use crate::app::records::{OptimizeAnswer, OptimizeWord};
 use crate::files::design::{Combination, Design};
@@ -57,7 +58,7 @@ pub(crate) struct Args {
     /// Worker threads, one for each processor when absent; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// End the search after so many seconds, as Ctrl-C does: the answer is the best until then, and its status is `interrupted`
+    /// End after so many seconds: the search is interrupted as by Ctrl-C, the last quarter of the time, at most 10 s, is for the judging of the best until then, and the status is `interrupted`
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
     time_limit: Option<TimeLimit>,
 }
@@ -69,12 +70,14 @@ pub(super) struct Choices {
     pub(super) survey: bool,
     pub(super) gap: f64,
     pub(super) threads: Option<u16>,
+    /// When the judging of what was found ends.
+    pub(super) until: Option<Instant>,
 }
 
 impl Choices {
-    /// Defaults but for the extension.
-    pub(super) fn plain(extension: f64) -> Self {
-        Self { extension, survey: false, gap: OffsetSearchOptions::default().gap, threads: None }
+    /// Defaults but for the extension and a limit of time.
+    pub(super) fn plain(extension: f64, until: Option<Instant>) -> Self {
+        Self { extension, survey: false, gap: OffsetSearchOptions::default().gap, threads: None, until }
     }
 }
 
@@ -136,10 +139,15 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             format!("--gap is {}, not a positive number", args.gap),
         ));
     }
-    let choices =
-        Choices { extension: args.extension, survey: args.survey, gap: args.gap, threads: args.threads };
     let (mut progress, interrupt) =
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
+    let choices = Choices {
+        extension: args.extension,
+        survey: args.survey,
+        gap: args.gap,
+        threads: args.threads,
+        until: interrupt.until(),
+    };
     let done = search(&design, octahedral, &choices, context.seed(), &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()
@@ -260,7 +268,8 @@ pub(super) fn search(
     };
     let report = optimize(&problem, &options, progress)
         .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
-    let of = |s: &OffsetSolution| checked_offsets(design, &problem, s, seed).map_err(|e| failure_of(&e));
+    let judging = Judging { seed, until: choices.until };
+    let of = |s: &OffsetSolution| checked_offsets(design, &problem, s, judging).map_err(|e| failure_of(&e));
     let checked = report.solution().map(of).transpose()?;
     Ok(Done { problem, report, checked })
 }

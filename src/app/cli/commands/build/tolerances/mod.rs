@@ -97,9 +97,6 @@ impl Solved {
     }
 }
 
-/// Steps in which a radius is made smaller.
-const SHRINKING: usize = 30;
-
 fn solved(
     m: &Manipulator,
     budget: &Budget,
@@ -107,30 +104,10 @@ fn solved(
     tool: &Point3<f64>,
     bound: &ErrorBound,
 ) -> Solved {
-    // the share of the bounds that the worst errors of this length use up, either way
-    let share = |radius: f64| -> Option<f64> {
-        [1.0, -1.0].into_iter().try_fold(0.0_f64, |most, sign| {
-            let scale = sign * radius / budget.radius.reached;
-            let errors: Vec<_> = budget.worst_errors.iter().map(|e| e * scale).collect();
-            let (p, w) = solved_error(m, &errors, &budget.radius.pose, tool)?;
-            Some(most.max(p.norm() / bound.position).max(w.norm().to_degrees() / bound.rotation_deg))
-        })
-    };
-    let (mut radius, mut kept) = (budget.radius.value, None);
-    for _ in 0..SHRINKING {
-        match share(radius) {
-            Some(used) if used <= 1.0 => {
-                kept = Some(radius);
-                break;
-            }
-            Some(used) => radius *= (1.0 - 1e-9) / used.min(2.0),
-            None => radius *= 0.5,
-        }
-    }
     let random = (trials.formula.position.max / bound.position)
         .max(trials.formula.rotation_deg.max / bound.rotation_deg);
-    let worst = share(budget.radius.value).filter(|_| trials.lost == 0);
-    Solved { share: worst.map(|share| share.max(random)), radius: kept }
+    let worst = budget.solved_share(m, tool, bound, budget.radius.value).filter(|_| trials.lost == 0);
+    Solved { share: worst.map(|share| share.max(random)), radius: budget.solved_radius(m, tool, bound) }
 }
 
 /// Numbers separated by commas.
@@ -150,10 +127,38 @@ fn failure_of(error: &ToleranceError) -> Failure {
     }
 }
 
+/// `--bound` and `--tool`.
+fn asked(bound: &str, tool: &str) -> Result<(ErrorBound, Point3<f64>), Failure> {
+    let [position, rotation_deg] = numbers(bound, "--bound", "tolerances::bad_bound")?;
+    let tool = Point3::from(numbers::<3>(tool, "--tool", "tolerances::bad_tool")?);
+    Ok((ErrorBound { position, rotation_deg }, tool))
+}
+
+/// How far every joint may be off in any direction, design units: what this command says of a bound and a tool point.
+///
+/// # Errors
+/// Exit 1: singular poses in the workspace, or no radius that keeps the bound when it is solved. Exit 2: numbers that cannot be read.
+pub(in crate::app::cli::commands) fn joint_radius(
+    design: &Design,
+    (bound, tool): (&str, &str),
+    seed: u64,
+) -> Result<f64, Failure> {
+    let (bound, tool) = asked(bound, tool)?;
+    let m = design.manipulator();
+    let search = PoseSearch { seed, ..PoseSearch::default() };
+    let budget = budget(m, &poses::space(design).0, tool, bound, &search).map_err(|e| failure_of(&e))?;
+    budget.solved_radius(m, &tool, &bound).ok_or_else(|| {
+        Failure::new(
+            Exit::No,
+            "tolerances::lost",
+            "no error of the joints was found that keeps the bound when it is solved",
+        )
+        .with_help("give a smaller [workspace] or a wider bound")
+    })
+}
+
 fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
-    let [position, rotation_deg] = numbers(&args.bound, "--bound", "tolerances::bad_bound")?;
-    let tool = Point3::from(numbers::<3>(&args.tool, "--tool", "tolerances::bad_tool")?);
-    let bound = ErrorBound { position, rotation_deg };
+    let (bound, tool) = asked(&args.bound, &args.tool)?;
     let (space, workspace_given) = poses::space(design);
     let search = PoseSearch {
         points: args.points as usize,
