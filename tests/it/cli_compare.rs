@@ -60,7 +60,7 @@ fn motions_and_units_are_taken_as_they_are_asked_for() {
     assert!(doc["designs"][0]["motion_force"].is_null(), "no payload, no force");
 }
 
-/// Three designs at home: legs without masses, with masses, and without a payload. The answer of `assess` about the second agrees with `motion` at rest.
+/// Three designs at home: legs without masses, with masses, and without a payload. Forces at rest agree with motion.
 #[test]
 fn legs_weigh_the_same_in_compare_assess_and_motion() {
     let folder = tempfile::tempdir().unwrap();

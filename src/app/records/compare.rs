@@ -92,7 +92,8 @@ pub struct FiguresRecord {
     pub joint_tolerance: Option<Number>,
     /// Why there is no such tolerance; null: there is one, or none was asked for.
     pub no_tolerance: Option<String>,
-    /// What the file leaves open about masses and was taken instead, a sentence each; empty where no figure is a force, a torque or a natural frequency.
+    /// Assumptions about masses that the file leaves open, a sentence each; empty where no figure is a force,
+    /// a torque or a natural frequency.
     pub assumptions: Vec<String>,
 }
 

@@ -125,7 +125,8 @@ pub struct AssessAnswer {
     pub cells: usize,
     /// The lightest drive of the table that the design names with which its requirements are met; null: it names none, or the answer is about something else.
     pub lightest_drive: Option<LightestDriveRecord>,
-    /// What the file leaves open about masses and was taken instead, a sentence each; absent where no force, torque or natural frequency is judged, and where the answer around this one has the list.
+    /// Assumptions about masses that the file leaves open, a sentence each; absent where no force, torque or
+    /// natural frequency is judged, and where the answer around this one has the list.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumptions: Vec<String>,
 }

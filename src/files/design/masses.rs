@@ -96,7 +96,8 @@ impl Design {
         Point3::from(joints.iter().map(|b| b.coords).sum::<Vector3<f64>>() / joints.len() as f64)
     }
 
-    /// Lists what motions, natural frequencies and models of simulators assume of masses and their units where the file is silent, a sentence each.
+    /// Lists the assumptions of motions, natural frequencies and models of simulators about masses and their units
+    /// that the file leaves open, a sentence each.
     #[must_use]
     pub fn mass_assumptions(&self) -> Vec<String> {
         if self.moving_payload().is_none() {
@@ -112,8 +113,8 @@ impl Design {
         out
     }
 
-    /// Lists what forces at rest assume of weights and their units where the file is silent, a sentence each: the part of
-    /// [`mass_assumptions`](Self::mass_assumptions) that needs no motion.
+    /// Lists the assumptions of forces at rest about weights and their units that the file leaves open, a sentence
+    /// each: [`mass_assumptions`](Self::mass_assumptions) has those of motions besides.
     #[must_use]
     pub fn weight_assumptions(&self) -> Vec<String> {
         let mut out = Vec::new();
@@ -126,7 +127,8 @@ impl Design {
         } else if self.hardware.leg_masses.is_none() {
             out.push("The legs have no masses in [hardware]: they are taken as massless.".into());
         } else if self.hardware.is_coupled() && weight.as_ref().is_some_and(|load| load.legs.is_some()) {
-            out.push("The weight of the legs is taken between joint centres: `offset` and `screw_lead` are left out of it.".into());
+            let assumed = "The weight of the legs is taken between joint centres: it leaves out `offset` and `screw_lead`.";
+            out.push(assumed.to_owned());
         }
         if weight.is_none() {
             return out;
@@ -140,7 +142,7 @@ impl Design {
         out
     }
 
-    /// Lists what forces at rest and in motion assume, each sentence once.
+    /// Lists the assumptions behind forces at rest and in motion, each sentence once.
     pub(crate) fn assumptions_of(&self, forces: JudgedForces) -> Vec<String> {
         let mut out = if forces.in_motion { self.mass_assumptions() } else { Vec::new() };
         let at_rest = if forces.at_rest { self.weight_assumptions() } else { Vec::new() };
@@ -200,7 +202,8 @@ impl Design {
         self.weight().into_iter().chain(self.loads.iter().cloned()).collect()
     }
 
-    /// The weight of [what moves with the platform](Self::moving_payload) and of the legs as one load, named after its first part: `payload`, `platform plate` or `legs`.
+    /// The weight of [what moves with the platform](Self::moving_payload) and of the legs as one load, named after its
+    /// first part: `payload`, `platform plate` or `legs`.
     fn weight(&self) -> Option<Load> {
         let units = (self.mass_unit(), self.force_unit());
         let legs = self.hardware.leg_masses.as_ref();

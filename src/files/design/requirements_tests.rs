@@ -43,8 +43,9 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     let required = design.requirements();
     assert_eq!(
         (required.loads.len(), required.keep_outs.len(), required.platform_speed.unwrap().linear),
-        (2, 3, 20.0)
+        (3, 3, 20.0)
     );
+    assert_eq!(required.loads[0].name, "legs", "the file has masses of legs and no payload");
     let wanted = required.platform_stiffness.unwrap();
     assert_eq!((wanted.linear, wanted.angular, wanted.natural_frequency), (Some(2e4), Some(3e5), None));
     assert_eq!(design.unit_of(Quantity::AngularStiffness), "force mm/rad");
@@ -842,7 +843,8 @@ fn a_table_of_drives_is_named() {
     assert_eq!(parse(&wrong, Format::Toml).unwrap_err()[0].code, Code::WrongType);
 }
 
-/// Designs whose legs weigh something, with a payload, with a plate alone and with neither: what `assess` holds is what `motion` drives, in all units.
+/// Designs whose legs weigh something, with a payload, with a plate alone and with neither: `assess` and `motion` have
+/// the same forces at rest, in all units.
 #[test]
 fn the_weight_of_all_that_moves_is_one_load() {
     let design = |text: &str| parse(text, Format::Toml).unwrap().0;

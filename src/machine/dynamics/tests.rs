@@ -256,7 +256,8 @@ fn at_rest_the_drives_hold_the_weight_as_the_requirements_say() {
     assert!((0..6).all(|i| (doubled[i] - 2.0 * found[i]).abs() < 1e-10));
 }
 
-/// The statics of requirements and the inverse dynamics are two derivations: at rest they give the same forces, for legs that weigh more or less than the payload.
+/// The statics of requirements and the inverse dynamics are two derivations: at rest they give the same forces, for
+/// legs that weigh more or less than the payload.
 #[test]
 fn loads_at_rest_are_held_by_the_forces_of_the_inverse_dynamics() {
     let mut rng = Rng::new(31);

@@ -27,14 +27,14 @@ pub struct Load {
 
 /// The weight of six equal legs at rest, as forces on the platform joints.
 ///
-/// A leg has a cylinder of mass `m_1` with its centre `s_1` from the base joint, and a rod of mass `m_2` with its centre `s_2` from the platform joint.
-/// At length `q` and direction `u`, under gravity `g`, moments about the base joint and forces along the rod need
+/// A leg has a cylinder of mass `m_1`, its centre `s_1` from the base joint, and a rod of mass `m_2`, its centre `s_2`
+/// from the platform joint. With the length `q`, the direction `u` and gravity `g`, the force on the platform joint is
 ///
 /// ```text
 /// w = m_2 g + (m_1 s_1 - m_2 s_2) (g - u (u . g)) / q
 /// ```
 ///
-/// at the platform joint: the drive forces that hold the six `w` are those that hold the legs (statics; `docs/theory/requirements.md`).
+/// The drive forces that hold the six `w` hold the legs (statics; `docs/theory/requirements.md`).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegsWeight {
     /// `m_2 g`, force units, base frame.
@@ -76,7 +76,7 @@ impl LegsWeight {
 }
 
 impl Load {
-    /// Force and torque about the platform origin, both in the base frame; the weight of the legs is that of the legs of a manipulator.
+    /// Force and torque about the platform origin, both in the base frame; a manipulator has the legs that weigh.
     #[must_use]
     pub fn wrench(&self, m: &Manipulator, pose: &Pose) -> Vector6<f64> {
         let turn = |v: &Vector3<f64>| match self.fixed_to {

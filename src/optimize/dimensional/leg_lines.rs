@@ -134,7 +134,8 @@ fn pull_weight<P: Gradient>(
 }
 
 impl Forces<'_> {
-    /// Force of a leg and its gradient: `dF_i = - sum_j (row i of the inverse) . (F_j d(column j) + d(weight of leg j))`.
+    /// Force of a leg and its gradient: `dF_i = - sum_j y . (F_j d(column j) + d(weight of leg j))`, `y` row `i` of the
+    /// inverse.
     pub(super) fn of<P: Gradient>(&self, l: &LegLines, leg: usize, length: f64) -> (f64, P) {
         let y: Vector6<f64> = self.inverse.row(leg).transpose();
         let mut pull = P::none();

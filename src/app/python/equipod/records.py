@@ -258,8 +258,8 @@ class AssessAnswer(Record):
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
-    #: What the file leaves open about masses and was taken instead, a sentence each; absent where no
-    #: force, torque or natural frequency is judged, and where the answer around this one has the list.
+    #: Assumptions about masses that the file leaves open, a sentence each; absent where no force, torque
+    #: or natural frequency is judged, and where the answer around this one has the list.
     assumptions: Union[tuple[str, ...], None]
 
 
@@ -1656,8 +1656,8 @@ class FiguresRecord(Record):
     joint_tolerance: Union[float, None]
     #: Why there is no such tolerance; null: there is one, or none was asked for.
     no_tolerance: Union[str, None]
-    #: What the file leaves open about masses and was taken instead, a sentence each; empty where no figure
-    #: is a force, a torque or a natural frequency.
+    #: Assumptions about masses that the file leaves open, a sentence each; empty where no figure is a
+    #: force, a torque or a natural frequency.
     assumptions: tuple[str, ...]
     #: What the cranks do, where the legs are rods on cranks.
     cranks: Union[CrankFiguresRecord, None]

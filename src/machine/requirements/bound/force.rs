@@ -128,7 +128,7 @@ fn sum(a: &JetVector, b: &JetVector) -> JetVector {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
-/// [`LegsWeight::at_joint`] over a cell: `m_2 g + k (g - u (u . g)) / q` with `k = m_1 s_1 - m_2 s_2`; `None` where the leg may have no length.
+/// [`LegsWeight::at_joint`] over a cell; `None` where the leg may have no length.
 fn weight_at_joint(weight: &LegsWeight, frame: &CellFrame<'_>, leg: &LegOverCell) -> Option<JetVector> {
     let fixed = |v: &nalgebra::Vector3<f64>| frame.fixed(&std::array::from_fn(|k| Interval::from(v[k])));
     let (rod, moment) = (fixed(&weight.rod), fixed(&weight.moment));

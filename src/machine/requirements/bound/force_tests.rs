@@ -12,7 +12,8 @@ use platform::manipulator::{Body, Manipulator};
 
 /// What is left of a greatest force, with unit vectors along the legs, by an LU decomposition.
 ///
-/// The weight of a leg is taken as `(m_2 + k / q) g` at its platform joint with `k = m_1 s_1 - m_2 s_2`, and its drive pushes with `(k / q) g . u` more.
+/// The weight of a leg is `(m_2 + k / q) g` at its platform joint, `k = m_1 s_1 - m_2 s_2`, and its drive pushes with
+/// `(k / q) g . u` more: another form of the same statics.
 fn room(m: &Manipulator, pose: &Pose, load: &Load, greatest: f64) -> f64 {
     let mut a = Matrix6::zeros();
     let (mut weight, mut lengthwise) = (Vector6::zeros(), Vector6::zeros());
