@@ -33,7 +33,7 @@ pub(crate) fn without_assumptions(name: &str, found: &AssessAnswer) -> String {
 
 /// What was assumed of masses, a line for each sentence.
 pub(crate) fn assumptions(found: &AssessAnswer) -> String {
-    found.assumptions.iter().map(|line| format!("{line}\n")).collect()
+    found.assumptions.iter().flat_map(|line| [line.as_str(), "\n"]).collect()
 }
 
 /// The answer in a sentence that names what is missed.

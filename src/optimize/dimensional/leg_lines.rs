@@ -79,7 +79,7 @@ impl LegLines {
 /// Leg forces that hold a load, and what their derivatives need.
 #[derive(Debug, Clone)]
 pub(super) struct Forces<'a> {
-    pub forces: Vector6<f64>,
+    pub values: Vector6<f64>,
     inverse: &'a Matrix6<f64>,
     weight: Option<&'a LegsWeight>,
 }
@@ -110,7 +110,7 @@ pub(super) fn leg_forces<'a>(
     }
     let forces = -(inverse * wrench);
     let weight = load.legs.as_ref();
-    forces.iter().all(|x| x.is_finite()).then_some(Forces { forces, inverse, weight })
+    forces.iter().all(|x| x.is_finite()).then_some(Forces { values: forces, inverse, weight })
 }
 
 /// Adds the gradient of `-g . (w, R b x w / L)`, `w` the weight of a leg on its platform joint.
@@ -140,11 +140,11 @@ impl Forces<'_> {
         let y: Vector6<f64> = self.inverse.row(leg).transpose();
         let mut pull = P::none();
         for j in (0..6).filter(|_| P::KEPT) {
-            l.pull_row(&mut pull, j, length, &(y * -self.forces[j]));
+            l.pull_row(&mut pull, j, length, &(y * -self.values[j]));
             if let Some(weight) = self.weight {
                 pull_weight(&mut pull, weight, l, j, (&y, length));
             }
         }
-        (self.forces[leg], pull)
+        (self.values[leg], pull)
     }
 }

@@ -141,7 +141,7 @@ impl<'a> Merit<'a> {
             Objective::LegForce => {
                 let inverse = inverse_of_columns(l, self.size);
                 let worst = |load| match leg_forces(l, inverse.as_ref(), load, self.size) {
-                    Some(f) => -f.forces.amax() / self.force_unit,
+                    Some(f) => -f.values.amax() / self.force_unit,
                     None => SINGULAR_GAIN,
                 };
                 self.loads.iter().map(worst).fold(f64::INFINITY, f64::min)
