@@ -59,3 +59,68 @@ fn motions_and_units_are_taken_as_they_are_asked_for() {
     assert!(doc["designs"][0]["motion_speed"].as_f64().unwrap() > 1.0);
     assert!(doc["designs"][0]["motion_force"].is_null(), "no payload, no force");
 }
+
+/// Three designs at home: legs without masses, with masses, and without a payload. Forces at rest agree with motion.
+#[test]
+fn legs_weigh_the_same_in_compare_assess_and_motion() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("designs/worked/positioner-octahedral.toml").unwrap();
+    // at home alone and without further loads
+    let (before, after) = text.split_once("[workspace]").unwrap();
+    let hardware = &after[after.find("[hardware]").unwrap()..after.find("[[loads]]").unwrap()];
+    let heavy = hardware.replacen(
+        "[hardware]",
+        "[hardware]\ncylinder_mass = 40\ncylinder_center = 120\nrod_mass = 15\nrod_center = 90",
+        1,
+    );
+    let payload = "[payload]\nmass = 100\ncenter = [10, 0, -150]\ninertia = [1e6, 1e6, 1e6]\n";
+    let units = "units = \"mm\"\nforce_units = \"N\"\nmass_units = \"kg\"";
+    let written = |name: &str, tables: &str| {
+        let path = folder.path().join(format!("{name}.toml")).to_str().unwrap().to_string();
+        let head = before.replacen("units = \"mm\"", units, 1);
+        let head = head.replacen("name = \"", &format!("name = \"{name} "), 1);
+        std::fs::write(&path, format!("{head}{tables}")).unwrap();
+        path
+    };
+    let light = written("light", &format!("{hardware}{payload}"));
+    let whole = written("whole", &format!("{heavy}{payload}"));
+    let legs = written("legs", &heavy);
+    let (code, doc) = asked(&[&light, &whole, &legs, "--accelerate", "z:0"]);
+    assert_eq!(code, Some(0), "{doc}");
+    let figure = |k: usize, name: &str| doc["designs"][k][name].as_f64().unwrap();
+    for k in 0..2 {
+        let (rest, motion) = (figure(k, "force"), figure(k, "motion_force"));
+        assert!((rest / motion - 1.0).abs() < 1e-9, "{k}: {rest} {motion}");
+    }
+    assert!(figure(1, "force") > 1.2 * figure(0, "force") && figure(2, "force") > 0.0);
+    let list = |k: usize| -> Vec<&str> {
+        doc["designs"][k]["assumptions"].as_array().unwrap().iter().map(|s| s.as_str().unwrap()).collect()
+    };
+    let massless = "The legs have no masses in [hardware]: they are taken as massless.";
+    assert_eq!((list(0), list(1)), (vec![massless], vec![]));
+    assert!(list(2).iter().any(|s| s.contains("platform is taken as massless")), "{:?}", list(2));
+    assert!(doc["designs"][0]["assessment"]["assumptions"].is_null(), "the list stands once");
+    let compared = ["compare", &light, &whole, "--points", "20"];
+    let text = String::from_utf8(equipod(&compared).stdout).unwrap();
+    assert_eq!(text.matches(massless).count(), 1, "{text}");
+    assert!(text.contains(": The legs have no masses"), "with the name of the design: {text}");
+    // assess says the same of each design
+    let judged = |path: &str| document(&equipod(&["assess", path, "--json"]));
+    let row = |doc: &Value| {
+        let rows = doc["requirements"].as_array().unwrap();
+        rows.iter().find(|row| row["name"] == "leg_force").unwrap_or_else(|| panic!("{doc}")).clone()
+    };
+    for (k, path, between) in [(0, &light, "payload"), (1, &whole, "payload"), (2, &legs, "legs")] {
+        let doc = judged(path);
+        let row = row(&doc);
+        let force = 3000.0 - row["margin"].as_f64().unwrap();
+        assert!((force / figure(k, "force") - 1.0).abs() < 1e-9, "{row}");
+        assert_eq!(row["between"][1], between);
+        let proved = row["proved_margin"].as_f64().unwrap();
+        assert!(proved <= 3000.0 - figure(k, "force") + 1e-9 && proved > 0.0, "{row}");
+    }
+    assert_eq!(judged(&light)["assumptions"], serde_json::json!([massless]));
+    assert!(judged(&whole)["assumptions"].is_null());
+    let text = String::from_utf8(equipod(&["assess", &light]).stdout).unwrap();
+    assert_eq!(text.matches(massless).count(), 1, "{text}");
+}

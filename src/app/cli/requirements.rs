@@ -18,12 +18,22 @@ pub(crate) fn exit_of(met: Option<bool>) -> Exit {
     }
 }
 
-/// The sentence and the table; a design that requires nothing is told so in a line.
+/// The sentence, the table and what was assumed of masses; a design that requires nothing is told so in a line.
 pub(crate) fn lead(name: &str, found: Option<&AssessAnswer>) -> String {
     found.map_or_else(
         || format!("{name} requires nothing: it has no limits of lengths, swing, room, forces or speeds\n"),
-        |found| format!("{}\n{}", sentence(name, found), table(found)),
+        |found| format!("{}{}", without_assumptions(name, found), assumptions(found)),
     )
+}
+
+/// The sentence and the table.
+pub(crate) fn without_assumptions(name: &str, found: &AssessAnswer) -> String {
+    format!("{}\n{}", sentence(name, found), table(found))
+}
+
+/// What was assumed of masses, a line for each sentence.
+pub(crate) fn assumptions(found: &AssessAnswer) -> String {
+    found.assumptions.iter().flat_map(|line| [line.as_str(), "\n"]).collect()
 }
 
 /// The answer in a sentence that names what is missed.

@@ -234,7 +234,9 @@ impl Design {
         };
         let loads = self.all_loads();
         let torques = reached.iter().flat_map(|(pose, angles)| {
-            loads.iter().map(|load| greatest(platform.torques(pose, angles, &load.wrench(pose))))
+            loads
+                .iter()
+                .map(|load| greatest(platform.torques(pose, angles, &load.wrench(self.manipulator(), pose))))
         });
         let speeds = self.speed.map(|speed| {
             let of = |(pose, angles): &(&Pose, [f64; 6])| {
@@ -255,7 +257,7 @@ impl Design {
     fn greatest_force(&self, pose: &Pose) -> Option<f64> {
         let m = self.manipulator();
         let each = |wrench| leg_forces(m, pose, &wrench, m.size()).map_or(f64::INFINITY, |f| f.amax());
-        self.all_loads().iter().map(|load| each(load.wrench(pose))).reduce(f64::max)
+        self.all_loads().iter().map(|load| each(load.wrench(m, pose))).reduce(f64::max)
     }
 
     /// The greatest speed of a leg in the worst direction of motion.

@@ -341,8 +341,9 @@ impl MotionMasses {
         let bodies = &self.bodies;
         // of the module's unit of force, kilograms times design units per second squared, in a force unit
         let in_unit = self.newtons / bodies.metres;
-        let load = self.load.as_ref().map_or_else(Vector6::zeros, |l| l.wrench(&state.pose) * in_unit);
-        let forces = drive_forces(design.manipulator(), bodies, state, &load)?;
+        let m = design.manipulator();
+        let load = self.load.as_ref().map_or_else(Vector6::zeros, |l| l.wrench(m, &state.pose) * in_unit);
+        let forces = drive_forces(m, bodies, state, &load)?;
         let powers = std::array::from_fn(|i| bodies.newtons(forces[i]) * legs[i].speed * bodies.metres);
         Some((forces.map(|f| f / in_unit), powers))
     }
@@ -357,8 +358,9 @@ impl MotionMasses {
     ) -> Option<([f64; 6], [f64; 6])> {
         let bodies = &self.bodies;
         let in_unit = self.newtons / bodies.metres;
-        let load = self.load.as_ref().map_or_else(Vector6::zeros, |l| l.wrench(&state.pose) * in_unit);
-        let pushes = drive_forces(&platform.at(angles).ok()?, bodies, state, &load)?;
+        let rods = platform.at(angles).ok()?;
+        let load = self.load.as_ref().map_or_else(Vector6::zeros, |l| l.wrench(&rods, &state.pose) * in_unit);
+        let pushes = drive_forces(&rods, bodies, state, &load)?;
         let transmissions = platform.transmissions(&state.pose, angles);
         let torques: [f64; 6] =
             std::array::from_fn(|i| pushes[i] * platform.legs()[i].crank.length * transmissions[i]);

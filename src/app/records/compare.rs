@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::nearest::short;
 use super::{AssessAnswer, JudgedPosesRecord, LightestDriveRecord, Number};
 use crate::app::entrance::DesignFigures;
-use crate::files::design::Design;
+use crate::files::design::{Design, JudgedForces};
 
 /// The answer of `compare`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,7 +62,7 @@ pub struct FiguresRecord {
     pub cranks: Option<CrankFiguresRecord>,
     /// Lengths at home that differ by more than a millionth of the size; of rods on cranks the lengths of the rods.
     pub different_legs: usize,
-    /// Greatest leg force under the payload and the loads, one at a time.
+    /// Greatest leg force under the weight of all that moves and under each load, one at a time.
     pub force: Option<Number>,
     /// Greatest leg speed under the speed that the platform has to have.
     pub speed: Option<Number>,
@@ -92,6 +92,9 @@ pub struct FiguresRecord {
     pub joint_tolerance: Option<Number>,
     /// Why there is no such tolerance; null: there is one, or none was asked for.
     pub no_tolerance: Option<String>,
+    /// Assumptions about masses that the file leaves open, a sentence each; empty where no figure is a force,
+    /// a torque or a natural frequency.
+    pub assumptions: Vec<String>,
 }
 
 /// What cranks do over the poses that all rods reach.
@@ -133,10 +136,9 @@ impl FiguresRecord {
         Self {
             name: design.name.clone(),
             path,
-            assessment: found
-                .assessment
-                .as_ref()
-                .map(|report| AssessAnswer::beside(design, report, characteristic_length)),
+            assessment: found.assessment.as_ref().map(|report| {
+                AssessAnswer::beside(design, report, characteristic_length).without_assumptions()
+            }),
             judged: design.judged_poses().into(),
             lightest_drive: None,
             poses: found.poses,
@@ -168,6 +170,10 @@ impl FiguresRecord {
             platform_radius: Number(found.radius[1]),
             joint_tolerance: number(tolerance),
             no_tolerance,
+            assumptions: design.assumptions_of(JudgedForces {
+                at_rest: found.force.is_some() || found.cranks.is_some_and(|cranks| cranks.torque.is_some()),
+                in_motion: found.motion.speed.is_some() || found.frequency.is_some(),
+            }),
         }
     }
 }
@@ -271,6 +277,26 @@ impl CompareAnswer {
         format!(
             "Every conditioning is by one characteristic length, {length} {unit}, that of the first design."
         )
+    }
+
+    /// What was assumed of masses, a line for each sentence with the names of the designs, where it is not of all.
+    pub(crate) fn assumptions(&self) -> Vec<String> {
+        let mut sentences: Vec<&String> = Vec::new();
+        for sentence in self.designs.iter().flat_map(|d| &d.assumptions) {
+            if !sentences.contains(&sentence) {
+                sentences.push(sentence);
+            }
+        }
+        let line = |sentence: &String| {
+            let has = |d: &&FiguresRecord| d.assumptions.contains(sentence);
+            let names: Vec<&str> = self.designs.iter().filter(has).map(|d| d.name.as_str()).collect();
+            if names.len() == self.designs.len() {
+                sentence.clone()
+            } else {
+                format!("{}: {sentence}", names.join(", "))
+            }
+        };
+        sentences.into_iter().map(line).collect()
     }
 
     /// A column for every kind of margin that some design has.

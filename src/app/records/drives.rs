@@ -86,7 +86,7 @@ impl DriveRecord {
             stiffness: drive.stiffness.map(Number),
             price: drive.price.map(Number),
             source: drive.source.clone(),
-            assessment: AssessAnswer::new(design, &fit.assessed),
+            assessment: AssessAnswer::new(design, &fit.assessed).without_assumptions(),
             motions: along.map(|(name, found)| MotionRunRecord::new(design, name.clone(), found)).collect(),
         }
     }

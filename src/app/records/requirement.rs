@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{LightestDriveRecord, Number, PoseQuaternionRecord};
 use crate::app::entrance::{AssessReport, JudgedPoses};
-use crate::files::design::Design;
+use crate::files::design::{Design, JudgedForces};
 use machine::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
 use synthesis::singularity::Regularity;
 
@@ -125,6 +125,10 @@ pub struct AssessAnswer {
     pub cells: usize,
     /// The lightest drive of the table that the design names with which its requirements are met; null: it names none, or the answer is about something else.
     pub lightest_drive: Option<LightestDriveRecord>,
+    /// Assumptions about masses that the file leaves open, a sentence each; absent where no force, torque or
+    /// natural frequency is judged, and where the answer around this one has the list.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub assumptions: Vec<String>,
 }
 
 impl AssessAnswer {
@@ -167,7 +171,14 @@ impl AssessAnswer {
             poses: proof.poses,
             cells: proof.bounds.iter().map(|b| b.cells).sum(),
             lightest_drive: None,
+            assumptions: design
+                .assumptions_of(JudgedForces::of(proof.bounds.iter().map(|b| b.found.term.kind))),
         }
+    }
+
+    /// The same inside an answer that lists the assumptions itself.
+    pub(crate) fn without_assumptions(self) -> Self {
+        Self { assumptions: Vec::new(), ..self }
     }
 }
 

@@ -162,7 +162,7 @@ impl RotaryIkRecord {
         let scaled = platform.at(&kept).map(|m| jacobian(&m, pose, design.characteristic_length()));
         self.inverse_condition = Some(Number(scaled.map_or(0.0, |rows| inverse_condition(&rows))));
         for load in design.all_loads() {
-            let torques = platform.torques(pose, &kept, &load.wrench(pose));
+            let torques = platform.torques(pose, &kept, &load.wrench(design.manipulator(), pose));
             self.torques.push(CrankTorquesRecord { load: load.name, torques });
         }
     }

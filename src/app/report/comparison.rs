@@ -102,6 +102,9 @@ pub(super) fn notes(answer: &CompareAnswer) -> String {
     for verdict in answer.verdicts() {
         let _ = writeln!(out, "<li>{}.</li>", escape(&verdict));
     }
+    for line in answer.assumptions() {
+        let _ = writeln!(out, "<li>{}</li>", escape(&line));
+    }
     out.push_str("</ul>\n");
     out
 }

@@ -5,9 +5,31 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::Design;
 use super::scale::micrometres;
 use machine::requirements::{
-    ForceUnit, GRAVITY, Load, MassUnit, MovingBodies, Payload, PlateBody, PlateMass, VibratingMasses,
+    ForceUnit, GRAVITY, LegsWeight, Load, MassUnit, MovingBodies, Payload, PlateBody, PlateMass, TermKind,
+    VibratingMasses,
 };
 use platform::manipulator::Body;
+
+/// The forces that an answer states or judges, for the assumptions behind them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct JudgedForces {
+    /// Leg forces or crank torques that hold loads.
+    pub(crate) at_rest: bool,
+    /// Forces along motions, or natural frequencies.
+    pub(crate) in_motion: bool,
+}
+
+impl JudgedForces {
+    /// Forces that requirements of these kinds are about.
+    pub(crate) fn of(kinds: impl IntoIterator<Item = TermKind>) -> Self {
+        let mut out = Self { at_rest: false, in_motion: false };
+        for kind in kinds {
+            out.at_rest |= matches!(kind, TermKind::LegForce | TermKind::CrankTorque);
+            out.in_motion |= kind == TermKind::NaturalFrequency;
+        }
+        out
+    }
+}
 
 impl Design {
     /// The payload and the legs vibrate; `None` where the file states nothing that moves, no stiffness of legs or no known unit of length.
@@ -74,20 +96,42 @@ impl Design {
         Point3::from(joints.iter().map(|b| b.coords).sum::<Vector3<f64>>() / joints.len() as f64)
     }
 
-    /// Lists what is assumed of masses and their units where the file is silent, a sentence each.
+    /// Lists the assumptions of motions, natural frequencies and models of simulators about masses and their units
+    /// that the file leaves open, a sentence each.
     #[must_use]
     pub fn mass_assumptions(&self) -> Vec<String> {
         if self.moving_payload().is_none() {
-            return vec!["The design has no [payload]: forces and powers are not computed.".to_owned()];
+            return vec![
+                "The design has no [payload]: forces and powers of motions are not computed.".to_owned(),
+            ];
         }
         let mut out = Vec::new();
         if self.payload.is_some_and(|payload| payload.inertia.is_none()) {
             out.push("The payload has no inertia: that of a ball is taken whose radius of gyration is the root mean square distance of the platform joints from their middle.".to_owned());
         }
+        out.extend(self.weight_assumptions());
+        out
+    }
+
+    /// Lists the assumptions of forces at rest about weights and their units that the file leaves open, a sentence
+    /// each: [`mass_assumptions`](Self::mass_assumptions) has those of motions besides.
+    #[must_use]
+    pub fn weight_assumptions(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        if self.moving_payload().is_none() {
+            out.push("The design has no [payload]: the platform is taken as massless.".to_owned());
+        }
+        let weight = self.weight();
         if self.has_cranks() {
             out.push("Cranks and rods are taken as massless.".into());
         } else if self.hardware.leg_masses.is_none() {
             out.push("The legs have no masses in [hardware]: they are taken as massless.".into());
+        } else if self.hardware.is_coupled() && weight.as_ref().is_some_and(|load| load.legs.is_some()) {
+            let assumed = "The weight of the legs is taken between joint centres: it leaves out `offset` and `screw_lead`.";
+            out.push(assumed.to_owned());
+        }
+        if weight.is_none() {
+            return out;
         }
         if self.mass_units.is_none() {
             out.push("The design names no unit of mass: masses are taken in kilograms.".into());
@@ -95,6 +139,15 @@ impl Design {
         if self.force_units.is_none() {
             out.push("The design names no unit of force: forces are taken in newtons.".into());
         }
+        out
+    }
+
+    /// Lists the assumptions behind forces at rest and in motion, each sentence once.
+    pub(crate) fn assumptions_of(&self, forces: JudgedForces) -> Vec<String> {
+        let mut out = if forces.in_motion { self.mass_assumptions() } else { Vec::new() };
+        let at_rest = if forces.at_rest { self.weight_assumptions() } else { Vec::new() };
+        let further = at_rest.into_iter().filter(|sentence| !out.contains(sentence)).collect::<Vec<_>>();
+        out.extend(further);
         out
     }
 
@@ -141,18 +194,29 @@ impl Design {
         })
     }
 
-    /// The weight of [what moves with the platform](Self::moving_payload), where there is something, and the loads of the file.
+    /// The weight of all that moves, where there is something, and the loads of the file.
     ///
     /// Without names of units forces are newtons and masses kilograms.
     #[must_use]
     pub fn all_loads(&self) -> Vec<Load> {
-        let weight = self.moving_payload().map(|p| {
-            let mut load = p.weight(self.mass_unit(), self.force_unit());
-            if self.payload.is_none() {
-                "platform plate".clone_into(&mut load.name);
-            }
-            load
-        });
-        weight.into_iter().chain(self.loads.iter().cloned()).collect()
+        self.weight().into_iter().chain(self.loads.iter().cloned()).collect()
+    }
+
+    /// The weight of [what moves with the platform](Self::moving_payload) and of the legs as one load, named after its
+    /// first part: `payload`, `platform plate` or `legs`.
+    fn weight(&self) -> Option<Load> {
+        let units = (self.mass_unit(), self.force_unit());
+        let legs = self.hardware.leg_masses.as_ref();
+        let legs = legs.and_then(|masses| LegsWeight::new(masses, &self.gravity(), units.0, units.1));
+        let moving = self.moving_payload();
+        let name = match &moving {
+            Some(_) if self.payload.is_some() => "payload",
+            Some(_) => "platform plate",
+            None => "legs",
+        };
+        // legs alone stand on a platform that weighs nothing
+        let payload =
+            moving.or_else(|| legs.map(|_| self.unshaped(0.0, Point3::origin(), Matrix3::zeros())))?;
+        Some(Load { name: name.to_owned(), legs, ..payload.weight(units.0, units.1) })
     }
 }

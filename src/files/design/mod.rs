@@ -37,6 +37,7 @@ pub(crate) use edit::Written;
 #[cfg(feature = "cli")]
 pub(crate) use likeness::likeness;
 pub(crate) use likeness::nearest_word;
+pub(crate) use masses::JudgedForces;
 pub use model::{
     CalibratedNumber, CalibrationTable, Combination, Correlations, Design, NameCount, OptimizeTable,
     SearchTable,

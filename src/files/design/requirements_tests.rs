@@ -43,8 +43,9 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     let required = design.requirements();
     assert_eq!(
         (required.loads.len(), required.keep_outs.len(), required.platform_speed.unwrap().linear),
-        (2, 3, 20.0)
+        (3, 3, 20.0)
     );
+    assert_eq!(required.loads[0].name, "legs", "the file has masses of legs and no payload");
     let wanted = required.platform_stiffness.unwrap();
     assert_eq!((wanted.linear, wanted.angular, wanted.natural_frequency), (Some(2e4), Some(3e5), None));
     assert_eq!(design.unit_of(Quantity::AngularStiffness), "force mm/rad");
@@ -840,4 +841,80 @@ fn a_table_of_drives_is_named() {
     assert_eq!(parse(&design.to_json(), Format::Json).unwrap().0, design);
     let wrong = GOOD.replacen("max_leg_force = 500", "max_leg_force = 500\ndrives = 3", 1);
     assert_eq!(parse(&wrong, Format::Toml).unwrap_err()[0].code, Code::WrongType);
+}
+
+/// Designs whose legs weigh something, with a payload, with a plate alone and with neither: `assess` and `motion` have
+/// the same forces at rest, in all units.
+#[test]
+fn the_weight_of_all_that_moves_is_one_load() {
+    let design = |text: &str| parse(text, Format::Toml).unwrap().0;
+    let plain = GOOD.replacen("trajectory = \"path.csv\"\n", "", 1);
+    let payload = "[payload]\nmass = 30\ncenter = [0.1, 0.2, 1.0]\ngravity = [1.5, -0.5, -9.0]\n";
+    let (plates, _) = PLATES.split_once("[payload]").unwrap();
+    let kinds = [
+        ("payload", format!("{plain}{payload}")),
+        ("platform plate", format!("{plain}{plates}")),
+        ("legs", plain.clone()),
+    ];
+    let mut rng = num::Rng::new(41);
+    for (name, text) in &kinds {
+        for (force, mass) in [("N", "kg"), ("kN", "t"), ("lbf", "lb"), ("kgf", "g")] {
+            let units = format!("units = \"mm\"\nforce_units = \"{force}\"\nmass_units = \"{mass}\"");
+            let design = design(&text.replacen("units = \"mm\"", &units, 1));
+            let loads = design.all_loads();
+            assert_eq!((loads.len(), loads[0].name.as_str()), (3, *name));
+            assert!(loads[0].legs.is_some() && loads[1..].iter().all(|load| load.legs.is_none()));
+            // legs alone stand on a platform without mass
+            let nothing = || design.assumed_bodies(0.0, 1e-3);
+            let bodies = design.moving_bodies(1e-3).unwrap_or_else(nothing);
+            let in_unit = design.force_unit().newtons() / bodies.metres;
+            let (m, home) = (design.manipulator(), design.home.unwrap());
+            for _ in 0..20 {
+                let turn = nalgebra::Vector3::from_fn(|_, _| 0.1 * rng.normal());
+                let shift = nalgebra::Vector3::from_fn(|_, _| 0.5 * rng.normal());
+                let pose = platform::geom::Pose {
+                    rotation: nalgebra::Rotation3::new(turn) * home.rotation,
+                    position: home.position + shift,
+                };
+                let state = machine::dynamics::MotionState::at_rest(pose);
+                let none = nalgebra::Vector6::zeros();
+                let moving = machine::dynamics::drive_forces(m, &bodies, &state, &none).unwrap();
+                let moving = nalgebra::Vector6::from(moving) / in_unit;
+                let held = machine::requirements::leg_forces(m, &pose, &loads[0].wrench(m, &pose), m.size())
+                    .unwrap();
+                assert!((moving - held).amax() <= 1e-9 * moving.amax(), "{name} {force}: {moving} {held}");
+            }
+        }
+    }
+}
+
+/// Each answer lists the assumptions behind its forces once.
+#[test]
+fn assumptions_name_what_has_no_mass() {
+    let design = |text: &str| parse(text, Format::Toml).unwrap().0;
+    let plain = GOOD.replacen("trajectory = \"path.csv\"\n", "", 1);
+    let without = |text: &str| {
+        let lines = text.lines().filter(|line| {
+            !["cylinder_mass", "cylinder_center", "rod_mass", "rod_center", "rod_inertia", "reflected_mass"]
+                .iter()
+                .any(|key| line.starts_with(key))
+        });
+        lines.fold(String::new(), |text, line| text + line + "\n")
+    };
+    let payload = "[payload]\nmass = 30\n";
+    let said = |text: &str, at_rest, in_motion| {
+        design(text).assumptions_of(super::JudgedForces { at_rest, in_motion })
+    };
+    assert_eq!(said(&plain, false, false), Vec::<String>::new());
+    let of_legs = said(&plain, true, false);
+    assert!(of_legs[0].contains("platform is taken as massless"), "{of_legs:?}");
+    assert!(of_legs.len() == 3 && of_legs.iter().all(|s| !s.contains("legs have no masses")), "{of_legs:?}");
+    // nothing weighs anything: no unit of mass is needed
+    let nothing = said(&without(&plain), true, false);
+    assert!(nothing.len() == 2 && nothing[1].contains("legs have no masses"), "{nothing:?}");
+    let whole = format!("{}{payload}", without(&plain));
+    let (rest, both) = (said(&whole, true, false), said(&whole, true, true));
+    assert_eq!(both[1..], rest, "the inertia matters in motion alone");
+    assert!(both[0].contains("no inertia") && rest.len() == 3, "{both:?}");
+    assert_eq!(said(&whole, false, true), both, "no sentence stands twice");
 }

@@ -3,7 +3,10 @@
 use nalgebra::{Matrix3, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::*;
-use crate::requirements::{ForceUnit, LegMasses, LegPart, MassUnit, Payload, PlateMass, leg_forces};
+use crate::requirements::{
+    ForceUnit, Hardware, LegMasses, LegPart, LegsWeight, Load, MassUnit, Payload, PlateMass, Requirements,
+    TermKind, Terms, leg_forces,
+};
 use crate::requirements::{VibratingMasses, least_stiffness_at, lowest_frequency};
 use num::Rng;
 use platform::geom::random_rotation;
@@ -245,12 +248,89 @@ fn at_rest_the_drives_hold_the_weight_as_the_requirements_say() {
     let bodies = MovingBodies::new(&payload, None, MassUnit::Kilogram, 1.0);
     let pose = Pose { rotation: Rotation3::from_euler_angles(0.1, 0.2, 0.3), ..default_home(&m) };
     let found = drive_forces(&m, &bodies, &MotionState::at_rest(pose), &Vector6::zeros()).unwrap();
-    let weight = payload.weight(MassUnit::Kilogram, ForceUnit::Newton).wrench(&pose);
+    let weight = payload.weight(MassUnit::Kilogram, ForceUnit::Newton).wrench(&m, &pose);
     let expected = leg_forces(&m, &pose, &weight, 1.0).unwrap();
     assert!((0..6).all(|i| (found[i] - expected[i]).abs() < 1e-10));
     // the same load twice: once as the weight, once beside it
     let doubled = drive_forces(&m, &bodies, &MotionState::at_rest(pose), &weight).unwrap();
     assert!((0..6).all(|i| (doubled[i] - 2.0 * found[i]).abs() < 1e-10));
+}
+
+/// The statics of requirements and the inverse dynamics are two derivations: at rest they give the same forces, for
+/// legs that weigh more or less than the payload.
+#[test]
+fn loads_at_rest_are_held_by_the_forces_of_the_inverse_dynamics() {
+    let mut rng = Rng::new(31);
+    let (newton, kilogram) = (ForceUnit::Newton, MassUnit::Kilogram);
+    for k in 0..60 {
+        let m = hexapod(&mut rng);
+        let mut part = |heavy: bool| LegPart {
+            mass: if heavy { rng.uniform(0.1, 8.0) } else { 0.0 },
+            center: rng.uniform(0.0, 1.5),
+            inertia: 0.1,
+        };
+        let legs = LegMasses { cylinder: part(k % 4 != 1), rod: part(k % 4 != 2), reflected: 0.4 };
+        let payload = Payload {
+            mass: if k % 3 == 0 { 0.0 } else { rng.uniform(0.5, 9.0) },
+            center: Point3::new(0.2, -0.4, rng.uniform(-0.5, 1.0)),
+            inertia: Some(Matrix3::identity()),
+            gravity: Vector3::new(3.0 * rng.normal(), 3.0 * rng.normal(), -9.8),
+            plate: PlateMass::Included,
+            shape: None,
+        };
+        let bodies = MovingBodies::new(&payload, Some(&legs), kilogram, 1.0);
+        let weight = LegsWeight::new(&legs, &payload.gravity, kilogram, newton);
+        let load = Load { legs: weight, ..payload.weight(kilogram, newton) };
+        let greatest = 1e4;
+        let hardware = Hardware { max_leg_force: Some(greatest), ..Hardware::default() };
+        let required = Requirements { hardware, loads: vec![load.clone()], ..Requirements::default() };
+        let home = default_home(&m);
+        let terms = Terms::new(&m, &required, &home);
+        for _ in 0..20 {
+            let wander = |rng: &mut Rng, by: f64| Vector3::from_fn(|_, _| by * rng.normal());
+            let position = home.position + wander(&mut rng, 0.3);
+            let pose = Pose { rotation: Rotation3::new(wander(&mut rng, 0.3)) * home.rotation, position };
+            let moving = drive_forces(&m, &bodies, &MotionState::at_rest(pose), &Vector6::zeros()).unwrap();
+            let moving = Vector6::from(moving);
+            let held = leg_forces(&m, &pose, &load.wrench(&m, &pose), m.size()).unwrap();
+            assert!((moving - held).amax() <= 1e-9 * moving.amax(), "{k}: {moving} {held}");
+            for (term, margin) in terms.at(&pose) {
+                assert_eq!(term.kind, TermKind::LegForce);
+                let off = greatest - margin - moving[term.first].abs();
+                assert!(off.abs() <= 1e-9 * moving.amax(), "{k}: {off} of {moving}");
+            }
+        }
+    }
+}
+
+/// A rod alone, its centre at its joint, hangs on the joint as a point mass does.
+#[test]
+fn rods_with_their_centres_at_the_joints_weigh_as_a_payload_there() {
+    let mut rng = Rng::new(37);
+    let m = hexapod(&mut rng);
+    let gravity = Vector3::new(0.0, 0.0, -9.8);
+    let rod = LegPart { mass: 2.0, center: 0.0, inertia: 0.0 };
+    let legs = LegMasses { rod, ..LegMasses::default() };
+    let (newton, kilogram) = (ForceUnit::Newton, MassUnit::Kilogram);
+    let middle = m.legs().iter().map(|leg| leg.platform.coords).sum::<Vector3<f64>>() / 6.0;
+    let payload = Payload {
+        mass: 12.0,
+        center: middle.into(),
+        inertia: None,
+        gravity,
+        plate: PlateMass::Included,
+        shape: None,
+    };
+    let nothing = Payload { mass: 0.0, ..payload };
+    let of_rods =
+        Load { legs: LegsWeight::new(&legs, &gravity, kilogram, newton), ..nothing.weight(kilogram, newton) };
+    let pose = Pose { rotation: Rotation3::from_euler_angles(0.1, 0.2, 0.3), ..default_home(&m) };
+    let of_payload = payload.weight(kilogram, newton).wrench(&m, &pose);
+    assert!((of_rods.wrench(&m, &pose) - of_payload).amax() < 1e-12 * of_payload.amax());
+    assert_eq!(
+        LegsWeight::new(&LegMasses { reflected: 3.0, ..LegMasses::default() }, &gravity, kilogram, newton),
+        None
+    );
 }
 
 #[test]

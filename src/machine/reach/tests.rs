@@ -36,6 +36,7 @@ fn required(m: &Manipulator, home: &Pose) -> Requirements {
         torque: Vector3::zeros(),
         at: Point3::new(0.1, 0.0, 0.2),
         fixed_to: Body::Base,
+        legs: None,
     };
     Requirements {
         hardware,

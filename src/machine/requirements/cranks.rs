@@ -191,7 +191,8 @@ impl Terms<'_> {
         if let Some(greatest) = cranks.max_torque {
             let rows = self.rod_rows(cranks, pose, size);
             for (k, load) in self.required.loads.iter().enumerate() {
-                let forces = rows.and_then(|rows| forces_along(&rows, &load.wrench(pose), size));
+                let forces =
+                    rows.and_then(|rows| forces_along(&rows, &load.wrench(self.manipulator, pose), size));
                 for (i, (crank, here)) in cranks.legs.iter().zip(&at).enumerate() {
                     let arm = crank.length * here.left.max(0.0).sqrt() / crank.rod;
                     let margin = forces.map_or(f64::NEG_INFINITY, |f| greatest - f[i].abs() * arm);

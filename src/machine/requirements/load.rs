@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix6, Point3, Vector3, Vector6};
 
+use super::hardware::LegMasses;
+use super::payload::{ForceUnit, MassUnit};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, jacobian};
 
@@ -19,19 +21,72 @@ pub struct Load {
     /// The frame in which force and torque keep their direction: weight is fixed to the base, a cutting force to the
     /// platform.
     pub fixed_to: Body,
+    /// The weight of the legs, where it is part of the load.
+    pub legs: Option<LegsWeight>,
+}
+
+/// The weight of six equal legs at rest, as forces on the platform joints.
+///
+/// A leg has a cylinder of mass `m_1`, its centre `s_1` from the base joint, and a rod of mass `m_2`, its centre `s_2`
+/// from the platform joint. With the length `q`, the direction `u` and gravity `g`, the force on the platform joint is
+///
+/// ```text
+/// w = m_2 g + (m_1 s_1 - m_2 s_2) (g - u (u . g)) / q
+/// ```
+///
+/// The drive forces that hold the six `w` hold the legs (statics; `docs/theory/requirements.md`).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LegsWeight {
+    /// `m_2 g`, force units, base frame.
+    pub rod: Vector3<f64>,
+    /// `(m_1 s_1 - m_2 s_2) g`, force units times design units, base frame.
+    pub moment: Vector3<f64>,
+}
+
+impl LegsWeight {
+    /// The weight of legs under gravity in m/s^2; `None` for legs that weigh nothing.
+    #[must_use]
+    pub fn new(legs: &LegMasses, gravity: &Vector3<f64>, mass: MassUnit, force: ForceUnit) -> Option<Self> {
+        let (cylinder, rod) = (&legs.cylinder, &legs.rod);
+        let in_unit = gravity * (mass.kilograms() / force.newtons());
+        let moment = cylinder.mass * cylinder.center - rod.mass * rod.center;
+        (cylinder.mass > 0.0 || rod.mass > 0.0)
+            .then(|| Self { rod: in_unit * rod.mass, moment: in_unit * moment })
+    }
+
+    /// The force `w` on the platform joint of a leg, by the line from its base joint to its platform joint.
+    #[must_use]
+    pub fn at_joint(&self, line: &Vector3<f64>) -> Vector3<f64> {
+        let length = line.norm();
+        let along = line / length;
+        self.rod + (self.moment - along * along.dot(&self.moment)) / length
+    }
+
+    /// Forces and their moments about the platform origin, base frame.
+    fn wrench(&self, m: &Manipulator, pose: &Pose) -> Vector6<f64> {
+        let mut out = Vector6::zeros();
+        for leg in m.legs() {
+            let arm = pose.rotation * leg.platform.coords;
+            let force = self.at_joint(&(arm + pose.position - leg.base.coords));
+            let torque = arm.cross(&force);
+            out += Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
+        }
+        out
+    }
 }
 
 impl Load {
-    /// Force and torque about the platform origin, both in the base frame.
+    /// Force and torque about the platform origin, both in the base frame; a manipulator has the legs that weigh.
     #[must_use]
-    pub fn wrench(&self, pose: &Pose) -> Vector6<f64> {
+    pub fn wrench(&self, m: &Manipulator, pose: &Pose) -> Vector6<f64> {
         let turn = |v: &Vector3<f64>| match self.fixed_to {
             Body::Base => *v,
             Body::Platform => pose.rotation * v,
         };
         let force = turn(&self.force);
         let torque = turn(&self.torque) + (pose.rotation * self.at.coords).cross(&force);
-        Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+        let own = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
+        self.legs.map_or(own, |legs| own + legs.wrench(m, pose))
     }
 }
 
@@ -79,8 +134,9 @@ mod tests {
             torque: Vector3::new(0.5, 7.0, -2.0),
             at: Point3::new(1.0, 2.0, 6.0),
             fixed_to: Body::Platform,
+            legs: None,
         };
-        let forces = leg_forces(&m, &pose, &load.wrench(&pose), 20.0).unwrap();
+        let forces = leg_forces(&m, &pose, &load.wrench(&m, &pose), 20.0).unwrap();
         // balance about the base origin, from the definitions
         let (mut f, mut t) = (pose.rotation * load.force, pose.rotation * load.torque);
         t += pose.transform(&load.at).coords.cross(&f);
@@ -92,7 +148,7 @@ mod tests {
         }
         assert!(f.norm() < 1e-12 * 40.0 && t.norm() < 1e-11 * 400.0, "{f} {t}");
         assert_eq!(
-            leg_forces(&m, &pose, &load.wrench(&pose), 0.5).map(|g| (g - forces).norm() < 1e-9),
+            leg_forces(&m, &pose, &load.wrench(&m, &pose), 0.5).map(|g| (g - forces).norm() < 1e-9),
             Some(true)
         );
     }

@@ -48,7 +48,7 @@ pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
 pub use joint_angles::JointAngles;
 pub use keep_out::{KeepOut, KeepOutShape};
 pub use limit::{Limit, Limits, PoseLimit};
-pub use load::{Load, leg_forces};
+pub use load::{LegsWeight, Load, leg_forces};
 pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload, PlateMass};
 pub use plate::{
     BoltPattern, BoltsFrom, MATERIALS, Outline, OutlinePart, PlateDesign, PlateSeat, PlateSolid, Plates,

@@ -140,6 +140,7 @@ impl Payload {
             torque: Vector3::zeros(),
             at: self.center,
             fixed_to: Body::Base,
+            legs: None,
         }
     }
 }

@@ -689,7 +689,7 @@ impl<'a> Terms<'a> {
         if let Some(greatest) = hardware.max_leg_force {
             let rows = self.drive_rows(pose, m.size());
             for (k, load) in self.required.loads.iter().enumerate() {
-                let forces = rows.and_then(|rows| forces_along(&rows, &load.wrench(pose), m.size()));
+                let forces = rows.and_then(|rows| forces_along(&rows, &load.wrench(m, pose), m.size()));
                 for i in 0..6 {
                     let margin = forces.map_or(f64::NEG_INFINITY, |f| greatest - f[i].abs());
                     out.push((Term { kind: TermKind::LegForce, first: i, second: k }, margin));

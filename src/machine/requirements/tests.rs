@@ -184,6 +184,7 @@ fn weight_is_shared_by_the_legs_and_forces_at_a_singular_pose_are_violations() {
         torque: Vector3::zeros(),
         at: Point3::origin(),
         fixed_to: Body::Base,
+        legs: None,
     });
     let rise = jacobian(&m, &home, 1.0)[(0, 2)];
     for (_, margin) in Terms::new(&m, &r, &home).at(&home) {
@@ -231,6 +232,7 @@ fn limits_set_to_the_values_at_home_are_reached_and_not_violated() {
         torque: Vector3::zeros(),
         at: Point3::new(1.0, 2.0, 3.0),
         fixed_to: Body::Base,
+        legs: None,
     };
     let with = |length: f64, swing: f64, force: f64, speed: f64| {
         let mut r = Requirements {

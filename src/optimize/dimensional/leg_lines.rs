@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
 use super::pull::Gradient;
 use super::shape::JointEnds;
-use machine::requirements::Load;
+use machine::requirements::{LegsWeight, Load};
 use platform::geom::Pose;
 use platform::manipulator::Body;
 
@@ -79,8 +79,9 @@ impl LegLines {
 /// Leg forces that hold a load, and what their derivatives need.
 #[derive(Debug, Clone)]
 pub(super) struct Forces<'a> {
-    pub forces: Vector6<f64>,
+    pub values: Vector6<f64>,
     inverse: &'a Matrix6<f64>,
+    weight: Option<&'a LegsWeight>,
 }
 
 /// Inverse of the matrix with the columns `[u, (R b x u) / L]`, which the forces under all loads share; `None` at a singular pose.
@@ -92,26 +93,58 @@ pub(crate) fn inverse_of_columns(l: &LegLines, length: f64) -> Option<Matrix6<f6
 pub(super) fn leg_forces<'a>(
     l: &LegLines,
     inverse: Option<&'a Matrix6<f64>>,
-    load: &Load,
+    load: &'a Load,
     length: f64,
 ) -> Option<Forces<'a>> {
     let inverse = inverse?;
     let turn = |v: &Vector3<f64>| if load.fixed_to == Body::Platform { l.rotation * v } else { *v };
     let force = turn(&load.force);
     let torque = (turn(&load.torque) + (l.rotation * load.at.coords).cross(&force)) / length;
-    let wrench = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
+    let mut wrench = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
+    if let Some(weight) = &load.legs {
+        for (line, arm) in l.line.iter().zip(&l.arm) {
+            let force = weight.at_joint(line);
+            let torque = arm.cross(&force) / length;
+            wrench += Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
+        }
+    }
     let forces = -(inverse * wrench);
-    forces.iter().all(|x| x.is_finite()).then_some(Forces { forces, inverse })
+    let weight = load.legs.as_ref();
+    forces.iter().all(|x| x.is_finite()).then_some(Forces { values: forces, inverse, weight })
+}
+
+/// Adds the gradient of `-g . (w, R b x w / L)`, `w` the weight of a leg on its platform joint.
+fn pull_weight<P: Gradient>(
+    pull: &mut P,
+    weight: &LegsWeight,
+    l: &LegLines,
+    leg: usize,
+    (g, length): (&Vector6<f64>, f64),
+) {
+    let (force, moment): (Vector3<f64>, Vector3<f64>) =
+        (g.fixed_rows::<3>(0).into(), g.fixed_rows::<3>(3) / length);
+    let (u, arm) = (&l.direction[leg], &l.arm[leg]);
+    pull.at_arm(leg, &-weight.at_joint(&l.line[leg]).cross(&moment));
+    // e . w with w = c + (k - u (u . k)) / q changes with the line by
+    // (3 (e . u) (u . k) u - (e . k) u - e (u . k) - k (e . u)) / q^2
+    let (e, k) = (force + moment.cross(arm), &weight.moment);
+    let (on_e, on_k) = (u.dot(&e), u.dot(k));
+    let by_line = (u * (3.0 * on_e * on_k - e.dot(k)) - e * on_k - k * on_e) / l.length[leg].powi(2);
+    pull.line(leg, -by_line);
 }
 
 impl Forces<'_> {
-    /// Force of a leg and its gradient: `dF_i = - sum_j F_j (row i of the inverse) . d(column j)`.
+    /// Force of a leg and its gradient: `dF_i = - sum_j y . (F_j d(column j) + d(weight of leg j))`, `y` row `i` of the
+    /// inverse.
     pub(super) fn of<P: Gradient>(&self, l: &LegLines, leg: usize, length: f64) -> (f64, P) {
         let y: Vector6<f64> = self.inverse.row(leg).transpose();
         let mut pull = P::none();
         for j in (0..6).filter(|_| P::KEPT) {
-            l.pull_row(&mut pull, j, length, &(y * -self.forces[j]));
+            l.pull_row(&mut pull, j, length, &(y * -self.values[j]));
+            if let Some(weight) = self.weight {
+                pull_weight(&mut pull, weight, l, j, (&y, length));
+            }
         }
-        (self.forces[leg], pull)
+        (self.values[leg], pull)
     }
 }

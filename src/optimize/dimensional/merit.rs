@@ -12,7 +12,7 @@ use super::pull::{Gradient, Pull};
 use super::shape::JointEnds;
 use super::stiffness::{self, RayleighQuotient};
 use super::terms::{RequirementTerms, joint_pull};
-use machine::requirements::{Load, Objective, VibratingMasses};
+use machine::requirements::{LegsWeight, Load, Objective, VibratingMasses};
 use num::linalg::svd;
 use num::small::{bounded_svd, singular_values};
 use platform::manipulator::Body;
@@ -69,7 +69,11 @@ pub(crate) struct Merit<'a> {
 
 impl<'a> Merit<'a> {
     pub(super) fn new(p: &'a DimensionalProblem, sample: Vec<HeldPose>) -> Self {
-        let of = |l: &Load| l.force.norm() + l.torque.norm() / p.characteristic_length;
+        let of_legs = |w: &LegsWeight| 6.0 * (w.rod.norm() + w.moment.norm() / p.characteristic_length);
+        let of = |l: &Load| {
+            let own = l.force.norm() + l.torque.norm() / p.characteristic_length;
+            l.legs.as_ref().map_or(own, |weight| own + of_legs(weight))
+        };
         let force_unit = p.requirements.loads.iter().map(of).fold(0.0, f64::max);
         Self {
             loads: &p.requirements.loads,
@@ -137,7 +141,7 @@ impl<'a> Merit<'a> {
             Objective::LegForce => {
                 let inverse = inverse_of_columns(l, self.size);
                 let worst = |load| match leg_forces(l, inverse.as_ref(), load, self.size) {
-                    Some(f) => -f.forces.amax() / self.force_unit,
+                    Some(f) => -f.values.amax() / self.force_unit,
                     None => SINGULAR_GAIN,
                 };
                 self.loads.iter().map(worst).fold(f64::INFINITY, f64::min)

@@ -258,7 +258,7 @@ fn value(p: &DimensionalProblem, m: &Manipulator, (poses, apart): (&[Pose], usiz
         Objective::LegForce => -over(&|pose| {
             let loads = p.requirements.loads.iter();
             let worst = loads.map(|load| {
-                leg_forces(m, pose, &load.wrench(pose), m.size()).map_or(f64::INFINITY, |f| f.amax())
+                leg_forces(m, pose, &load.wrench(m, pose), m.size()).map_or(f64::INFINITY, |f| f.amax())
             });
             -worst.fold(0.0, f64::max)
         }),

@@ -242,7 +242,7 @@ impl DimensionalJudge {
             }
             Objective::LegForce => {
                 let force = |load: &equipod::methods::requirements::Load| {
-                    leg_forces(m, pose, &load.wrench(pose), m.size()).map_or(f64::INFINITY, |f| f.amax())
+                    leg_forces(m, pose, &load.wrench(m, pose), m.size()).map_or(f64::INFINITY, |f| f.amax())
                 };
                 [-p.requirements.loads.iter().map(force).fold(0.0, f64::max), 0.0]
             }

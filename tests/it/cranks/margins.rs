@@ -74,7 +74,7 @@ fn margins_of_cranks_are_those_of_their_kinematics() {
         let transmissions = platform.transmissions(&pose, &angles);
         let speeds = platform.greatest_speeds(&pose, &angles, 50.0, 30f64.to_radians()).unwrap();
         let load = &design.all_loads()[0];
-        let torques = platform.torques(&pose, &angles, &load.wrench(&pose)).unwrap();
+        let torques = platform.torques(&pose, &angles, &load.wrench(design.manipulator(), &pose)).unwrap();
         let lines = rods(&pose, &angles);
         let left = platform.limit_margins(&angles);
         let found = terms.at(&pose);

@@ -216,6 +216,9 @@ fn text(answer: &CompareAnswer) -> String {
             let _ = writeln!(out, "{} has no joint tolerance: {why}", design.name);
         }
     }
+    for line in answer.assumptions() {
+        let _ = writeln!(out, "{line}");
+    }
     for path in &answer.paths {
         let _ = writeln!(out, "wrote {path}");
     }

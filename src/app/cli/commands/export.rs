@@ -169,6 +169,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     // what is assessed are legs that change their lengths
     let assessment = if design.has_cranks() { None } else { AssessAnswer::of(&design, context.seed()) };
+    let assessment = assessment.map(|found| if simulated { found.without_assumptions() } else { found });
     let lead = if design.has_cranks() {
         format!("{} has cranks: `equipod ik` says what remains of their limits at a pose\n", design.name)
     } else {

@@ -258,6 +258,9 @@ class AssessAnswer(Record):
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
+    #: Assumptions about masses that the file leaves open, a sentence each; absent where no force, torque
+    #: or natural frequency is judged, and where the answer around this one has the list.
+    assumptions: Union[tuple[str, ...], None]
 
 
 class BeyondPrecisionRecord(Record):
@@ -1623,7 +1626,7 @@ class FiguresRecord(Record):
     #: Lengths at home that differ by more than a millionth of the size; of rods on cranks the lengths of
     #: the rods.
     different_legs: int
-    #: Greatest leg force under the payload and the loads, one at a time.
+    #: Greatest leg force under the weight of all that moves and under each load, one at a time.
     force: Union[float, None]
     #: Greatest leg speed under the speed that the platform has to have.
     speed: Union[float, None]
@@ -1653,6 +1656,9 @@ class FiguresRecord(Record):
     joint_tolerance: Union[float, None]
     #: Why there is no such tolerance; null: there is one, or none was asked for.
     no_tolerance: Union[str, None]
+    #: Assumptions about masses that the file leaves open, a sentence each; empty where no figure is a
+    #: force, a torque or a natural frequency.
+    assumptions: tuple[str, ...]
     #: What the cranks do, where the legs are rods on cranks.
     cranks: Union[CrankFiguresRecord, None]
 

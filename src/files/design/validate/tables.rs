@@ -625,6 +625,7 @@ pub(super) fn loads(report: &mut Findings<'_>, top: &[Entry]) -> Vec<Load> {
             torque: vector(report, entries, "torque").unwrap_or_default(),
             at: Point3::from(vector(report, entries, "at").unwrap_or_default()),
             fixed_to: fixed_to(report, entries).unwrap_or(Body::Base),
+            legs: None,
         }
     };
     list.iter().enumerate().map(read).collect()

@@ -13,9 +13,9 @@ use nalgebra::Matrix6;
 use super::crank::CrankFrames;
 use super::frame::{CellFrame, LegOverCell, enclosed};
 use super::local::{self, Bounded};
-use crate::requirements::load::Load;
+use crate::requirements::load::{LegsWeight, Load};
 use num::interval::Interval;
-use num::jet::{Jet, JetVector, cross};
+use num::jet::{Jet, JetVector, cross, dot};
 use platform::geom::enclosed::{IntervalMatrix, IntervalVector, contraction, times};
 use platform::geom::{Chart, ChartCell};
 use platform::manipulator::{Body, Manipulator};
@@ -96,14 +96,18 @@ impl System {
                 Body::Platform => frame.turned(&v),
             }
         };
-        let (force, torque) = (turned(&load.force), turned(&load.torque));
+        let (mut force, mut torque) = (turned(&load.force), turned(&load.torque));
         let lever = cross(&frame.turned(&enclosed(&load.at)), &force);
-        let right =
-            std::array::from_fn(
-                |r| {
-                    if r < 3 { -force[r] } else { -(torque[r - 3] + lever[r - 3]).times(unit) }
-                },
-            );
+        torque = sum(&torque, &lever);
+        if let Some(weight) = &load.legs {
+            for i in 0..6 {
+                let leg = frame.bare_leg(m, i);
+                let at_joint = weight_at_joint(weight, frame, &leg)?;
+                force = sum(&force, &at_joint);
+                torque = sum(&torque, &cross(&leg.arm, &at_joint));
+            }
+        }
+        let right = std::array::from_fn(|r| if r < 3 { -force[r] } else { -torque[r - 3].times(unit) });
         Some(Self { right, ..lines })
     }
 
@@ -118,6 +122,20 @@ impl System {
     fn is_second_order(&self) -> bool {
         self.right[0].is_second_order()
     }
+}
+
+fn sum(a: &JetVector, b: &JetVector) -> JetVector {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+/// [`LegsWeight::at_joint`] over a cell; `None` where the leg may have no length.
+fn weight_at_joint(weight: &LegsWeight, frame: &CellFrame<'_>, leg: &LegOverCell) -> Option<JetVector> {
+    let fixed = |v: &nalgebra::Vector3<f64>| frame.fixed(&std::array::from_fn(|k| Interval::from(v[k])));
+    let (rod, moment) = (fixed(&weight.rod), fixed(&weight.moment));
+    let over = leg.square.inverse_root()?;
+    let along = leg.line.map(|x| x * over);
+    let lengthwise = dot(&along, &moment);
+    Some(std::array::from_fn(|k| rod[k] + (moment[k] - along[k] * lengthwise) * over))
 }
 
 /// A bound of `|I - K A|` with what solves systems by it.

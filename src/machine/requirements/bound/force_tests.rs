@@ -5,19 +5,30 @@ use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 use super::force::force;
 use super::frame::CellFrame;
 use super::tests::{random_platform, random_space};
-use crate::requirements::Load;
+use crate::requirements::{LegsWeight, Load};
 use num::Rng;
 use platform::geom::{Chart, ChartCell, Pose, Region};
 use platform::manipulator::{Body, Manipulator};
 
 /// What is left of a greatest force, with unit vectors along the legs, by an LU decomposition.
+///
+/// The weight of a leg is `(m_2 + k / q) g` at its platform joint, `k = m_1 s_1 - m_2 s_2`, and its drive pushes with
+/// `(k / q) g . u` more: another form of the same statics.
 fn room(m: &Manipulator, pose: &Pose, load: &Load, greatest: f64) -> f64 {
     let mut a = Matrix6::zeros();
+    let (mut weight, mut lengthwise) = (Vector6::zeros(), Vector6::zeros());
     for (i, leg) in m.legs().iter().enumerate() {
-        let line = (pose.transform(&leg.platform) - leg.base).normalize();
+        let whole = pose.transform(&leg.platform) - leg.base;
+        let (length, line) = (whole.norm(), whole.normalize());
         let arm = pose.rotation * leg.platform.coords;
         let moment = arm.cross(&line);
         a.set_column(i, &Vector6::from_iterator(line.iter().chain(moment.iter()).copied()));
+        if let Some(legs) = &load.legs {
+            let at_joint = legs.rod + legs.moment / length;
+            let turning = arm.cross(&at_joint);
+            weight += Vector6::from_iterator(at_joint.iter().chain(turning.iter()).copied());
+            lengthwise[i] = legs.moment.dot(&line) / length;
+        }
     }
     let turn = match load.fixed_to {
         Body::Base => Rotation3::identity(),
@@ -25,15 +36,28 @@ fn room(m: &Manipulator, pose: &Pose, load: &Load, greatest: f64) -> f64 {
     };
     let force = turn * load.force;
     let torque = turn * load.torque + (pose.rotation * load.at.coords).cross(&force);
-    let right = -Vector6::from_iterator(force.iter().chain(torque.iter()).copied());
-    greatest - a.lu().solve(&right).unwrap().amax()
+    let right = -Vector6::from_iterator(force.iter().chain(torque.iter()).copied()) - weight;
+    greatest - (a.lu().solve(&right).unwrap() + lengthwise).amax()
 }
 
 /// The room for the greatest force over random cells is nowhere below its bound, which halving a cell brings four times nearer to the least room, as a bound of second order does, and the bound by slopes
 /// alone is as right and farther away.
 #[test]
 fn forces_are_bounded_to_second_order() {
-    let mut rng = Rng::new(23);
+    bounds_hold(23, |_| None);
+}
+
+/// The same with legs that weigh as much as the other loads, most of it at one end or the other.
+#[test]
+fn forces_of_heavy_legs_are_bounded_to_second_order() {
+    bounds_hold(29, |rng| {
+        let gravity = Vector3::new(rng.normal(), rng.normal(), -3.0);
+        Some(LegsWeight { rod: gravity * rng.uniform(0.0, 2.0), moment: gravity * (10.0 * rng.normal()) })
+    });
+}
+
+fn bounds_hold(seed: u64, legs: impl Fn(&mut Rng) -> Option<LegsWeight>) {
+    let mut rng = Rng::new(seed);
     let (mut halved, mut looked_at, mut tight, mut better) = (0, 0, 0, 0);
     for k in 0..60 {
         let (m, home) = random_platform(&mut rng);
@@ -45,6 +69,7 @@ fn forces_are_bounded_to_second_order() {
             torque: Vector3::from_fn(|_, _| 30.0 * rng.normal()),
             at: Point3::new(rng.normal(), rng.normal(), rng.normal()),
             fixed_to: if k % 3 == 0 { Body::Base } else { Body::Platform },
+            legs: legs(&mut rng),
         };
         let greatest = 100.0;
         let middle: [f64; 6] =

@@ -12,7 +12,7 @@ use crate::requirements::hardware::Housing;
 use crate::requirements::term::TermKind;
 use crate::requirements::{
     Envelope, Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart,
-    LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness, Reserve, Reserves, Swing,
+    LegsWeight, LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness, Reserve, Reserves, Swing,
     UniversalJoint, VibratingMasses,
 };
 use num::Rng;
@@ -94,6 +94,11 @@ pub(super) fn everything() -> Requirements {
         torque: Vector3::new(3.0, 0.0, 1.0),
         at: Point3::new(0.5, 0.0, 2.0),
         fixed_to,
+        // one load has the weight of the legs in it
+        legs: (fixed_to == Body::Base).then_some(LegsWeight {
+            rod: Vector3::new(0.0, 0.3, -2.0),
+            moment: Vector3::new(1.0, 0.0, -9.0),
+        }),
     };
     Requirements {
         hardware,

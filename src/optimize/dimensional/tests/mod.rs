@@ -13,9 +13,9 @@ use super::outcome::smallest_cap;
 use super::*;
 use machine::requirements::{
     AssessOptions, BoltPattern, BoltsFrom, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape,
-    LegBody, LegMasses, LegPart, LengthLimits, Load, MovingBodies, Objective, PlateDesign, Plates,
-    PlatformSpeed, PlatformStiffness, PoseSpace, Requirements, Swing, TermKind, Terms, UniversalJoint,
-    VariableKind, VibratingMasses, assess,
+    LegBody, LegMasses, LegPart, LegsWeight, LengthLimits, Load, MovingBodies, Objective, PlateDesign,
+    Plates, PlatformSpeed, PlatformStiffness, PoseSpace, Requirements, Swing, TermKind, Terms,
+    UniversalJoint, VariableKind, VibratingMasses, assess,
 };
 use num::Rng;
 use platform::geom::Pose;
@@ -72,8 +72,12 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
     p.requirements.platform_speed = Some(PlatformSpeed { linear: 100.0, angular_deg: 20.0 });
     let at = Point3::new(10.0, 0.0, 30.0);
     let (force, torque) = (Vector3::new(5.0, -3.0, -100.0), Vector3::new(0.0, 200.0, 0.0));
+    // the lines of the legs change their weight too
+    let weight =
+        LegsWeight { rod: Vector3::new(1.0, -2.0, -18.0), moment: Vector3::new(90.0, -180.0, -1600.0) };
     for fixed_to in Body::BOTH {
-        p.requirements.loads.push(Load { name: String::new(), force, torque, at, fixed_to });
+        let legs = (fixed_to == Body::Base).then_some(weight);
+        p.requirements.loads.push(Load { name: String::new(), force, torque, at, fixed_to, legs });
     }
     let shapes = [
         KeepOutShape::Sphere { center: Point3::new(20.0, 5.0, 90.0), diameter: 60.0 },

@@ -158,8 +158,17 @@ fn front_text(out: &mut String, list: &[FrontMemberRecord]) {
         let _ = writeln!(out, "  {:>3}  {}{met}{path}", k + 1, values.collect::<Vec<_>>().join("  "));
     }
     for (k, member) in list.iter().enumerate() {
-        let lead = requirements::lead(member.design.name(), member.platform.assessment.as_ref());
+        let found = member.platform.assessment.as_ref();
+        let name = member.design.name();
+        let lead = found.map_or_else(
+            || requirements::lead(name, None),
+            |found| requirements::without_assumptions(name, found),
+        );
         let _ = writeln!(out, "\n{}. {lead}", k + 1);
+    }
+    // one file says what is assumed of all members
+    if let Some(found) = list.first().and_then(|member| member.platform.assessment.as_ref()) {
+        out.push_str(&requirements::assumptions(found));
     }
 }
 

@@ -12,7 +12,7 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
 use crate::app::entrance::PlatformMotion;
 use crate::app::records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
-use crate::files::design::{Design, Drive, DriveTable};
+use crate::files::design::{Design, Drive, DriveTable, JudgedForces};
 
 /// Arguments of `build drives`.
 #[derive(Debug, clap::Args)]
@@ -154,12 +154,10 @@ fn assumptions(design: &Design, drives: &[Drive], with_forces: bool) -> Vec<Stri
         );
     }
     if design.requirements().loads.is_empty() {
-        out.push(
-            "The design has neither loads nor a payload: no force is asked of the drives at rest.".into(),
-        );
+        out.push("The design has neither loads nor masses: no force is asked of the drives at rest.".into());
     }
-    if with_forces {
-        out.extend(design.mass_assumptions());
-    }
+    let at_rest = h.max_leg_force.is_some() || drives.iter().any(|d| d.force.is_some());
+    let at_rest = at_rest && !design.requirements().loads.is_empty();
+    out.extend(design.assumptions_of(JudgedForces { at_rest, in_motion: with_forces }));
     out
 }
