@@ -113,8 +113,6 @@
 )]
 
 mod app;
-#[cfg(feature = "files")]
-mod files;
 
 #[cfg(feature = "cli")]
 pub use app::cli;
@@ -157,10 +155,13 @@ pub mod prelude {
     pub use crate::app::equivalents::Equivalents;
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use crate::files::design::{Design, Format, PRESETS, Violation, Warning};
+    pub use crate::app::{Design, presets::PRESETS};
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use crate::files::export::{ExportFormat, ExportOptions, ExportedFile, LengthUnit};
+    pub use ::files::design::{Format, Violation, Warning};
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use ::files::export::{ExportFormat, ExportOptions, ExportedFile, LengthUnit};
     #[cfg(feature = "files")]
     #[doc(inline)]
     pub use ::machine::requirements::AssessOptions;
@@ -193,7 +194,10 @@ pub mod methods {
     /// Design files: text in, values out, and back to text.
     #[cfg(feature = "files")]
     pub mod design {
-        pub use crate::files::design::*;
+        pub use crate::app::Design;
+        pub use crate::app::design::{parse, parse_ideal, parse_with_cranks};
+        pub use crate::app::presets::{PRESETS, Preset, PresetClass};
+        pub use ::files::design::*;
     }
     /// The best platform that meets its requirements: offsets, triangles, height, joint axes.
     #[cfg(feature = "optimize")]
@@ -222,7 +226,7 @@ pub mod methods {
     /// Files for other programs: a design in, texts out.
     #[cfg(feature = "files")]
     pub mod export {
-        pub use crate::files::export::*;
+        pub use ::files::export::*;
     }
     /// Forward kinematics: all finite complex poses for given leg lengths, by every method.
     pub mod fk {
@@ -258,7 +262,7 @@ pub mod methods {
     /// Pictures: values in, SVG text out.
     #[cfg(feature = "files")]
     pub mod plot {
-        pub use crate::files::plot::*;
+        pub use ::files::plot::*;
     }
     /// Polynomials in one unknown.
     pub mod poly {

@@ -2,7 +2,8 @@
 
 use std::sync::OnceLock;
 
-use crate::files::design::{Design, Origin};
+use crate::app::Design;
+use files::design::{DesignModel, Origin};
 use platform::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
 use synthesis::singularity::GriffisDuffy;
 use synthesis::{
@@ -109,7 +110,8 @@ impl Original {
             [own.clone(), free_name(design, k, true)]
         });
         let [first, second] = names.clone().map(Vec::from);
-        let named = Design::new(format!("{}, octahedral original", design.name), &design.units, original);
+        let named =
+            DesignModel::new(format!("{}, octahedral original", design.name), &design.units, original);
         let corners = [base, platform].map(|list| list.map(Origin::Kept));
         let mut named = named
             .with_joint_names(first, second)
@@ -123,7 +125,7 @@ impl Original {
         named.lengths = squares.map(|s| s.lengths());
         Some(Self {
             octahedral,
-            design: named,
+            design: named.into(),
             name: design.name.clone(),
             corners: [p1, p2, p3, p4, p5, p6],
             on_edges,
@@ -160,14 +162,14 @@ impl Original {
         let map = pattern.leg_map(&self.octahedral, offsets)?;
         let [base, platform] = pattern.joints().map(|l| l.iter().map(|j| self.joint_name(*j)).collect());
         let own = &self.design;
-        let plain = Design::new(format!("{} {pattern}", self.name), &own.units, m);
+        let plain = DesignModel::new(format!("{} {pattern}", self.name), &own.units, m);
         // a pattern has a name for each joint it has
         let built = plain.clone().with_joint_names(base, platform).unwrap_or(plain).with_tables_of(own);
         let [on_base, on_platform] = self.origins(pattern, offsets);
         let mut built = built.constructed_from(own, [&on_base, &on_platform]);
         built.description = Some(format!("{pattern} of {}, offsets {offsets:?}", own.name));
         built.lengths = own.lengths.and_then(|l| map.apply(&l.squared()).ok()).map(|s| s.lengths());
-        Ok((built, map))
+        Ok((built.into(), map))
     }
 
     /// Where the joints of a pattern come from: corners, and points between two of them.
@@ -317,13 +319,13 @@ impl NearestDesigns {
         let m = Manipulator::try_new(points(&base), points(&platform), pairs).ok()?;
         let [first, second] = names.map(|list| list.into_iter().map(|(_, name)| name).collect());
         let mut beside =
-            Design::new(format!("{}, moved onto an octahedral platform", design.name), &design.units, m)
+            DesignModel::new(format!("{}, moved onto an octahedral platform", design.name), &design.units, m)
                 .with_joint_names(first, second)
                 .ok()?
                 .with_tables_of(design)
                 .constructed_from(&octahedral, [&origins(&base), &origins(&platform)]);
         beside.description = note("Equivalent to an octahedral platform and nearest to");
-        Some(Self { found, octahedral, beside })
+        Some(Self { found, octahedral, beside: beside.into() })
     }
 }
 

@@ -14,11 +14,15 @@ pub(crate) mod bench;
 mod capi;
 #[cfg(feature = "cli")]
 pub mod cli;
+#[cfg(feature = "files")]
+pub(crate) mod design;
 pub(crate) mod entrance;
 #[cfg(feature = "files")]
 pub(crate) mod equivalents;
 #[cfg(feature = "page")]
 pub(crate) mod page;
+#[cfg(feature = "files")]
+pub(crate) mod presets;
 #[cfg(feature = "python")]
 mod python;
 #[cfg(feature = "page")]
@@ -27,3 +31,6 @@ pub mod records;
 pub(crate) mod report;
 #[cfg(feature = "sweep")]
 pub(crate) mod sweep;
+
+#[cfg(feature = "files")]
+pub use design::Design;

@@ -100,7 +100,7 @@ fn free_grids_are_told_written_and_no_worse() {
             assert!((c - c.round()).abs() < 1e-9, "{p} is on no hole");
         }
     }
-    assert!(written.description.unwrap().contains("turned by"));
+    assert!(written.description.as_ref().unwrap().contains("turned by"));
 }
 
 /// The design of [`design`] with housings that have no room.

@@ -49,6 +49,17 @@ fn poses_and_leg_maps_do_not_reach_each_other() {
     assert!(seen("verify").is_superset(&["fk", "synthesis"].map(str::to_owned).into()));
 }
 
+/// The order of `docs/architecture.md`. Kernels know no design files.
+#[test]
+fn rooms_see_only_rooms_above_them() {
+    let rooms = ["num", "platform", "fk", "synthesis", "verify", "machine", "files", "optimize"];
+    for (k, room) in rooms.into_iter().enumerate() {
+        let seen = seen(room);
+        assert!(seen.iter().all(|name| rooms[..k].contains(&name.as_str())), "{room}: {seen:?}");
+        assert!(!seen.contains("files"), "{room} is a kernel");
+    }
+}
+
 #[test]
 fn certificates_name_nothing_that_finds_roots() {
     let (all, certify) = (source("fk/solve/mod").replace("mod ", "use "), source("fk/solve/certify"));

@@ -80,7 +80,7 @@ fn every_figure_is_sourced_or_marked_as_chosen() {
     for preset in PRESETS {
         assert_eq!(unexplained(preset.text), [""; 0], "{}", preset.name);
         let (design, _) = parse_with_cranks(preset.text, Format::Toml).unwrap();
-        let source = design.source.unwrap();
+        let source = design.source.as_ref().unwrap();
         assert!(source.contains("https://"), "{}: an address", preset.name);
         assert!(preset.text.contains("# sourced") && preset.text.starts_with("# Sourced"), "{}", preset.name);
     }

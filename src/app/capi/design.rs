@@ -6,8 +6,10 @@ use nalgebra::Point3;
 
 use super::failure::{CallFault, EqpError, EqpStatus, give, items, places, read, take_back, told, write};
 use super::pose::EqpPose;
+use crate::app::Design;
+use crate::app::design::parse;
 use crate::app::entrance::Error;
-use crate::files::design::{Design, Format, parse};
+use files::design::Format;
 use machine::requirements::Requirements;
 use platform::manipulator::{Leg, Manipulator, jacobian};
 

@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::app::entrance::Error;
-use crate::files::design::Code;
+use files::design::Code;
 
 /// What became of a call.
 #[repr(C)]

@@ -9,8 +9,9 @@ use super::context::Context;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::files::{self, OutputPath};
+use crate::app::Design;
 use crate::app::records::{AlignmentRecord, FramesRecord};
-use crate::files::design::Design;
+use ::files::design::DesignModel;
 use num::linalg::LinalgError;
 use num::shown::fixed;
 use platform::geom::Pose;
@@ -144,7 +145,7 @@ impl Second {
             let pose = if self.exchange { inverse(pose) } else { *pose };
             motion.map_or(pose, |(g, h)| after(g, &after(&pose, &inverse(h))))
         };
-        let mut design = Design::new(format!("{}, moved", b.name), &b.units, self.manipulator.clone())
+        let mut design = DesignModel::new(format!("{}, moved", b.name), &b.units, self.manipulator.clone())
             .with_joint_names(base, platform)
             .map_err(|e| Failure::internal(e.to_string()))?;
         (design.source, design.description) = (b.source.clone(), b.description.clone());
@@ -153,7 +154,7 @@ impl Second {
         // in the base frame: home is not the same pose in the new frames
         design.workspace.poses = b.workspace.space(&b.home_or_default()).poses.iter().map(moved).collect();
         // a motion that is found numerically leaves no exact joint: three numbers each
-        Ok(if motion.is_none() { design.exchanged_from(b) } else { design })
+        Ok(if motion.is_none() { design.exchanged_from(b) } else { design }.into())
     }
 
     /// Fields for the document.

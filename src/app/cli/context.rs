@@ -10,8 +10,10 @@ use super::diagnostic;
 use super::failure::Failure;
 use super::files;
 use super::rows;
+use crate::app::Design;
+use crate::app::design::{DesignOrViolations, parse, parse_ideal, parse_with_cranks};
 use crate::app::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
-use crate::files::design::{Design, Format, Violation, Warning, parse, parse_ideal, parse_with_cranks};
+use ::files::design::{Format, Warning};
 use machine::coupled::CoupledLegs;
 use machine::rotary::RotaryPlatform;
 
@@ -35,9 +37,6 @@ pub(crate) struct FileWarning {
     pub(crate) path: String,
     pub(crate) warning: Warning,
 }
-
-/// A design with its warnings, or what is wrong with its text.
-type DesignOrViolations = Result<(Design, Vec<Warning>), Vec<Violation>>;
 
 /// Global options and the warnings gathered on the way.
 #[derive(Debug)]

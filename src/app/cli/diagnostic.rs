@@ -8,7 +8,7 @@ use std::io::Write as _;
 use anstyle::{AnsiColor, Style};
 
 use super::failure::Failure;
-use crate::files::design::{Violation, Warning};
+use files::design::{Violation, Warning};
 use num::names::changes_direction;
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
@@ -136,7 +136,8 @@ pub(crate) fn harmless(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Format, parse};
+    use crate::app::design::parse;
+    use files::design::Format;
 
     #[test]
     fn shows_the_line_with_a_caret_and_the_help() {

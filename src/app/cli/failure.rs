@@ -2,7 +2,7 @@
 
 use super::exit::Exit;
 use crate::app::records::{FailureRecord, ViolationRecord};
-use crate::files::design::Violation;
+use files::design::Violation;
 
 /// A refusal or failure: what `"error"` holds in JSON and standard error shows.
 #[derive(Debug, Clone)]

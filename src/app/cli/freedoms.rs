@@ -2,8 +2,8 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use crate::files::design::Design;
-use crate::files::plot::SliceAxis;
+use crate::app::Design;
+use files::plot::SliceAxis;
 use platform::geom::Pose;
 
 const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];

@@ -1,7 +1,8 @@
 //! Poses from the command line.
 
 use super::failure::Failure;
-use crate::files::design::{Design, Workspace};
+use crate::app::Design;
+use files::design::Workspace;
 use machine::requirements::PoseSpace;
 use platform::geom::{InvalidPose, Pose};
 

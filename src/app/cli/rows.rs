@@ -5,7 +5,7 @@ use std::path::Path;
 use super::context::Context;
 use super::failure::Failure;
 use super::files;
-use crate::files::design::{InvalidSeries, SeriesKind, TimeSeries};
+use ::files::design::{InvalidSeries, SeriesKind, TimeSeries};
 use platform::geom::{InvalidPose, Pose};
 
 /// What a table is called when it is refused.

@@ -23,7 +23,7 @@ use crate::app::records::{
 use crate::app::sweep::part::{PartError, PartReader, PartWriter};
 use crate::app::sweep::plan::{self, BaseName, BasePlan, PlanFiles, PlanText};
 use crate::app::sweep::{Digested, RowChunk, Sweep, SweepCell, digest_of};
-use crate::files::design::{Format, Violation};
+use ::files::design::{Format, Violation};
 
 /// The file that says what the folder is of.
 const SWEEP: &str = "sweep.json";

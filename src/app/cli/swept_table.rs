@@ -60,7 +60,7 @@ impl SweptTable {
     pub(crate) fn column(&self, name: &str) -> Result<usize, Failure> {
         let names: Vec<&str> = self.columns.iter().map(|c| c.name.as_str()).collect();
         names.iter().position(|n| *n == name).ok_or_else(|| {
-            let help = crate::files::design::spanned::nearest_help("columns", name, &names);
+            let help = files::design::spanned::nearest_help("columns", name, &names);
             Failure::refused("sweep::no_column", format!("the table has no column `{name}`")).with_help(help)
         })
     }

@@ -1,6 +1,6 @@
 //! Tables for other programs: a header with units, then numbers that read back to the same double.
 
-use crate::files::export::csv_field;
+use files::export::csv_field;
 
 /// Cells on a line, each as [`csv_field`] has it.
 pub(crate) fn csv_line(cells: &[impl AsRef<str>]) -> String {

@@ -5,7 +5,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use super::failure::Failure;
 use super::guide::{self, GuideEntry};
-use crate::files::design::{likeness, nearest_word};
+use files::design::{likeness, nearest_word};
 
 /// Words nearer than this to a name are taken for it (similarity of Jaro and Winkler).
 const NEAR: f64 = 0.9;

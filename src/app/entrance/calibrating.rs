@@ -3,7 +3,8 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::Error;
-use crate::files::design::{CalibratedNumber, CalibrationTable, Correlations, Design};
+use crate::app::Design;
+use files::design::{CalibratedNumber, CalibrationTable, Correlations};
 use machine::calibration::{
     CalibrateOptions, Calibration, CarriedFrames, LegModel, Measurement, Unknown, Unknowns, calibrate,
 };
@@ -151,7 +152,8 @@ pub(crate) fn unknown_names(design: &Design, unknowns: &Unknowns) -> Vec<String>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Format, parse};
+    use crate::app::design::parse;
+    use files::design::Format;
     use machine::calibration::{MeasurementNoise, pose_deviation};
     use nalgebra::Point3;
     use num::Rng;

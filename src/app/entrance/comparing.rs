@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::judging::{AssessReport, deciding};
 use super::moving::{MotionMasses, MotionReport, PlatformMotion};
-use crate::files::design::Design;
+use crate::app::Design;
 use machine::dynamics::{least_stiffness, mass_matrix, stiffness_matrix, vibration};
 use machine::manufacture::{ErrorBound, PoseSearch, ToleranceError, joint_allowance};
 use machine::requirements::{Terms, leg_forces};

@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 use super::Error;
 use super::optimizing::OptimizeStatus;
 use super::platform_search::{FoundPlatform, find_platform};
-use crate::files::design::{Design, Drive};
+use crate::app::Design;
+use files::design::Drive;
 use machine::requirements::TermKind;
 use optimize::dimensional::{DimensionalOutcome, Progress, ShapeSearchOptions};
 
@@ -230,7 +231,8 @@ fn stronger<'t>(design: &Design, tried: &'t [SearchedDrive], drive: &Drive) -> O
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Format, parse};
+    use crate::app::design::parse;
+    use files::design::Format;
     use machine::requirements::LengthLimits;
 
     fn drive(name: &str, (least, stroke): (f64, f64), force: Option<f64>, price: Option<f64>) -> Drive {

@@ -4,7 +4,8 @@ use std::cmp::Ordering;
 
 use super::judging::{ASSESS_CELLS, BRIEF_CELLS, PATIENT_CELLS, deciding};
 use super::{AssessReport, MotionMasses, MotionReport, PlatformMotion};
-use crate::files::design::{Design, DesignUnits, Drive};
+use crate::app::Design;
+use files::design::{DesignUnits, Drive};
 use machine::requirements::{MarginProof, Requirements, least_conditioning, prove};
 use synthesis::singularity::regular_workspace;
 

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::Error;
-use crate::files::design::Design;
+use crate::app::Design;
 use fk::{FkOptions, Threads};
 use num::Cancel;
 use platform::geom::SamplePlan;

@@ -8,9 +8,9 @@ use thiserror::Error;
 #[cfg(all(feature = "files", feature = "optimize"))]
 use super::SingularHome;
 #[cfg(feature = "files")]
-use crate::files::design::{JointError, Violation};
+use files::design::{JointError, Violation};
 #[cfg(feature = "files")]
-use crate::files::export::{NoExport, Unsupported};
+use files::export::{NoExport, Unsupported};
 use fk::FkError;
 #[cfg(feature = "synthesis")]
 use machine::calibration::CalibrationError;

@@ -1,8 +1,8 @@
 //! Designs for other programs.
 
 use super::Error;
-use crate::files::design::Design;
-use crate::files::export::{EquivalentOctahedral, Export, ExportFormat, ExportOptions, ExportedFile};
+use crate::app::Design;
+use files::export::{EquivalentOctahedral, Export, ExportFormat, ExportOptions, ExportedFile};
 use machine::manufacture::equivalent_octahedral;
 use platform::manipulator::{Manipulator, Octahedral};
 use synthesis::{LegMapTolerances, leg_map};

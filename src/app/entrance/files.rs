@@ -5,11 +5,10 @@ use std::path::Path;
 use super::Error;
 #[cfg(not(target_family = "wasm"))]
 use super::whole::WholeFile;
-use crate::files::design::{Design, Format, SeriesKind, Violation, Warning, parse};
+use crate::app::Design;
+use crate::app::design::{DesignOrViolations, parse};
+use files::design::{Format, SeriesKind, Warning};
 use platform::geom::InvalidPose;
-
-/// What reading a text gives.
-type DesignOrViolations = Result<(Design, Vec<Warning>), Vec<Violation>>;
 
 impl Design {
     /// Reads a design file, TOML or, where the name ends in `.json`, JSON, and the table of its trajectory where it names one. What is allowed but
@@ -31,7 +30,7 @@ impl Design {
     /// As [`load`](Self::load), also a design whose legs are rods on cranks, for callers that know what to do with it.
     #[cfg(feature = "python")]
     pub(crate) fn load_ideal(path: impl AsRef<Path>) -> Result<Self, Error> {
-        Self::load_by(path.as_ref(), crate::files::design::parse_ideal)
+        Self::load_by(path.as_ref(), crate::app::design::parse_ideal)
     }
 
     fn load_by(path: &Path, parsed: fn(&str, Format) -> DesignOrViolations) -> Result<Self, Error> {
@@ -48,7 +47,7 @@ impl Design {
         Ok(design)
     }
 
-    /// Writes the design, as JSON where the name ends in `.json`, else as TOML with the comments of the file it is from ([`text`](Self::text)). The file
+    /// Writes the design, as JSON where the name ends in `.json`, else as TOML with the comments of the file it is from ([`text`](files::design::DesignModel::text)). The file
     /// appears whole or not at all.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::optimizing::{Checked, checked, dimensional_problem};
 use super::platform_search::keeps_symmetry_of_start;
-use crate::files::design::Design;
+use crate::app::Design;
 use machine::requirements::{Envelope, LengthLimits, PlateDesign, TermKind, VariableKind};
 use optimize::dimensional::{
     ConstraintConflict, Demand, DimensionalOutcome, DimensionalProblem, DimensionalReport,

@@ -1,6 +1,6 @@
 //! Do the legs or rods hold the platform at home?
 
-use crate::files::design::Design;
+use crate::app::Design;
 use platform::geom::Pose;
 use synthesis::singularity::{Architecture, PoseHold, SingularEvidence, hold_at};
 

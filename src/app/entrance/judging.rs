@@ -3,8 +3,9 @@
 use std::time::Instant;
 
 use super::{Error, SingularHome};
+use crate::app::Design;
 use crate::app::equivalents::Equivalents;
-use crate::files::design::{Design, Workspace};
+use files::design::Workspace;
 use fk::solve::pose_count::{
     CommonPoints, CountOptions, PoseCount, count_common_points, count_generic_poses,
 };

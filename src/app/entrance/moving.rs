@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix6, Vector6};
 
-use crate::files::design::Design;
+use crate::app::Design;
 use machine::dynamics::{
     LeastStiffness, LegExtremes, LegInstant, LegMotion, Manoeuvre, MotionState, MovingBodies, PosePath,
     Vibration, drive_forces, least_stiffness, leg_motions, mass_matrix, stiffness_matrix, vibration,
@@ -170,7 +170,7 @@ pub(crate) struct MotionMasses {
 }
 
 impl Design {
-    /// What forces are computed from: [what moves with the platform](Self::moving_payload) and the masses of the legs, where one design unit is so many metres. `None` where nothing is known to.
+    /// What forces are computed from: [what moves with the platform](files::design::DesignModel::moving_payload) and the masses of the legs, where one design unit is so many metres. `None` where nothing is known to.
     pub(crate) fn motion_masses(&self, metres: f64, load: Option<Load>) -> Option<MotionMasses> {
         let newtons = self.force_unit().newtons();
         let bodies = self.moving_bodies(metres)?;

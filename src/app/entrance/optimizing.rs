@@ -6,7 +6,8 @@ use std::time::Instant;
 use super::equivalence::sample_plan;
 use super::platform_search::find_platform;
 use super::{AssessReport, Error, SingularHome};
-use crate::files::design::{Combination, Design, Origin};
+use crate::app::Design;
+use files::design::{Combination, DesignModel, Origin};
 use fk::{FkOptions, Threads};
 use machine::requirements::{
     AssessOptions, Assessment, JointAxes, Objective, Requirements, StartSymmetry, TermKind, VariableKind,
@@ -396,7 +397,7 @@ pub(crate) fn asks_for_more(design: &Design) -> bool {
         reserves: design.reserves.clone(),
         ..Requirements::default()
     };
-    design.search != crate::files::design::SearchTable::default()
+    design.search != files::design::SearchTable::default()
         || design.requirements() != plain
         || Octahedral::recognise(design.manipulator()).is_err()
 }
@@ -458,11 +459,11 @@ pub(crate) fn optimised_design(
         design.name,
         s.recheck.objective
     ));
-    out.with_tables_of(design)
+    out.with_tables_of(design).into()
 }
 
 /// The platform with names: vertices keep theirs, an edge joint is named after its edge and given by its offset on it.
-fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator, t: [f64; 6]) -> Design {
+fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator, t: [f64; 6]) -> DesignModel {
     let (base, platform) = (design.base_names(), design.platform_names());
     let base_name = |k: usize| base[o.base_indices()[k % 3]].clone();
     let platform_name = |k: usize| platform[o.platform_indices()[k % 3]].clone();
@@ -485,7 +486,8 @@ fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator, t: [f64; 
             Body::Platform => (Origin::Kept(corner(first, k + 1)), edge(second)),
         };
     }
-    let plain = Design::new(format!("{}, separate joints", design.name), design.units.clone(), m.clone());
+    let plain =
+        DesignModel::new(format!("{}, separate joints", design.name), design.units.clone(), m.clone());
     let distinct = |v: &[String]| v.iter().enumerate().all(|(i, x)| !v[..i].contains(x));
     let named =
         if distinct(&a) && distinct(&b) { plain.clone().with_joint_names(a, b) } else { Ok(plain.clone()) };
@@ -685,7 +687,7 @@ fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolut
         joint_free_design(design, &o, own.as_ref().map_or(&s.manipulator, |(m, _)| m), t)
     } else {
         let name = format!("{}, optimised", design.name);
-        let plain = Design::new(name, design.units.clone(), s.manipulator.clone());
+        let plain = DesignModel::new(name, design.units.clone(), s.manipulator.clone());
         let (base, platform) = (design.base_names().to_vec(), design.platform_names().to_vec());
         let kept = [base.len(), platform.len()].map(|n| (0..n).map(Origin::Kept).collect::<Vec<_>>());
         let named = plain.clone().with_joint_names(base, platform);
@@ -711,7 +713,7 @@ fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolut
             swing.axes = JointAxes::Given(axes);
         }
     }
-    out
+    out.into()
 }
 
 #[cfg(test)]

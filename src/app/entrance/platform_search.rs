@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use super::Error;
 use super::optimizing::{Checked, Judging, OptimizeStatus, checked, dimensional_problem, dimensional_status};
-use crate::files::design::Design;
+use crate::app::Design;
 use machine::manufacture::holes_turn;
 use machine::requirements::{KeptSymmetry, StartSymmetry};
 use optimize::dimensional::{

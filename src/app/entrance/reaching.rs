@@ -1,7 +1,7 @@
 //! How far the platform may move from a pose, and where the nearest allowed pose is.
 
 use super::Error;
-use crate::files::design::Design;
+use crate::app::Design;
 use machine::reach::{FreeRange, NearestPose, NearestPoseOptions, Reach};
 use platform::geom::Pose;
 

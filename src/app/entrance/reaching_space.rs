@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::judging::regular_region;
-use crate::files::design::Design;
+use crate::app::Design;
 use machine::reach::{FreeRay, largest_box_within, volume_of_rays};
 use machine::requirements::{AssessOptions, Limit, Requirements, assess, prove};
 use platform::geom::{Pose, PoseSpace, Region};

@@ -11,7 +11,8 @@ use super::AssessReport;
 use super::Error;
 #[cfg(feature = "optimize")]
 use super::optimizing::{EXTENSION, checked, dimensional_problem, met_or_nothing_required};
-use crate::files::design::Design;
+use crate::app::Design;
+use files::design::DesignModel;
 use machine::manufacture::{NoRounding, Rounding, RoundingProblem, round_to_grid};
 use machine::requirements::{Grid, HolePattern};
 #[cfg(feature = "optimize")]
@@ -101,7 +102,7 @@ impl Design {
 
     /// This design with its joints on the holes of grids, where a rounding has put them.
     pub(crate) fn on_holes(&self, way: RoundingWay, m: &Manipulator, grids: &[Option<Grid>; 2]) -> Self {
-        let plain = Self::new(format!("{}, rounded", self.name), self.units.clone(), m.clone());
+        let plain = DesignModel::new(format!("{}, rounded", self.name), self.units.clone(), m.clone());
         let (base, platform) = (self.base_names().to_vec(), self.platform_names().to_vec());
         let mut out = plain.clone().with_joint_names(base, platform).unwrap_or(plain);
         out.description = Some(format!(
@@ -113,7 +114,7 @@ impl Design {
             grid_in_words(grids[1].as_ref())
         ));
         let decimals = [0, 1].map(|body| decimals(grids[body].as_ref()?, m.joints(Body::BOTH[body])));
-        out.with_tables_of(self).at_decimals(decimals.each_ref().map(Option::as_deref))
+        out.with_tables_of(self).at_decimals(decimals.each_ref().map(Option::as_deref)).into()
     }
 }
 

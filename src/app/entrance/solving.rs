@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Error;
 #[cfg(feature = "files")]
-use crate::files::design::Design;
+use crate::app::Design;
 use fk::{
     FkOptions, FkSolutions, ForwardKinematics, NearOutcome, NearSolver, PreparedDesign, Threads, solver,
 };
@@ -80,7 +80,7 @@ impl Kinematics for Manipulator {
 #[cfg(feature = "files")]
 impl Design {
     /// Forward kinematics: all finite poses, real and complex, at the lengths that the legs show; `&LegLengths` or six numbers.
-    /// The joints of a calibrated design are as far apart as a leg shows, less its [offset](Self::leg_offsets).
+    /// The joints of a calibrated design are as far apart as a leg shows, less its [offset](files::design::DesignModel::leg_offsets).
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -117,7 +117,7 @@ impl Design {
         self.manipulator().fk_with::<&LegLengths>(&distances, options)
     }
 
-    /// Inverse kinematics: the lengths that the legs show at a pose, with the [offsets](Self::leg_offsets) of a calibration.
+    /// Inverse kinematics: the lengths that the legs show at a pose, with the [offsets](files::design::DesignModel::leg_offsets) of a calibration.
     ///
     /// # Errors
     /// [`Error::Overflow`] for a pose so far away that lengths overflow; an offset that makes a length negative.

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::request::Refusal;
 use super::session::{InvalidStart, Session};
-use crate::files::design::{Format, HexapodSizes, PRESETS, PointTable, Violation, parse};
+use crate::app::design::parse;
+use crate::app::presets::PRESETS;
+use files::design::{Format, HexapodSizes, PointTable, Violation};
 
 /// A hexapod as makers describe it: pairs of joints on two circles.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

@@ -8,7 +8,7 @@ use super::base64;
 use super::request::{Chosen, Opening, Request, Which};
 use super::session::Session;
 use crate::app::records::PoseRecord;
-use crate::files::plot::escape;
+use files::plot::escape;
 use platform::geom::Pose;
 
 /// The core compiled to WebAssembly, compressed by gzip; `tests/page/README.md` says how it is made and compared with its sources.

@@ -1,9 +1,9 @@
 //! What a platform has to satisfy over its whole workspace: the answer of `assess`.
 
 use super::request::Refusal;
+use crate::app::Design;
 use crate::app::entrance::Error;
 use crate::app::records::AssessAnswer;
-use crate::files::design::Design;
 use machine::requirements::AssessOptions;
 
 /// What [`Design::assess`] finds with these numbers; a design that requires nothing is refused as there.

@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::request::Chosen;
 use super::session::{Equivalent, Session};
+use crate::app::Design;
 use crate::app::equivalents::Original;
 use crate::app::records::PoseRecord;
-use crate::files::design::Design;
 use machine::requirements::Hardware;
 use platform::manipulator::Body;
 use synthesis::singularity::SingularityVerdict;

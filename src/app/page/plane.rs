@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::Equivalent;
-use crate::files::plot::ValueGrid;
+use files::plot::ValueGrid;
 
 /// Most points a side.
 const MOST: usize = 201;

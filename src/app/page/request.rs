@@ -5,8 +5,9 @@ use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
 use super::{begin, feasible, limits, modes, motion, opening, path, plane, scene, surface, worst};
+use crate::app::design::parse_ideal;
 use crate::app::records::PoseRecord;
-use crate::files::design::{Format, parse_ideal};
+use files::design::Format;
 use machine::requirements::AssessOptions;
 use platform::geom::{Angles, Pose};
 use synthesis::Pattern;
@@ -221,16 +222,12 @@ impl Session {
             Request::Design { which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
                 let (toml, json) = (design.to_toml(), design.to_json());
-                Ok(value(FileRecord { name: design.name, toml, json }))
+                Ok(value(FileRecord { name: design.name.clone(), toml, json }))
             }
         }
     }
 
-    fn platform(
-        &self,
-        which: Which,
-        equivalent: Option<Equivalent>,
-    ) -> Result<crate::files::design::Design, Refusal> {
+    fn platform(&self, which: Which, equivalent: Option<Equivalent>) -> Result<crate::app::Design, Refusal> {
         match (which, equivalent) {
             (Which::First, _) => Ok(self.first().clone()),
             (Which::Second, Some(e)) => Ok(self.second(&e)?.0),

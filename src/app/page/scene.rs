@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
+use crate::app::Design;
 use crate::app::records::{CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
-use crate::files::design::Design;
 use machine::requirements::{Margin, Term, TermKind, Terms};
 use machine::rotary::RotaryPlatform;
 use platform::geom::Pose;

@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 
+use crate::app::Design;
 use crate::app::equivalents::Original;
-use crate::files::design::Design;
 use machine::rotary::RotaryPlatform;
 use optimize::offsets::OffsetProblem;
 use platform::geom::Pose;

@@ -7,8 +7,8 @@ use super::opening::reach;
 use super::request::Refusal;
 use super::scene::sign;
 use super::session::Equivalent;
-use crate::files::design::Design;
-use crate::files::plot::{TriangleSurface, ValueBox};
+use crate::app::Design;
+use files::plot::{TriangleSurface, ValueBox};
 use platform::geom::Pose;
 use platform::manipulator::jacobian;
 

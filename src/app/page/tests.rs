@@ -3,8 +3,11 @@
 use serde_json::{Value, json};
 
 use super::{Session, page};
+use crate::app::Design;
+use crate::app::design::parse;
+use crate::app::presets::PRESETS;
 use crate::app::records::AssessAnswer;
-use crate::files::design::{Design, Format, PRESETS, parse};
+use files::design::Format;
 use machine::requirements::{AssessOptions, assess};
 use platform::geom::{Angles, Pose};
 use synthesis::{LegMapTolerances, leg_map};
@@ -512,7 +515,7 @@ fn the_surface_of_singular_positions_is_where_the_sign_of_det_j_changes() {
 
 #[test]
 fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths() {
-    let preset = crate::files::design::PRESETS.iter().find(|p| p.name == "reachy-mini").unwrap();
+    let preset = crate::app::presets::PRESETS.iter().find(|p| p.name == "reachy-mini").unwrap();
     let session = Session::open(&json!({"design": preset.text, "start": null}).to_string()).unwrap();
     let open = ask(&session, &json!({"op": "open"}));
     assert_eq!(

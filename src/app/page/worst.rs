@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
+use crate::app::Design;
 use crate::app::records::PoseRecord;
-use crate::files::design::Design;
 use platform::geom::Pose;
 use platform::manipulator::{Manipulator, inverse_condition, jacobian};
 

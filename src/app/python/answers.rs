@@ -9,17 +9,14 @@ use serde::Serialize;
 
 use super::design::{NativeDesign, OF_LEG_MAPS, threads_of};
 use super::failure::{interrupted, raised};
+use crate::app::Design;
 use crate::app::entrance::{self, VerifyOptions, sample_plan};
+use crate::app::presets::PRESETS;
 use crate::app::records::{Document, FramesRecord, MapAnswer, ProvenanceRecord, VerifyAnswer};
-use crate::files::design::{self, PRESETS};
 use synthesis::LegCorrespondence;
 
 /// The document of an answer about designs, as the command line prints it.
-pub(super) fn document(
-    answer: impl Serialize,
-    designs: &[&design::Design],
-    seed: Option<u64>,
-) -> PyResult<String> {
+pub(super) fn document(answer: impl Serialize, designs: &[&Design], seed: Option<u64>) -> PyResult<String> {
     let whole = Document::new(answer, ProvenanceRecord::of(designs, seed), Vec::new());
     serde_json::to_string(&whole).map_err(|e| PyRuntimeError::new_err(e.to_string()))
 }

@@ -13,9 +13,12 @@ use super::arrays::{as_it_stands, at_poses, lengths_in, matrices, pose_entries, 
 use super::failure::{interrupted, interruptible, raised, refused, refused_for_cranks};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};
 use super::tracker::{Followed, NativeTracker};
+use crate::app::Design;
+use crate::app::design::parse_ideal;
 use crate::app::entrance::{Error, Solver, solve_angles};
+use crate::app::presets::PRESETS;
 use crate::app::records::{AssessAnswer, CheckAnswer};
-use crate::files::design::{self, Format, PRESETS, parse_ideal};
+use files::design::Format;
 use fk::{FkOptions, Method, Threads};
 use machine::requirements::{AssessOptions, Terms};
 use machine::rotary::{InvalidRotary, RotaryPlatform, RotaryTracker};
@@ -30,7 +33,7 @@ type WithLegMap<'py> = (NativeDesign, Bound<'py, PyArray2<f64>>, Bound<'py, PyAr
 /// A platform with names, units, home pose and requirements.
 #[pyclass(frozen, name = "Design", module = "equipod._core")]
 pub(super) struct NativeDesign {
-    design: Arc<design::Design>,
+    design: Arc<Design>,
     /// Where the legs are rods on cranks.
     cranks: Result<Option<RotaryPlatform>, InvalidRotary>,
     /// Prepared with the default options, for batches.
@@ -41,11 +44,11 @@ pub(super) struct NativeDesign {
 type CrankArrays<'py> = [Bound<'py, PyArrayDyn<f64>>; 4];
 
 impl NativeDesign {
-    pub(super) fn of(design: design::Design) -> Self {
+    pub(super) fn of(design: Design) -> Self {
         Self { cranks: design.rotary(), design: Arc::new(design), solver: OnceLock::new() }
     }
 
-    pub(super) fn inner(&self) -> &design::Design {
+    pub(super) fn inner(&self) -> &Design {
         &self.design
     }
 
@@ -110,7 +113,7 @@ impl NativeDesign {
     /// Reads a file.
     #[staticmethod]
     fn load(py: Python<'_>, path: std::path::PathBuf) -> PyResult<Self> {
-        design::Design::load_ideal(path).map(Self::of).map_err(|e| raised(py, e))
+        Design::load_ideal(path).map(Self::of).map_err(|e| raised(py, e))
     }
 
     /// Reads a text, TOML or JSON.
@@ -144,13 +147,13 @@ impl NativeDesign {
     ) -> PyResult<Self> {
         let made = Manipulator::try_new(points(py, &base)?, points(py, &platform)?, legs);
         let manipulator = made.map_err(|e| raised(py, e.into()))?;
-        Ok(Self::of(design::Design::new(name, units, manipulator)))
+        Ok(Self::of(Design::new(name, units, manipulator)))
     }
 
     /// The design with another home pose.
     fn with_home(&self, py: Python<'_>, pose: PyReadonlyArray3<'_, f64>) -> PyResult<Self> {
         let home = poses_in(py, &pose.as_array())?.into_iter().next();
-        let mut design = design::Design::clone(&self.design);
+        let mut design = Design::clone(&self.design);
         design.home = home;
         Ok(Self::of(design))
     }

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::app::entrance::Error;
-use crate::files::design::Code;
+use files::design::Code;
 
 /// What is wrong with one place of a design.
 type TextFault = (String, usize, usize, String, String);

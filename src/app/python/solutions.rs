@@ -11,9 +11,9 @@ use pyo3::prelude::*;
 use super::answers::document;
 use super::arrays::complex_matrices;
 use super::failure::raised;
+use crate::app::Design;
 use crate::app::entrance::Error;
 use crate::app::records::{FkOneAnswer, SolvedRecord};
-use crate::files::design::Design;
 use fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
 use machine::rotary::RotaryPlatform;
 

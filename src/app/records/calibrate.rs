@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord, PoseRecord};
+use crate::app::Design;
 use crate::app::entrance::calibrating::{carried, unknown_names};
-use crate::files::design::Design;
 use machine::calibration::{
     Calibration, CalibrationStatus, CarriedFrames, FrameMotion, LegModel, Loss, LossUnit, MeasurementNoise,
     NoiseSource, Observability, Outlier, PoseDeviation, ResidualSpread, StartName, UnobservableChange,

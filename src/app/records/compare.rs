@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::nearest::short;
 use super::{AssessAnswer, JudgedPosesRecord, LightestDriveRecord, Number};
+use crate::app::Design;
 use crate::app::entrance::DesignFigures;
-use crate::files::design::{Design, JudgedForces};
+use files::design::JudgedForces;
 
 /// The answer of `compare`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

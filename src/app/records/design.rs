@@ -6,7 +6,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::files::design::{Design, SCHEMA};
+use crate::app::Design;
+use files::design::SCHEMA;
 
 /// A design as it stands in a design file in JSON.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

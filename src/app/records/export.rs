@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{AssessAnswer, Number};
-use crate::files::export::{Export, ExportFormat, SizeChoice};
+use files::export::{Export, ExportFormat, SizeChoice};
 
 /// The answer of `export`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::map::matrix;
 use super::{Number, leg_number};
+use crate::app::Design;
 use crate::app::equivalents::Original;
-use crate::files::design::Design;
 use platform::manipulator::Body;
 use synthesis::{
     AffineLegMap, Family, FamilyCounts, FamilyMember, HexagonPoint, InstantiateError, JointLabel, Pattern,

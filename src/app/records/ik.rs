@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     DriveLengthsRecord, Number, PoseRecord, PoseUncertaintyRecord, RotaryIkRecord, RotaryIkRowsAnswer,
 };
-use crate::files::design::Design;
+use crate::app::Design;
 use machine::coupled::{CoupledLegs, DriveState};
 use machine::manufacture::MachineUncertainty;
 use machine::requirements::{JointAngles, TermKind, Terms};

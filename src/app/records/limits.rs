@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord};
+use crate::app::Design;
 use crate::app::entrance::{FreeSize, FreeTurn, WorkspaceSize};
-use crate::files::design::Design;
 use machine::reach::{FreeRange, NearestPose, PoseAxis, Reach, StraightWay, Travel};
 use machine::requirements::{Limit, TermKind};
 use platform::geom::Pose;

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Number;
-use crate::files::plot::LocusMeeting;
+use files::plot::LocusMeeting;
 use fk::Method;
 
 /// The answer of `plot locus`.

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{MarginRecord, Number, PoseQuaternionRecord};
+use crate::app::Design;
 use crate::app::entrance::{MotionReport, StiffnessReport, TimedMargin};
-use crate::files::design::Design;
 use machine::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vibration};
 use synthesis::singularity::SingularEvidence;
 

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{DesignRecord, Number, PoseQuaternionRecord, SourceWord};
+use crate::app::Design;
 use crate::app::equivalents::NearestDesigns;
-use crate::files::design::Design;
 use platform::geom::Pose;
 use synthesis::{LengthDeviation, NearestOptions, length_deviation};
 

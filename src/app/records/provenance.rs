@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::files::design::Design;
+use crate::app::Design;
 
 /// What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a machine in it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -78,7 +78,8 @@ pub fn sha256(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Format, parse};
+    use crate::app::design::parse;
+    use files::design::Format;
 
     #[test]
     fn a_design_in_memory_has_the_hash_of_its_file_until_it_is_changed() {

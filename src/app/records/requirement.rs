@@ -4,8 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{LightestDriveRecord, Number, PoseQuaternionRecord};
+use crate::app::Design;
 use crate::app::entrance::{AssessReport, JudgedPoses};
-use crate::files::design::{Design, JudgedForces};
+use files::design::JudgedForces;
 use machine::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
 use synthesis::singularity::Regularity;
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::uncertainty::{CorrelationsWord, in_degrees};
 use super::{AssessAnswer, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
-use crate::files::design::Design;
+use crate::app::Design;
 use machine::manufacture::{
     ErrorAtPose, ErrorKind, ErrorParts, Joint, JointBudget, LimitedAllowance, MachineErrors, PoseCovariance,
     Trials,

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Number;
-use crate::files::design::Design;
+use crate::app::Design;
 use machine::manufacture::{MachineUncertainty, PoseCovariance};
 use platform::geom::Pose;
 

@@ -7,7 +7,7 @@ use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use super::facts::digits;
 use crate::app::page::strict_policy;
 use crate::app::records::{CompareAnswer, FigureCell};
-use crate::files::plot::escape;
+use files::plot::escape;
 
 const STYLE: &str = concat!(include_str!("style.css"), include_str!("comparison.css"));
 const SCRIPT: &str = include_str!("comparison.js");

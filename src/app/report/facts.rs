@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value};
 
-use crate::files::plot::escape;
+use files::plot::escape;
 
 /// Rows of a list that are shown.
 const ROWS: usize = 24;

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::facts::digits;
-use crate::files::design::Design;
-use crate::files::plot::escape;
+use crate::app::Design;
+use files::plot::escape;
 
 /// Legs with their joints and home lengths, and the file as it is.
 pub(super) fn section(name: &str, text: &str, design: &Design) -> String {

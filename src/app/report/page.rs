@@ -7,10 +7,12 @@ use serde_json::{Map, Value};
 
 use super::kind::{ResultVerdict, heading, verdict};
 use super::{Report, ReportFile, comparison, facts, inputs, parts, requirements};
+use crate::app::Design;
+use crate::app::design::parse;
 use crate::app::page::policy;
 use crate::app::records::{DesignRoleWord, sha256};
-use crate::files::design::{Design, Format, parse};
-use crate::files::plot::escape;
+use files::design::Format;
+use files::plot::escape;
 
 const STYLE: &str = concat!(include_str!("style.css"), include_str!("comparison.css"));
 

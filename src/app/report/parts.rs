@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::facts::words;
-use crate::files::plot::escape;
+use files::plot::escape;
 
 /// How the line of titles of a bill of materials begins.
 const TITLES: &str = "part,count,";

@@ -8,7 +8,7 @@ use super::facts::{digits, words};
 use super::kind::ResultVerdict;
 use super::page::badge;
 use crate::app::records::DesignRoleWord;
-use crate::files::plot::escape;
+use files::plot::escape;
 
 /// The table of a result of `assess`, or of one that carries such an assessment; `link` leads to its file.
 pub(super) fn section(link: &str, fields: &Map<String, Value>) -> Option<String> {

@@ -507,7 +507,8 @@ pub(super) fn climb(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Format, parse};
+    use crate::app::design::parse;
+    use files::design::Format;
 
     fn octahedral() -> (Manipulator, SquaredLegLengths) {
         let text = include_str!("../../../designs/rbt-octahedral.toml");

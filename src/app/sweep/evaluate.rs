@@ -14,7 +14,7 @@ use super::measure::{least_axis_distance, length_range, worst_conditioning};
 use super::plan::{AnswerField, AnswerName, AxisValues, BasePlan, FreeQuantity, SweepPlan, SweepTask};
 use crate::app::entrance::{BOX_CELLS, CheckReport, OptimizeEvidence, OptimizeOptions, Solver};
 use crate::app::records::{AssessAnswer, CheckAnswer, SolvedRecord};
-use crate::files::design::Drive;
+use files::design::Drive;
 use fk::{FkOptions, FkRoot, Threads};
 use machine::manufacture::{PoseSearch, joint_allowance};
 use machine::requirements::{TermKind, Terms};

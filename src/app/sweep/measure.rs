@@ -98,7 +98,8 @@ pub(super) fn length_range(legs: &[Leg; 6], poses: &[Pose]) -> Option<[f64; 2]> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Format, parse};
+    use crate::app::design::parse;
+    use files::design::Format;
     use platform::manipulator::jacobian;
 
     fn case() -> (Manipulator, Vec<Pose>) {

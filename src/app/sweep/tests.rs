@@ -6,7 +6,8 @@ use nalgebra::Point3;
 
 use super::plan::{BasePlan, PlanText, read};
 use super::{Sweep, SweepCell, SweepRow};
-use crate::files::design::{Format, parse};
+use crate::app::design::parse;
+use files::design::Format;
 use machine::manufacture::{ErrorBound, PoseSearch, joint_allowance};
 use num::Cancel;
 use platform::manipulator::{inverse_condition, jacobian};
@@ -255,7 +256,7 @@ fn equivalent_platforms_have_one_region_without_singular_poses_and_tolerances_of
 fn a_base_design_with_cranks_is_refused_at_its_place() {
     let text = include_str!("../../../designs/presets/reachy-mini.toml");
     let violations = BasePlan::new(PlanText { text, format: Format::Toml }).unwrap_err();
-    let refused = violations.iter().find(|v| v.code == crate::files::design::Code::Rotary).unwrap();
+    let refused = violations.iter().find(|v| v.code == files::design::Code::Rotary).unwrap();
     let line = text.lines().position(|l| l.starts_with("drive = \"rotary\"")).unwrap() + 1;
     assert_eq!(refused.line, line);
     assert!(refused.message.contains("base design of a sweep"), "{refused}");

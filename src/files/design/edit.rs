@@ -6,12 +6,12 @@ use thiserror::Error;
 use super::model::NotBuilt;
 use super::tree::{Entry, Node, Span, Value, find};
 use super::violation::Findings;
-use super::{Design, Format, Warning, parse_with_cranks, toml_text};
+use super::{DesignModel, Format, Warning, parse_with_cranks, toml_text};
 use platform::manipulator::{Body, InvalidManipulator, Manipulator};
 
 /// The text a design was read from, and what is slippery in it. Two designs that say the same are equal however they are written.
 #[derive(Clone, Default)]
-pub(crate) struct Written {
+pub struct Written {
     /// `None` for designs that are from no TOML text.
     toml: Option<String>,
     warnings: Vec<Warning>,
@@ -35,7 +35,8 @@ impl Written {
         Self { toml: (format == Format::Toml).then(|| text.to_string()), warnings: warnings.to_vec() }
     }
 
-    pub(crate) fn warnings(&self) -> &[Warning] {
+    /// Warnings of the text, in its order.
+    pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
@@ -120,18 +121,19 @@ impl From<NotBuilt> for JointError {
     }
 }
 
-impl Design {
+impl DesignModel {
     /// Moves a joint: its name, with the body before it where both have one of this name (`"base.P1"`), and its new coordinates in the frame of its body.
     /// Everything else stays, lengths included, and so do the comments of the [`text`](Self::text). A construction of this joint gives way to the three numbers; joints that
     /// are constructed from this one follow it.
     ///
     /// ```
-    /// use equipod::prelude::*;
-    /// let mut design = Design::load("designs/rbt-octahedral.toml")?;
+    /// # mod equipod { pub mod methods { pub use equipod_files::design; } }
+    /// use equipod::methods::design::{Format, parse};
+    /// let (mut design, _) = parse(include_str!("../../../designs/rbt-octahedral.toml"), Format::Toml).expect("a design");
     /// design.set_joint("P4", [0.0, 0.0, 0.5])?;
     /// assert!(design.text().contains("P4 = [0.0, 0.0, 0.5]"));
     /// assert!(design.set_joint("P44", [0.0; 3]).is_err());
-    /// # Ok::<(), Error>(())
+    /// # Ok::<(), equipod_files::design::JointError>(())
     /// ```
     ///
     /// # Errors
@@ -202,7 +204,7 @@ impl Design {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::parse;
+    use crate::design::parse;
     use platform::manipulator::LegLengths;
 
     const TEXT: &str = r#"# a design with words in it
@@ -224,7 +226,7 @@ b = [3.0, 5.0, 0.0]
 c = [6.0, 0.0, 0.0]
 "#;
 
-    fn design() -> Design {
+    fn design() -> DesignModel {
         parse(TEXT, Format::Toml).unwrap().0
     }
 

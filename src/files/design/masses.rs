@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::Design;
+use super::DesignModel;
 use super::scale::micrometres;
 use machine::requirements::{
     ForceUnit, GRAVITY, LegsWeight, Load, MassUnit, MovingBodies, Payload, PlateBody, PlateMass, TermKind,
@@ -12,16 +12,16 @@ use platform::manipulator::Body;
 
 /// The forces that an answer states or judges, for the assumptions behind them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct JudgedForces {
+pub struct JudgedForces {
     /// Leg forces or crank torques that hold loads.
-    pub(crate) at_rest: bool,
+    pub at_rest: bool,
     /// Forces along motions, or natural frequencies.
-    pub(crate) in_motion: bool,
+    pub in_motion: bool,
 }
 
 impl JudgedForces {
     /// Forces that requirements of these kinds are about.
-    pub(crate) fn of(kinds: impl IntoIterator<Item = TermKind>) -> Self {
+    pub fn of(kinds: impl IntoIterator<Item = TermKind>) -> Self {
         let mut out = Self { at_rest: false, in_motion: false };
         for kind in kinds {
             out.at_rest |= matches!(kind, TermKind::LegForce | TermKind::CrankTorque);
@@ -31,7 +31,7 @@ impl JudgedForces {
     }
 }
 
-impl Design {
+impl DesignModel {
     /// The payload and the legs vibrate; `None` where the file states nothing that moves, no stiffness of legs or no known unit of length.
     ///
     /// Without names of units forces are newtons and masses kilograms.
@@ -63,12 +63,12 @@ impl Design {
     }
 
     /// The unit of all masses: kilograms where the file names none.
-    pub(crate) fn mass_unit(&self) -> MassUnit {
+    pub fn mass_unit(&self) -> MassUnit {
         self.mass_units.unwrap_or(MassUnit::Kilogram)
     }
 
     /// The unit of all forces: newtons where the file names none.
-    pub(crate) fn force_unit(&self) -> ForceUnit {
+    pub fn force_unit(&self) -> ForceUnit {
         self.force_units.unwrap_or(ForceUnit::Newton)
     }
 
@@ -143,7 +143,7 @@ impl Design {
     }
 
     /// Lists the assumptions behind forces at rest and in motion, each sentence once.
-    pub(crate) fn assumptions_of(&self, forces: JudgedForces) -> Vec<String> {
+    pub fn assumptions_of(&self, forces: JudgedForces) -> Vec<String> {
         let mut out = if forces.in_motion { self.mass_assumptions() } else { Vec::new() };
         let at_rest = if forces.at_rest { self.weight_assumptions() } else { Vec::new() };
         let further = at_rest.into_iter().filter(|sentence| !out.contains(sentence)).collect::<Vec<_>>();

@@ -1,6 +1,6 @@
 //! Reads and writes design files: a manipulator with its joint names, home pose, workspace and options, as TOML or JSON.
 //!
-//! Everything here is pure: text in, [`Design`] or a list of [`Violation`]s out, and back to text. The
+//! Everything here is pure: text in, [`DesignModel`] or a list of [`Violation`]s out, and back to text. The
 //! format is described key by key in `docs/design-files.md`.
 
 mod construction;
@@ -12,14 +12,12 @@ mod likeness;
 mod masses;
 mod model;
 mod outline;
-mod presets;
 #[cfg(test)]
 mod requirements_tests;
 mod save;
 mod scale;
 mod schema;
-#[cfg(feature = "sweep")]
-pub(crate) mod spanned;
+pub mod spanned;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -29,41 +27,31 @@ mod validate;
 mod violation;
 mod workspace;
 
-pub(crate) use construction::Origin;
+pub use construction::Origin;
 use construction::{Construction, Constructions, LinePlace, WrittenNumber};
 pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
-pub use edit::JointError;
-pub(crate) use edit::Written;
-#[cfg(feature = "cli")]
-pub(crate) use likeness::likeness;
-pub(crate) use likeness::nearest_word;
-pub(crate) use masses::JudgedForces;
+pub use edit::{JointError, Written};
+pub use likeness::{likeness, nearest_word};
+pub use masses::JudgedForces;
 pub use model::{
-    CalibratedNumber, CalibrationTable, Combination, Correlations, Design, NameCount, OptimizeTable,
+    CalibratedNumber, CalibrationTable, Combination, Correlations, DesignModel, NameCount, OptimizeTable,
     SearchTable,
 };
-pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
-pub use presets::{PRESETS, Preset, PresetClass};
-pub(crate) use scale::{micrometres, unit_of_millimetres};
+pub use outline::{HexapodSizes, InvalidOutline, octahedral_toml, with_lengths};
+pub use scale::{NotScaled, micrometres, unit_of_millimetres};
 pub use schema::SCHEMA;
-pub(crate) use table::{
-    DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidSeries, PointTable, SeriesKind, SeriesRow,
-    TimeSeries,
+pub use table::{
+    DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidPointTable, InvalidRigSheet, InvalidSeries,
+    InvalidSheet, PointTable, RigSheet, SeriesKind, SeriesRow, SheetDialect, SheetLegs, TimeSeries,
 };
-#[cfg(feature = "cli")]
-pub(crate) use table::{InvalidPointTable, RigSheet, SheetDialect};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 
 use num::names::{UnknownName, named};
 
 /// The two notations of the same structure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "files",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Format {
     /// TOML 1.
     Toml,
@@ -108,6 +96,7 @@ impl std::str::FromStr for Format {
 /// Reads a design from text.
 ///
 /// ```
+/// # mod equipod { pub mod methods { pub use equipod_files::design; } }
 /// use equipod::methods::design::{parse, Code, Format};
 /// let violations = parse("name = 'x'\nunit = 'mm'\n", Format::Toml).unwrap_err();
 /// assert_eq!(violations[0].code, Code::MissingKey);
@@ -118,18 +107,18 @@ impl std::str::FromStr for Format {
 /// # Errors
 /// All violations found, in the order of the text: a text with syntax errors is not examined further. A design whose legs are rods on cranks is one ([`Code::Rotary`]): what holds for legs that
 /// change their lengths does not hold for it, and [`parse_with_cranks`] reads it; so is one whose joints are not ideal ([`Code::NotIdeal`]).
-pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+pub fn parse(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
     read(text, format, false)
 }
 
 /// Reads a design from text, also one whose legs are rods on cranks (`drive = "rotary"`), or whose joints are not ideal
 /// ([`Hardware::is_coupled`](machine::requirements::Hardware::is_coupled)), so that the lengths of its drives are not the distances of its joints.
 ///
-/// The base joints of such a design are the centres of its cranks: [`Design::manipulator`] joins them to the platform and says nothing of the rods. Ask [`Design::rotary`] for cranks and rods.
+/// The base joints of such a design are the centres of its cranks: [`DesignModel::manipulator`] joins them to the platform and says nothing of the rods. Ask [`DesignModel::rotary`] for cranks and rods.
 ///
 /// # Errors
 /// All violations found.
-pub fn parse_with_cranks(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+pub fn parse_with_cranks(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
     read(text, format, true)
 }
 
@@ -137,7 +126,7 @@ pub fn parse_with_cranks(text: &str, format: Format) -> Result<(Design, Vec<Warn
 ///
 /// # Errors
 /// All violations found; joints that are not ideal are one ([`Code::NotIdeal`]).
-pub(crate) fn parse_ideal(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+pub fn parse_ideal(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
     match parse(text, format) {
         // cranks have no drives that couple a rotation to a length, so that this takes no more than them
         Err(violations) if violations.iter().any(|v| v.code == Code::Rotary) => {
@@ -147,7 +136,11 @@ pub(crate) fn parse_ideal(text: &str, format: Format) -> Result<(Design, Vec<War
     }
 }
 
-fn read(text: &str, format: Format, takes_cranks: bool) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+fn read(
+    text: &str,
+    format: Format,
+    takes_cranks: bool,
+) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut report = violation::Findings::new(text);
     if text.trim().is_empty() {

@@ -18,7 +18,7 @@ use platform::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipul
 
 /// A manipulator with names and everything else a design file may carry.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Design {
+pub struct DesignModel {
     /// Name of the design.
     pub name: String,
     /// Label of the length unit; all lengths are in it.
@@ -66,7 +66,7 @@ pub struct Design {
     /// What measurements of the machine say of it beside its joints.
     pub calibration: Option<CalibrationTable>,
     /// The text it was read from.
-    pub(crate) written: Written,
+    pub written: Written,
     pub(super) manipulator: Manipulator,
     pub(super) constructions: Constructions,
     base_names: Vec<String>,
@@ -118,7 +118,7 @@ pub enum CalibratedNumber {
 impl CalibratedNumber {
     /// What it is called: `base.A1.x`, `offset.3`.
     #[must_use]
-    pub fn name(&self, design: &Design) -> String {
+    pub fn name(&self, design: &DesignModel) -> String {
         match *self {
             Self::Coordinate { body, joint, axis } => {
                 format!("{body}.{}.{}", design.joint_names(body)[joint], ["x", "y", "z"][axis])
@@ -234,7 +234,7 @@ impl From<Vec<Fault>> for NotBuilt {
     }
 }
 
-impl Design {
+impl DesignModel {
     /// A design with the joint names `A1, A2, ...` on the base and `B1, B2, ...` on the platform and
     /// nothing optional.
     #[must_use]
@@ -312,23 +312,24 @@ impl Design {
     }
 
     /// For each joint of a body whether no search may move it.
-    pub(crate) fn fixed_joints(&self, body: Body) -> Vec<bool> {
+    pub fn fixed_joints(&self, body: Body) -> Vec<bool> {
         let fixed = &self.search.fixed[body.index()];
         self.joint_names(body).iter().map(|name| fixed.contains(name)).collect()
     }
 
     /// Whether any joint may not be moved.
-    pub(crate) fn has_fixed_joints(&self) -> bool {
+    pub fn has_fixed_joints(&self) -> bool {
         Body::BOTH.into_iter().any(|body| self.fixed_joints(body).contains(&true))
     }
 
     /// The cranks and rods of a design whose drive is rotary; `None` where legs change their lengths.
     ///
     /// ```
-    /// use equipod::methods::design::{Format, PRESETS, parse, parse_with_cranks};
-    /// let preset = PRESETS.iter().find(|p| p.name == "reachy-mini").expect("a preset");
-    /// assert!(parse(preset.text, Format::Toml).is_err(), "its legs do not change their lengths");
-    /// let (design, _) = parse_with_cranks(preset.text, Format::Toml).expect("a design");
+    /// # mod equipod { pub mod methods { pub use equipod_files::design; } }
+    /// use equipod::methods::design::{Format, parse, parse_with_cranks};
+    /// let text = include_str!("../../../designs/presets/reachy-mini.toml");
+    /// assert!(parse(text, Format::Toml).is_err(), "its legs do not change their lengths");
+    /// let (design, _) = parse_with_cranks(text, Format::Toml).expect("a design");
     /// let platform = design.rotary().expect("tips and joints make a platform").expect("it has cranks");
     /// let angles = platform.ik(&design.home.expect("home")).expect("within reach");
     /// assert!((angles[0].to_degrees() - 35.9).abs() < 0.05);
@@ -392,7 +393,7 @@ impl Design {
     }
 
     /// Names of the joints of a body, in joint order.
-    pub(crate) fn joint_names(&self, body: Body) -> &[String] {
+    pub fn joint_names(&self, body: Body) -> &[String] {
         body.of((&self.base_names, &self.platform_names))
     }
 
@@ -402,6 +403,7 @@ impl Design {
     /// coordinates in [`Self::manipulator`] are the doubles nearest to them.
     ///
     /// ```
+    /// # mod equipod { pub mod methods { pub use equipod_files::design; } pub mod prelude { pub use platform::manipulator::Body; } }
     /// use equipod::methods::design::{Exactness, Format, parse};
     /// use equipod::prelude::Body;
     /// let text = r#"
@@ -433,10 +435,10 @@ impl Design {
     /// How exactly all joints are known.
     ///
     /// ```
-    /// use equipod::prelude::*;
-    /// let design = Design::load("designs/rbt-octahedral.toml")?;
+    /// # mod equipod { pub mod methods { pub use equipod_files::design; } }
+    /// use equipod::methods::design::{Format, parse};
+    /// let (design, _) = parse(include_str!("../../../designs/rbt-octahedral.toml"), Format::Toml).expect("a design");
     /// assert_eq!(design.exactness().to_string(), "exact numbers of Q(sqrt(3))");
-    /// # Ok::<(), Error>(())
     /// ```
     #[must_use]
     pub fn exactness(&self) -> DesignExactness {
@@ -577,9 +579,9 @@ impl Design {
     }
 }
 
-impl Design {
+impl DesignModel {
     /// Leg, joint, keep-out and load names of a requirement.
-    pub(crate) fn names_of(&self, term: Term) -> Vec<String> {
+    pub fn names_of(&self, term: Term) -> Vec<String> {
         let leg = |i: usize| format!("leg {}", i + 1);
         let joints = |names: &[String]| vec![names[term.first].clone(), names[term.second].clone()];
         match term.kind {
@@ -613,7 +615,7 @@ impl Design {
     }
 
     /// The legs that a requirement is about, counted from 1: all of them for what the platform as a whole has.
-    pub(crate) fn legs_of(&self, term: Term) -> Vec<usize> {
+    pub fn legs_of(&self, term: Term) -> Vec<usize> {
         let pairs = self.manipulator.pairs();
         let at = |body: Body| {
             let holds = |i: &usize| [term.first, term.second].contains(&body.of(pairs[*i]));
@@ -630,7 +632,7 @@ impl Design {
     }
 
     /// The unit of a margin.
-    pub(crate) fn unit_of(&self, quantity: Quantity) -> String {
+    pub fn unit_of(&self, quantity: Quantity) -> String {
         match quantity {
             Quantity::Length => self.units.clone(),
             Quantity::Angle => "deg".to_string(),

@@ -6,19 +6,19 @@ use thiserror::Error;
 
 /// The sizes by which makers describe a hexapod: the joints of each body stand in three pairs on a circle, and legs join neighbouring pairs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct HexapodSizes {
+pub struct HexapodSizes {
     /// Radii of the circles of the base and platform joints, design units.
-    pub(crate) radius: [f64; 2],
+    pub radius: [f64; 2],
     /// Angles between the two joints of a pair, seen from the centre, degrees; 0: the pair is one joint of two legs.
-    pub(crate) spread_deg: [f64; 2],
+    pub spread_deg: [f64; 2],
     /// Height of the platform above the base at home, design units.
-    pub(crate) height: f64,
+    pub height: f64,
 }
 
 /// Why sizes or corners give no design.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
-pub(crate) struct InvalidOutline(String);
+pub struct InvalidOutline(String);
 
 /// The pairs of two bodies are a sixth of a turn apart, so that legs of equal length cross from pair to pair.
 const PLATFORM_TURN_DEG: f64 = 60.0;
@@ -30,7 +30,7 @@ impl HexapodSizes {
     ///
     /// # Errors
     /// The first size that cannot be; spreads that make the hexagons similar are no size at fault, but give no hexapod that its legs hold.
-    pub(crate) fn check(&self) -> Result<(), InvalidOutline> {
+    pub fn check(&self) -> Result<(), InvalidOutline> {
         let [base, platform] = self.radius;
         for (what, x) in
             [("radius of the base", base), ("radius of the platform", platform), ("height", self.height)]
@@ -57,7 +57,7 @@ impl HexapodSizes {
     }
 
     /// The design file in TOML, without leg lengths.
-    pub(crate) fn to_toml(self, name: &str, units: &str) -> String {
+    pub fn to_toml(self, name: &str, units: &str) -> String {
         let [(base, base_ends), (platform, platform_ends)] =
             [self.body(0, "A", 0.0), self.body(1, "B", PLATFORM_TURN_DEG)];
         let legs: Vec<String> =
@@ -127,7 +127,7 @@ impl HexapodSizes {
 }
 
 /// The design file of an octahedral platform in TOML, without leg lengths: each corner of the base is joined to two corners of the platform.
-pub(crate) fn octahedral_toml(corners: &[[[f64; 3]; 3]; 2], name: &str, units: &str, height: f64) -> String {
+pub fn octahedral_toml(corners: &[[[f64; 3]; 3]; 2], name: &str, units: &str, height: f64) -> String {
     let mut out =
         String::from("# An octahedral platform: three joints on each body, two legs at each joint.\n");
     let _ = writeln!(out, "name = {}\nunits = {}", quoted(name), quoted(units));
@@ -152,21 +152,21 @@ fn quoted(text: &str) -> String {
 }
 
 /// The same file with the leg lengths at home, before its legs.
-pub(crate) fn with_lengths(text: &str, lengths: [f64; 6]) -> String {
+pub fn with_lengths(text: &str, lengths: [f64; 6]) -> String {
     text.replacen("\nlegs = ", &format!("\nlengths = {lengths:?} # at home\nlegs = "), 1)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Design, Exactness, Format, parse};
+    use crate::design::{DesignModel, Exactness, Format, parse};
     use platform::manipulator::Octahedral;
 
     fn sizes(spread_deg: [f64; 2]) -> HexapodSizes {
         HexapodSizes { radius: [500.0, 300.0], spread_deg, height: 400.0 }
     }
 
-    fn design(text: &str) -> Design {
+    fn design(text: &str) -> DesignModel {
         parse(text, Format::Toml).unwrap_or_else(|v| panic!("{v:?}\n{text}")).0
     }
 

@@ -282,7 +282,7 @@ fn masses_and_units_give_what_vibrates() {
     let mut design = design(&text);
     design.workspace = Workspace::default();
     let metres = design.in_units("m").unwrap();
-    let lowest = |d: &Design, unit: f64| {
+    let lowest = |d: &DesignModel, unit: f64| {
         let pose = platform::geom::Pose {
             rotation: nalgebra::Rotation3::from_euler_angles(0.1, -0.2, 0.3),
             position: nalgebra::Vector3::new(3.0, -2.0, 14.0) * unit,
@@ -645,7 +645,7 @@ fn plates_are_read_and_written_back_to_the_bit_and_follow_the_unit() {
         assert!((one / other - 1.0).abs() < 1e-12, "{one} {other}");
     }
     // margins of holes are the same length in the other unit
-    let least = |d: &Design, kind: TermKind| {
+    let least = |d: &DesignModel, kind: TermKind| {
         let required = d.requirements();
         let terms = machine::requirements::Terms::new(d.manipulator(), &required, &d.home_or_default());
         terms.fixed().into_iter().filter(|t| t.0.kind == kind).map(|t| t.1).fold(f64::INFINITY, f64::min)

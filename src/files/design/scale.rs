@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use super::model::NotBuilt;
-use super::{Construction, Design, LinePlace, WrittenNumber};
+use super::{Construction, DesignModel, LinePlace, WrittenNumber};
 use machine::requirements::{Envelope, Housing, KeepOutShape, LegBody, LengthLimits, Quantity, Reserve};
 use platform::manipulator::{Body, InvalidLengths, InvalidManipulator, LegLengths, Manipulator};
 
@@ -13,19 +13,19 @@ const UNITS: [(&str, u64); 6] =
     [("um", 1), ("mm", 1000), ("cm", 10_000), ("m", 1_000_000), ("in", 25_400), ("ft", 304_800)];
 
 /// Micrometres of the unit of a label.
-pub(crate) fn micrometres(label: &str) -> Option<u64> {
+pub fn micrometres(label: &str) -> Option<u64> {
     UNITS.iter().find(|(known, _)| *known == label.trim()).map(|(_, length)| *length)
 }
 
 /// The label of the unit of so many millimetres, and its exact length in them.
-pub(crate) fn unit_of_millimetres(length: f64) -> Option<(&'static str, f64)> {
+pub fn unit_of_millimetres(length: f64) -> Option<(&'static str, f64)> {
     let known = UNITS.into_iter().map(|(label, micrometres)| (label, micrometres as f64 / 1000.0));
     known.into_iter().find(|(_, known)| (length - known).abs() <= 1e-9 * known)
 }
 
 /// Why a design has no form in another unit.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub(crate) enum NotScaled {
+pub enum NotScaled {
     /// A label that names no known length unit.
     #[error("`{0}` is not a known unit of length; the known units are {known}", known = UNITS.map(|(label, _)| label).join(", "))]
     Unit(String),
@@ -101,12 +101,12 @@ impl LengthRatio {
     }
 }
 
-impl Design {
+impl DesignModel {
     /// The same design with its lengths in another unit. Parameters stay, since they may be angles; the constructions that use them get the factor.
     ///
     /// # Errors
     /// [`NotScaled`].
-    pub(crate) fn in_units(&self, units: &str) -> Result<Self, NotScaled> {
+    pub fn in_units(&self, units: &str) -> Result<Self, NotScaled> {
         let known = |label: &str| micrometres(label).ok_or_else(|| NotScaled::Unit(label.to_string()));
         let ratio = LengthRatio::between(known(&self.units)?, known(units)?);
         if let Some(trajectory) = &self.workspace.trajectory {
@@ -297,11 +297,11 @@ fn scale_construction(made: &mut Construction, ratio: LengthRatio) -> Result<(),
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Format, parse};
+    use crate::design::{Format, parse};
 
     const TEXT: &str = include_str!("../../../designs/symmetric-hexapod.toml");
 
-    fn design(text: &str) -> Design {
+    fn design(text: &str) -> DesignModel {
         parse(text, Format::Toml).unwrap_or_else(|v| panic!("{v:?}\n{text}")).0
     }
 

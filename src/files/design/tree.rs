@@ -7,24 +7,28 @@ use super::{Code, Format, json_text, toml_text};
 use num::names::changes_direction;
 
 /// Byte range in the text.
-pub(crate) type Span = Range<usize>;
+pub type Span = Range<usize>;
 
 /// Values nested deeper than this are refused; a design needs three levels.
 pub(crate) const MAX_DEPTH: usize = 32;
 
 /// A value with the place it stands at.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Node {
-    pub(crate) span: Span,
-    pub(crate) value: Value,
+pub struct Node {
+    /// Its place.
+    pub span: Span,
+    /// The value.
+    pub value: Value,
 }
 
 /// What a design file can be made of.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Value {
+pub enum Value {
+    /// A string.
     Text(String),
-    /// Correctly rounded; infinite when the text is too large for a double.
+    /// A number, correctly rounded; infinite when the text is too large for a double.
     Number(f64),
+    /// An array.
     Array(Vec<Node>),
     /// Entries in the order of the file.
     Table(Vec<Entry>),
@@ -34,15 +38,18 @@ pub(crate) enum Value {
 
 /// `key = value`.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Entry {
-    pub(crate) key: String,
-    pub(crate) key_span: Span,
-    pub(crate) node: Node,
+pub struct Entry {
+    /// The key.
+    pub key: String,
+    /// The place of the key.
+    pub key_span: Span,
+    /// The value of the key.
+    pub node: Node,
 }
 
 impl Value {
     /// The kind with its article, for messages.
-    pub(crate) fn kind(&self) -> &'static str {
+    pub fn kind(&self) -> &'static str {
         match self {
             Self::Text(_) => "a string",
             Self::Number(_) => "a number",
@@ -54,12 +61,12 @@ impl Value {
 }
 
 /// The entry named `key`.
-pub(crate) fn find<'a>(entries: &'a [Entry], key: &str) -> Option<&'a Entry> {
+pub fn find<'a>(entries: &'a [Entry], key: &str) -> Option<&'a Entry> {
     entries.iter().find(|e| e.key == key)
 }
 
 /// Reads a text; `None` where it is not TOML or not JSON, with the reasons in the report.
-pub(crate) fn read(text: &str, format: Format, report: &mut Findings<'_>) -> Option<Node> {
+pub fn read(text: &str, format: Format, report: &mut Findings<'_>) -> Option<Node> {
     let root = match format {
         Format::Toml => toml_text::read(text, report),
         Format::Json => json_text::read(text, report),

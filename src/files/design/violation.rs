@@ -256,7 +256,7 @@ const MAX_VIOLATIONS: usize = 100;
 
 /// Violations and warnings found so far in one text.
 #[derive(Debug)]
-pub(crate) struct Findings<'t> {
+pub struct Findings<'t> {
     text: &'t str,
     line_starts: Vec<usize>,
     violations: Vec<Violation>,
@@ -265,14 +265,15 @@ pub(crate) struct Findings<'t> {
 }
 
 impl<'t> Findings<'t> {
-    pub(crate) fn new(text: &'t str) -> Self {
+    /// No findings yet in a text.
+    pub fn new(text: &'t str) -> Self {
         let starts = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i + 1);
         let line_starts = std::iter::once(0).chain(starts).collect();
         Self { text, line_starts, violations: Vec::new(), warnings: Vec::new(), unlisted: 0 }
     }
 
     /// Line of a byte offset, 1-based.
-    pub(crate) fn line(&self, offset: usize) -> usize {
+    pub fn line(&self, offset: usize) -> usize {
         self.line_starts.partition_point(|&start| start <= offset).max(1)
     }
 
@@ -283,13 +284,8 @@ impl<'t> Findings<'t> {
         &self.text[start..end]
     }
 
-    pub(crate) fn refuse(
-        &mut self,
-        code: Code,
-        span: &Span,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) {
+    /// Adds a violation at a place.
+    pub fn refuse(&mut self, code: Code, span: &Span, message: impl Into<String>, help: impl Into<String>) {
         if self.is_full() {
             self.unlisted += 1;
             return;
@@ -306,7 +302,7 @@ impl<'t> Findings<'t> {
     }
 
     /// The text at a place.
-    pub(crate) fn source(&self, span: &Span) -> &'t str {
+    pub fn source(&self, span: &Span) -> &'t str {
         self.text.get(span.clone()).unwrap_or_default()
     }
 
@@ -316,16 +312,17 @@ impl<'t> Findings<'t> {
     }
 
     /// How many violations there are so far.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.violations.len() + self.unlisted
     }
 
-    pub(crate) fn is_clean(&self) -> bool {
+    /// Whether there is no violation so far.
+    pub fn is_clean(&self) -> bool {
         self.violations.is_empty()
     }
 
     /// The violations in the order of the text, closed by a count of those not listed.
-    pub(crate) fn into_violations(mut self) -> Vec<Violation> {
+    pub fn into_violations(mut self) -> Vec<Violation> {
         self.violations.sort_by_key(|v| (v.line, v.column));
         if self.unlisted > 0 {
             self.violations.push(Violation {

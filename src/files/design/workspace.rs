@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::Design;
+use super::DesignModel;
 use machine::requirements::{ListedFrom, PoseSpace, Region};
 use platform::geom::Pose;
 use platform::manipulator::default_home;
@@ -129,7 +129,7 @@ impl Workspace {
     }
 }
 
-impl Design {
+impl DesignModel {
     /// The home pose of the design, [`default_home`] where it gives none.
     #[must_use]
     pub fn home_or_default(&self) -> Pose {

@@ -6,7 +6,7 @@ use nalgebra::{Point2, Point3, Vector3};
 
 use super::text::one_line;
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Plate, Unsupported, Writer};
-use crate::files::plot::{ThreeViewBody, ThreeViewFigure, three_views};
+use crate::plot::{ThreeViewBody, ThreeViewFigure, three_views};
 use machine::requirements::on_circle;
 use platform::geom::any_across;
 

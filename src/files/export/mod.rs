@@ -43,7 +43,7 @@ pub use model::{Export, ExportBody, ExportCalibration, ExportCranks, ExportLeg, 
 pub use parts::{PART_COLUMNS, PartLine};
 pub use plate::{Plate, PlateHole};
 pub use sizes::{ExportOptions, NoExport, SizeChoice};
-pub(crate) use text::csv_field;
+pub use text::csv_field;
 pub use units::{LengthUnit, UnknownUnit};
 
 /// A file: its name and its text.

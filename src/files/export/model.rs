@@ -7,7 +7,7 @@ use super::plate::Plate;
 use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, moving, positive};
 use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
-use crate::files::design::{CalibratedNumber, Design};
+use crate::design::{CalibratedNumber, DesignModel};
 use machine::coupled::CoupledLegs;
 use machine::requirements::{Hardware, KeepOutShape, MovingBodies, plate_normal};
 use machine::rotary::RotaryPlatform;
@@ -99,7 +99,7 @@ pub struct ExportCranks {
 
 impl ExportCranks {
     /// `None` for a design whose legs change their lengths.
-    fn of(design: &Design, home: &Pose, torque_unit: f64) -> Result<Option<Self>, NoExport> {
+    fn of(design: &DesignModel, home: &Pose, torque_unit: f64) -> Result<Option<Self>, NoExport> {
         let unfit = |why: &dyn std::fmt::Display| NoExport::Cranks(why.to_string());
         let Some(platform) = design.rotary().map_err(|why| unfit(&why))? else { return Ok(None) };
         let home_angles = platform
@@ -133,7 +133,7 @@ pub struct ExportCalibration {
 
 impl ExportCalibration {
     /// `None` for a design without standard deviations.
-    fn of(design: &Design) -> Option<Self> {
+    fn of(design: &DesignModel) -> Option<Self> {
         let table = design.calibration.as_ref()?;
         let of_body = |body: Body| {
             (0..design.joint_names(body).len()).flat_map(move |joint| {
@@ -248,7 +248,7 @@ impl Export {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn of(design: &Design, options: &ExportOptions) -> Result<Self, NoExport> {
+    pub fn of(design: &DesignModel, options: &ExportOptions) -> Result<Self, NoExport> {
         let (home, mut workspace) = (design.home_or_default(), design.workspace_or_default());
         let mut path = workspace.space(&home);
         path.poses.clear();
@@ -264,7 +264,7 @@ impl Export {
     /// # Errors
     /// [`NoExport`]: an unknown unit, a size that is not positive or does not fit the others.
     pub fn new(
-        design: &Design,
+        design: &DesignModel,
         home: Pose,
         (workspace, trajectory): (Vec<Pose>, Vec<Pose>),
         options: &ExportOptions,

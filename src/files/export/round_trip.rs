@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use proptest::prelude::*;
 
 use super::{Export, ExportFormat, ExportOptions, LengthUnit};
-use crate::files::design::{Design, Format, PointTable, parse_with_cranks};
+use crate::design::{DesignModel, Format, PointTable, parse_with_cranks};
 use platform::manipulator::{Body, Manipulator};
 
 const SYMMETRIC: &str = include_str!("../../../designs/symmetric-hexapod.toml");
@@ -15,12 +15,12 @@ const SIX_FOUR: &str = include_str!("../../../designs/innocenti-6-4.toml");
 const RUBIN: &str = include_str!("../../../designs/presets/rubin-camera-hexapod.toml");
 const MOTION_BASE: &str = include_str!("../../../designs/presets/motion-base-6dof2000e.toml");
 
-fn design(text: &str) -> Design {
+fn design(text: &str) -> DesignModel {
     parse_with_cranks(text, Format::Toml).unwrap().0
 }
 
 /// The file of a format that has the legs, with the unit of the export.
-fn exported(design: &Design, format: &str) -> (String, &'static str) {
+fn exported(design: &DesignModel, format: &str) -> (String, &'static str) {
     let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("m")).unwrap();
     let options = ExportOptions { unit: Some(unit), ..ExportOptions::default() };
     let export = Export::new(design, design.home_or_default(), (Vec::new(), Vec::new()), &options).unwrap();
@@ -30,7 +30,7 @@ fn exported(design: &Design, format: &str) -> (String, &'static str) {
     (file.text.clone(), unit.label)
 }
 
-fn returns(design: &Design, format: &str) {
+fn returns(design: &DesignModel, format: &str) {
     let (text, unit) = exported(design, format);
     let mut table =
         PointTable::read(text.as_bytes()).unwrap_or_else(|why| panic!("{}: {format}: {why}", design.name));

@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::model::ExportedJoint;
 use super::telescope::has_room;
 use super::units::{LengthUnit, UnknownUnit};
-use crate::files::design::Design;
+use crate::design::DesignModel;
 use machine::requirements::{Hardware, MovingBodies, PlateDesign, seat_height};
 use platform::manipulator::Body;
 
@@ -304,7 +304,7 @@ impl LegSizes {
 /// # Errors
 /// [`NoExport::BadSize`].
 pub(super) fn moving(
-    design: &Design,
+    design: &DesignModel,
     given: Option<f64>,
     metres: f64,
     choices: &mut Vec<SizeChoice>,

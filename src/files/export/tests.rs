@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 use super::text::real;
 use super::triangulate::triangulate;
 use super::*;
-use crate::files::design::{Design, Format, parse};
+use crate::design::{DesignModel, Format, parse};
 use machine::requirements::{Housing, JointAxes, LegBody, LengthLimits, Swing};
 use platform::geom::Pose;
 use platform::manipulator::Body;
@@ -16,11 +16,11 @@ const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
 const GENERAL: &str = include_str!("../../../designs/general-6-6.toml");
 const MIDLINE: &str = include_str!("../../../designs/rbt-midline.toml");
 
-fn design(text: &str) -> Design {
+fn design(text: &str) -> DesignModel {
     parse(text, Format::Toml).unwrap().0
 }
 
-fn export_with(design: &Design, options: &ExportOptions) -> Export {
+fn export_with(design: &DesignModel, options: &ExportOptions) -> Export {
     let home = design.home.unwrap_or_else(above);
     let poses = vec![home, Pose { position: home.position + Vector3::new(0.5, -0.25, 1.0), ..home }];
     let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("m")).unwrap();
@@ -441,7 +441,7 @@ fn rods_stay_in_their_cylinders_over_the_stroke() {
         "positioner-joint-free",
     ];
     for file in files {
-        let text = std::fs::read_to_string(format!("designs/worked/{file}.toml")).unwrap();
+        let text = std::fs::read_to_string(format!("../../designs/worked/{file}.toml")).unwrap();
         let export = Export::of(&design(&text), &ExportOptions::default()).unwrap();
         let (least, greatest) = export.leg_range.unwrap();
         for kind in export.leg_kinds() {
@@ -536,13 +536,14 @@ fn meeting(labels: &[(f64, f64, String)]) -> Option<(String, String)> {
 fn no_label_of_a_drawing_covers_another() {
     let mut drawn = 0;
     let mut paths = Vec::new();
-    for folder in ["designs", "designs/presets", "designs/worked"] {
-        paths.extend(std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()));
+    for folder in ["", "presets", "worked"] {
+        paths
+            .extend(std::fs::read_dir(format!("../../designs/{folder}")).unwrap().map(|e| e.unwrap().path()));
     }
     paths.sort();
     for path in paths.iter().filter(|p| p.extension().is_some_and(|e| e == "toml")) {
         let text = std::fs::read_to_string(path).unwrap();
-        let Ok((design, _)) = crate::files::design::parse_with_cranks(&text, Format::Toml) else { continue };
+        let Ok((design, _)) = crate::design::parse_with_cranks(&text, Format::Toml) else { continue };
         let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("mm")).unwrap();
         let options = ExportOptions::new().unit(unit);
         let Ok(export) = Export::new(&design, design.home_or_default(), (vec![], vec![]), &options) else {

@@ -55,7 +55,7 @@ impl LengthUnit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::micrometres;
+    use crate::design::micrometres;
 
     #[test]
     fn files_and_designs_know_the_same_units() {

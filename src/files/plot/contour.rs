@@ -13,10 +13,13 @@ type Edge = (usize, usize, bool);
 
 /// Values on a grid of `columns` x `rows` points, row by row.
 #[derive(Debug, Clone)]
-pub(crate) struct ValueGrid {
-    pub(crate) columns: usize,
-    pub(crate) rows: usize,
-    pub(crate) values: Vec<f64>,
+pub struct ValueGrid {
+    /// Points in a row.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// The values, row by row.
+    pub values: Vec<f64>,
 }
 
 impl ValueGrid {
@@ -56,7 +59,7 @@ impl ValueGrid {
     }
 
     /// The lines `f = level` in grid coordinates; a closed line ends where it starts.
-    pub(crate) fn contour(&self, level: f64) -> Vec<Vec<(f64, f64)>> {
+    pub fn contour(&self, level: f64) -> Vec<Vec<(f64, f64)>> {
         let segments = self.segments(level);
         let mut ends: BTreeMap<Edge, Vec<usize>> = BTreeMap::new();
         for (k, s) in segments.iter().enumerate() {

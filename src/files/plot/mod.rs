@@ -19,24 +19,20 @@ mod pair;
 mod slice;
 mod steps;
 mod style;
-#[cfg(feature = "page")]
 mod surface;
-#[cfg(feature = "sweep")]
 mod sweep;
 mod three_view;
 mod thumbnail;
 mod topologies;
 mod workspace;
 
-pub(crate) use style::escape;
-#[cfg(feature = "page")]
-pub(crate) use surface::{TriangleSurface, ValueBox};
-#[cfg(feature = "sweep")]
-pub(crate) use sweep::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_histogram, swept_parallel};
+pub use style::escape;
+pub use surface::{TriangleSurface, ValueBox};
+pub use sweep::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_histogram, swept_parallel};
 
 pub use along::{AlongFigure, AlongPart, sign_along};
 pub use components::{CurveFigure, CurveMark, CurvePanel, component_curves};
-pub(crate) use contour::ValueGrid;
+pub use contour::ValueGrid;
 pub use convergence::{ConvergenceCurve, ConvergenceFigure, convergence_chart};
 pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
 pub use front::{FrontAxis, FrontFigure, pareto_front};

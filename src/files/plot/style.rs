@@ -74,7 +74,7 @@ pub const LIMIT_FILLS: [(&str, &str); 34] = [
 ];
 
 /// Text of an XML or HTML node or attribute: the only door of foreign text to either.
-pub(crate) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -147,7 +147,6 @@ impl Svg {
     }
 
     /// An element that is written out: its texts are escaped already.
-    #[cfg(feature = "sweep")]
     pub(super) fn raw(&mut self, element: &str) {
         let _ = writeln!(self.out, "{element}");
     }

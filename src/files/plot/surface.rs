@@ -10,18 +10,20 @@ use std::collections::BTreeMap;
 
 /// Values on a grid of `points` in each of three directions; the first one runs fastest.
 #[derive(Debug, Clone)]
-pub(crate) struct ValueBox {
-    pub(crate) points: usize,
-    pub(crate) values: Vec<f64>,
+pub struct ValueBox {
+    /// Points in each direction.
+    pub points: usize,
+    /// The values; the first direction runs fastest.
+    pub values: Vec<f64>,
 }
 
 /// A surface of triangles.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct TriangleSurface {
+pub struct TriangleSurface {
     /// In grid coordinates.
-    pub(crate) vertices: Vec<[f64; 3]>,
+    pub vertices: Vec<[f64; 3]>,
     /// Three vertices each, in no particular sense of rotation.
-    pub(crate) triangles: Vec<[usize; 3]>,
+    pub triangles: Vec<[usize; 3]>,
 }
 
 /// The tetrahedra of a cell: the order in which the axes are gone along from its first corner to its last.
@@ -58,7 +60,7 @@ impl ValueBox {
     }
 
     /// The surface `f = level`. A tetrahedron with a value that is not finite is passed over: there the surface has a hole.
-    pub(crate) fn surface(&self, level: f64) -> TriangleSurface {
+    pub fn surface(&self, level: f64) -> TriangleSurface {
         let mut out = TriangleSurface::default();
         let mut known: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for corners in self.tetrahedra() {

@@ -7,22 +7,24 @@ use super::style::{Axis, Svg, escape, frame, px};
 
 /// A column of the table.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct SweptColumn {
+pub struct SweptColumn {
     /// Its name, with the unit.
-    pub(crate) label: String,
+    pub label: String,
     /// One value a row; NaN where there is none.
-    pub(crate) values: Vec<f64>,
+    pub values: Vec<f64>,
 }
 
 /// What a picture of a table shows.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct SweptFigure {
-    pub(crate) title: String,
+pub struct SweptFigure {
+    /// The title above.
+    pub title: String,
     /// A line of text below.
-    pub(crate) note: String,
+    pub note: String,
     /// The number of the candidate of each row.
-    pub(crate) candidates: Vec<i64>,
-    pub(crate) columns: Vec<SweptColumn>,
+    pub candidates: Vec<i64>,
+    /// The columns shown.
+    pub columns: Vec<SweptColumn>,
 }
 
 // the layout in pixels: sizes, and where they are from the left and the top
@@ -184,7 +186,7 @@ impl Cells {
 }
 
 /// The mean of the third column over the cells of the first two, as colours and, when asked for, lines of equal value; without a third column the number of rows.
-pub(crate) fn swept_field(figure: &SweptFigure, lines: bool) -> String {
+pub fn swept_field(figure: &SweptFigure, lines: bool) -> String {
     let (x, y) = (&figure.columns[0], &figure.columns[1]);
     let (across, up) = (Cells::of(&x.values), Cells::of(&y.values));
     let mut cells = vec![(0.0, 0usize, i64::MAX); across.count * up.count];
@@ -239,7 +241,7 @@ pub(crate) fn swept_field(figure: &SweptFigure, lines: bool) -> String {
 }
 
 /// How many rows have which values of the first column.
-pub(crate) fn swept_histogram(figure: &SweptFigure) -> String {
+pub fn swept_histogram(figure: &SweptFigure) -> String {
     let column = &figure.columns[0];
     let (low, high) = range(&column.values);
     let finite = column.values.iter().filter(|x| x.is_finite());
@@ -288,7 +290,7 @@ pub(crate) fn best_rows(figure: &SweptFigure, gain: [bool; 2]) -> Vec<usize> {
 }
 
 /// Points over the first two columns, coloured by the third; with `gain` the front of rows of which none is better in both. The title of a point is what stands behind it.
-pub(crate) fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> String {
+pub fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> String {
     let (x, y) = (&figure.columns[0], &figure.columns[1]);
     let (rx, ry) = (roomy(&x.values), roomy(&y.values));
     let ax = Axis { low: rx.0, high: rx.1, from: LEFT, to: LEFT + WIDE };
@@ -344,7 +346,7 @@ pub(crate) fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> Stri
 }
 
 /// A line a row over parallel axes, one for each column, coloured by the last one.
-pub(crate) fn swept_parallel(figure: &SweptFigure) -> String {
+pub fn swept_parallel(figure: &SweptFigure) -> String {
     let n = figure.columns.len();
     let gap = (WIDE / (n - 1) as f64).max(110.0);
     let width = LEFT + gap * (n - 1) as f64 + 100.0;

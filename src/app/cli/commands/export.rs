@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 
 use super::build::tolerances;
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -15,8 +16,7 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
 use crate::app::entrance::exporting::octahedral_of_controllers;
 use crate::app::records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord, Number};
-use crate::files::design::Design;
-use crate::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
+use ::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 
 /// Arguments of `export`.
 #[derive(Debug, clap::Args)]
@@ -66,16 +66,10 @@ fn names() -> Vec<&'static str> {
 fn model(args: &Args, design: &Design, hole_places: Option<f64>) -> Result<Export, Failure> {
     let unit = args.unit.as_deref().map(LengthUnit::of).transpose();
     let unit = unit.map_err(|e| Failure::refused("export::unknown_unit", format!("--unit: {e}")))?;
-    let options = ExportOptions {
-        unit,
-        thickness: args.thickness,
-        margin: args.margin,
-        hole: args.hole_diameter,
-        hole_places,
-        ball: args.ball_diameter,
-        mass: args.mass,
-        gravity_compensation: args.gravity_compensation,
-    };
+    let mut options = ExportOptions::new();
+    (options.unit, options.thickness, options.margin) = (unit, args.thickness, args.margin);
+    (options.hole, options.ball, options.mass) = (args.hole_diameter, args.ball_diameter, args.mass);
+    (options.hole_places, options.gravity_compensation) = (hole_places, args.gravity_compensation);
     Export::of(design, &options).map_err(|why| refusal(&why))
 }
 

@@ -7,16 +7,18 @@ use serde_json::Value;
 
 use super::compare::{Asked, compare};
 use super::explore::folder::FIRST;
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
+use crate::app::design::parse;
 use crate::app::page::{CORE, Session, page as view};
 use crate::app::records::{AssessAnswer, ReportAnswer};
 use crate::app::report::{Comparison, Report, ReportFile, html};
-use crate::files::design::{Design, Format, parse};
+use ::files::design::Format;
 use synthesis::Pattern;
 
 /// The page in its folder.

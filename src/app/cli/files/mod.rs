@@ -16,9 +16,11 @@ use serde::de::DeserializeOwned;
 
 use super::exit::Exit;
 use super::failure::Failure;
+use crate::app::Design;
+use crate::app::design::parse_with_cranks;
 use crate::app::entrance::whole::WholeFile;
 use crate::app::records::{FileSourceRecord, sha256};
-use crate::files::design::{Design, Format, parse_with_cranks};
+use files::design::Format;
 
 /// Nothing this program reads is larger; a design has some kilobytes.
 const MAX_BYTES: u64 = 4 << 20;

@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 
 use super::cell;
 use crate::app::records;
-use crate::files::design::SCHEMA;
+use files::design::SCHEMA;
 
 /// What every answer has, which the manual says once.
 const IN_ALL: [&str; 3] = ["schema_version", "provenance", "warnings"];

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::app::Design;
 use crate::app::records::Number;
-use crate::files::design::Design;
 use fk::distance::SingularFactor;
 use fk::{Closure, NoClosure};
 use num::poly::{Dyadic, RealRoot};

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::app::Design;
 use crate::app::entrance::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
 use crate::app::records::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
-use crate::files::design::Design;
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
 
 /// A freedom that the design does not have, and what came of the search with it.

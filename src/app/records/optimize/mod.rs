@@ -26,10 +26,10 @@ pub use self::platform::{
 };
 pub use self::riding::{RiddenBoundRecord, RiddenWord, RidingRecord};
 pub use self::symmetry::{SymmetryRecord, SymmetryWord};
+use crate::app::Design;
 use crate::app::entrance::OptimizeStatus;
 use crate::app::entrance::optimizing::{Checked, dimensional_status, offset_status};
 use crate::app::records::{DesignRecord, Number, SourceWord};
-use crate::files::design::Design;
 use optimize::dimensional::{
     DimensionalOutcome, DimensionalProblem, DimensionalReport, ParetoPoint, ParetoReport,
 };

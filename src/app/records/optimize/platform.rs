@@ -5,13 +5,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::riding::{DetMargin, RidingRecord};
+use crate::app::Design;
 use crate::app::entrance::optimizing::{Checked, offset_reserves};
 use crate::app::records::map::matrix;
 use crate::app::records::{
     AssessAnswer, DesignRecord, DesignRoleWord, MarginRecord, Number, PoseQuaternionRecord, PoseRecord,
     VerdictWord, leg_number,
 };
-use crate::files::design::Design;
 use machine::requirements::Objective;
 use optimize::dimensional::{ChosenVariable, DimensionalSolution, HistoryStep};
 use optimize::offsets::{Branch, OffsetHistoryStep, OffsetProblem, OffsetSolution};

@@ -57,7 +57,7 @@ impl KeepCondition {
         let (name, comparison, value) = Self::parts(text)?;
         let Some(column) = columns.iter().position(|c| c.name == name) else {
             let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
-            let help = crate::files::design::spanned::nearest_help("columns of this plan", name, &names);
+            let help = files::design::spanned::nearest_help("columns of this plan", name, &names);
             return Err((format!("`{name}` is not a column of this plan"), help));
         };
         let kind = columns[column].kind;

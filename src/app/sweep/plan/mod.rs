@@ -7,7 +7,7 @@ mod read;
 mod tests;
 mod values;
 
-use crate::files::design::Format;
+use files::design::Format;
 use machine::manufacture::ErrorBound;
 use platform::geom::Pose;
 

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::PlanText;
-use crate::files::design::spanned::{Findings, Node, Value, find, nearest_help, read, shown};
-use crate::files::design::{
-    Design, Drive, DriveTable, Format, InvalidDriveTable, InvalidSeries, SeriesKind, Violation, parse,
-};
+use crate::app::Design;
+use crate::app::design::parse;
+use files::design::spanned::{Findings, Node, Value, find, nearest_help, read, shown};
+use files::design::{Drive, DriveTable, Format, InvalidDriveTable, InvalidSeries, SeriesKind, Violation};
 use machine::requirements::{TermKind, Terms};
 use platform::geom::{InvalidPose, Pose};
 
@@ -178,7 +178,7 @@ fn kinds_of(design: &Design) -> Vec<TermKind> {
 
 /// What is wrong with a base design; of cranks it says what a sweep takes.
 fn refused_as_base(mut violations: Vec<Violation>) -> Vec<Violation> {
-    for v in violations.iter_mut().filter(|v| v.code == crate::files::design::Code::Rotary) {
+    for v in violations.iter_mut().filter(|v| v.code == files::design::Code::Rotary) {
         v.message =
             "the legs are rods on cranks, and the base design of a sweep has legs that change their lengths"
                 .into();

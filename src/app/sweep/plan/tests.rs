@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::app::sweep::column::SweepCell;
-use crate::files::design::Violation;
+use files::design::Violation;
 
 const DESIGN: &str = include_str!("../../../../designs/rbt-octahedral.toml");
 
@@ -121,7 +121,7 @@ fn drives_of_a_table_vary_by_their_names() {
     let tableless = format!("{HEAD}[vary]\nby = 'grid'\nvalues = {{ drive = 'all' }}\n");
     assert!(plan(&tableless).unwrap_err()[0].message.contains("names no table of drives"));
     let twice = base().with_drives(b"name,stroke,dead_length\na,4,6\na,5,6\n");
-    assert_eq!(twice.unwrap_err(), crate::files::design::InvalidDriveTable::TwoDrives("a".into()));
+    assert_eq!(twice.unwrap_err(), files::design::InvalidDriveTable::TwoDrives("a".into()));
 }
 
 #[test]

@@ -4,14 +4,14 @@ use nalgebra::{Unit, Vector3};
 
 use super::resolve::{Fault, Owner, ordered};
 use super::{Constructions, CoordinatePlane, WrittenNumber};
-use crate::files::design::Code;
+use crate::design::Code;
 use machine::rotary::Elbow;
 use num::real::RealNumber;
 
 /// Greatest magnitude of a length: its fourth power still fits a double.
 const LARGEST: f64 = 1e60;
 /// Places of the numbers of a crank among its parts.
-pub(in crate::files::design) const PARTS: usize = 11;
+pub(in crate::design) const PARTS: usize = 11;
 const LENGTH: usize = 0;
 const ROD_LENGTH: usize = 1;
 const AXIS: usize = 2;
@@ -30,7 +30,7 @@ pub(crate) enum CrankCopy {
 
 impl CrankCopy {
     /// The crank it starts from, by its base joint.
-    pub(in crate::files::design) fn crank(&self) -> usize {
+    pub(in crate::design) fn crank(&self) -> usize {
         match self {
             Self::Turned { crank, .. } | Self::Mirrored { crank, .. } => *crank,
         }
@@ -40,13 +40,13 @@ impl CrankCopy {
 /// What is said of one crank, or of all of them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct WrittenCrank {
-    pub(in crate::files::design) length: Option<WrittenNumber>,
-    pub(in crate::files::design) rod_length: Option<WrittenNumber>,
-    pub(in crate::files::design) axis: Option<[WrittenNumber; 3]>,
-    pub(in crate::files::design) zero: Option<[WrittenNumber; 3]>,
-    pub(in crate::files::design) angle_deg: Option<[WrittenNumber; 2]>,
-    pub(in crate::files::design) elbow: Option<Elbow>,
-    pub(in crate::files::design) copy: Option<CrankCopy>,
+    pub(in crate::design) length: Option<WrittenNumber>,
+    pub(in crate::design) rod_length: Option<WrittenNumber>,
+    pub(in crate::design) axis: Option<[WrittenNumber; 3]>,
+    pub(in crate::design) zero: Option<[WrittenNumber; 3]>,
+    pub(in crate::design) angle_deg: Option<[WrittenNumber; 2]>,
+    pub(in crate::design) elbow: Option<Elbow>,
+    pub(in crate::design) copy: Option<CrankCopy>,
 }
 
 impl WrittenCrank {
@@ -93,12 +93,12 @@ impl Stated {
 /// A crank and its rod, without the joints at their ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CrankValues {
-    pub(in crate::files::design) length: f64,
-    pub(in crate::files::design) rod: f64,
-    pub(in crate::files::design) axis: Unit<Vector3<f64>>,
-    pub(in crate::files::design) zero: Vector3<f64>,
-    pub(in crate::files::design) limits_deg: Option<[f64; 2]>,
-    pub(in crate::files::design) elbow: Elbow,
+    pub(in crate::design) length: f64,
+    pub(in crate::design) rod: f64,
+    pub(in crate::design) axis: Unit<Vector3<f64>>,
+    pub(in crate::design) zero: Vector3<f64>,
+    pub(in crate::design) limits_deg: Option<[f64; 2]>,
+    pub(in crate::design) elbow: Elbow,
 }
 
 /// What the drives of the cranks and the joints of the rods can do.
@@ -120,12 +120,12 @@ pub struct CrankLimits {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct WrittenCranks {
     /// What holds for all cranks that say nothing else.
-    pub(in crate::files::design) shared: WrittenCrank,
+    pub(in crate::design) shared: WrittenCrank,
     /// What is said of single cranks, by base joint.
-    pub(in crate::files::design) own: Vec<Option<WrittenCrank>>,
-    pub(in crate::files::design) drives: CrankLimits,
+    pub(in crate::design) own: Vec<Option<WrittenCrank>>,
+    pub(in crate::design) drives: CrankLimits,
     /// The keys that no crank of a base joint states, and what follows for the others.
-    pub(in crate::files::design) values: Vec<Result<CrankValues, &'static str>>,
+    pub(in crate::design) values: Vec<Result<CrankValues, &'static str>>,
 }
 
 impl WrittenCranks {

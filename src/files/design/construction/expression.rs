@@ -25,7 +25,7 @@ const FUNCTIONS: [(&str, Function); 3] =
     [("sqrt", Function::Sqrt), ("sin_deg", Function::SinDeg), ("cos_deg", Function::CosDeg)];
 
 /// Names of the functions.
-pub(in crate::files::design) fn function_names() -> [&'static str; 3] {
+pub(in crate::design) fn function_names() -> [&'static str; 3] {
     FUNCTIONS.map(|f| f.0)
 }
 
@@ -46,7 +46,7 @@ enum Operator {
 
 /// An expression, or a part of one, with its place in the text.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::files::design) struct Expression {
+pub(in crate::design) struct Expression {
     place: Range<usize>,
     part: Part,
 }
@@ -64,22 +64,22 @@ enum Part {
 
 /// What is wrong with a text that is no expression, and where in it.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::files::design) struct Slip {
-    pub(in crate::files::design) place: Range<usize>,
-    pub(in crate::files::design) message: String,
+pub(in crate::design) struct Slip {
+    pub(in crate::design) place: Range<usize>,
+    pub(in crate::design) message: String,
     /// The text is too long or nested too deep.
-    pub(in crate::files::design) too_complex: bool,
+    pub(in crate::design) too_complex: bool,
 }
 
 /// An operation without a result, and where in the text it stands.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::files::design) struct Stuck {
-    pub(in crate::files::design) place: Range<usize>,
-    pub(in crate::files::design) why: Unsolved,
+pub(in crate::design) struct Stuck {
+    pub(in crate::design) place: Range<usize>,
+    pub(in crate::design) why: Unsolved,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::files::design) enum Unsolved {
+pub(in crate::design) enum Unsolved {
     NoReal(NoReal),
     /// No value belongs to this name.
     Name(String),
@@ -88,7 +88,7 @@ pub(in crate::files::design) enum Unsolved {
 }
 
 /// A name as expressions can use it: letters, digits and underscores, not a digit first, and no function.
-pub(in crate::files::design) fn is_name(text: &str) -> bool {
+pub(in crate::design) fn is_name(text: &str) -> bool {
     text.len() <= 60
         && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
@@ -96,7 +96,7 @@ pub(in crate::files::design) fn is_name(text: &str) -> bool {
 }
 
 impl Expression {
-    pub(in crate::files::design) fn parse(text: &str) -> Result<Self, Slip> {
+    pub(in crate::design) fn parse(text: &str) -> Result<Self, Slip> {
         if text.len() > MAX_LENGTH {
             let message = format!("the expression is longer than {MAX_LENGTH} characters");
             return Err(Slip { place: 0..text.len(), message, too_complex: true });
@@ -114,7 +114,7 @@ impl Expression {
     }
 
     /// The names in it.
-    pub(in crate::files::design) fn names(&self) -> Vec<&str> {
+    pub(in crate::design) fn names(&self) -> Vec<&str> {
         match &self.part {
             Part::Decimal(_) => Vec::new(),
             Part::Name(name) => vec![name],
@@ -126,7 +126,7 @@ impl Expression {
     }
 
     /// The value of a decimal with or without a sign.
-    pub(in crate::files::design) fn decimal(&self) -> Option<Rational> {
+    pub(in crate::design) fn decimal(&self) -> Option<Rational> {
         match &self.part {
             Part::Decimal(x) => Some(x.clone()),
             Part::Negative(x) => x.decimal().map(|x| -x),
@@ -135,7 +135,7 @@ impl Expression {
     }
 
     /// Its operations, square roots counted as many.
-    pub(in crate::files::design) fn work(&self) -> usize {
+    pub(in crate::design) fn work(&self) -> usize {
         match &self.part {
             Part::Decimal(_) | Part::Name(_) => 1,
             Part::Negative(x) => x.work(),
@@ -146,7 +146,7 @@ impl Expression {
     }
 
     /// The value, with that of the names from outside.
-    pub(in crate::files::design) fn value(
+    pub(in crate::design) fn value(
         &self,
         named: &dyn Fn(&str) -> Result<RealNumber, Unsolved>,
     ) -> Result<RealNumber, Stuck> {

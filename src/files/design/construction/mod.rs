@@ -14,7 +14,7 @@ use nalgebra::Point3;
 pub use self::cranks::CrankLimits;
 pub(super) use self::cranks::{CrankCopy, PARTS, WrittenCrank, WrittenCranks};
 use self::expression::{Expression, Slip};
-pub(crate) use self::origins::Origin;
+pub use self::origins::Origin;
 use num::exact::rational;
 use num::real::RealNumber;
 use num::surd::{Surd, generators};
@@ -200,11 +200,11 @@ impl Construction {
 /// The home pose where an expression gives a number of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct WrittenHome {
-    pub(crate) position: [WrittenNumber; 3],
+    pub position: [WrittenNumber; 3],
     /// Roll, pitch and yaw in degrees; `None` where the rotation is given in another way, without expressions.
-    pub(crate) rpy_deg: Option<[WrittenNumber; 3]>,
+    pub rpy_deg: Option<[WrittenNumber; 3]>,
     /// The pose that follows.
-    pub(crate) pose: Pose,
+    pub pose: Pose,
 }
 
 impl WrittenHome {

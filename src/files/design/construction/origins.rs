@@ -2,13 +2,13 @@
 
 use super::resolve::on_line;
 use super::{Construction, Constructions, LinePlace, RealPoint, WrittenHome, WrittenNumber};
-use crate::files::design::Design;
+use crate::design::DesignModel;
 use num::real::RealNumber;
 use platform::manipulator::Body;
 
 /// Where a joint comes from, in the joints of the same body of the design before.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Origin {
+pub enum Origin {
     /// It is this joint.
     Kept(usize),
     /// It is on the line of two of them, at this share of the way.
@@ -17,12 +17,12 @@ pub(crate) enum Origin {
     New,
 }
 
-impl Design {
+impl DesignModel {
     /// The same with the constructions of the joints it has from another design, and with those of joints on the lines of its joints.
     ///
     /// What a construction starts from may be missing here; the joint is then given by its exact coordinates, and by three doubles where those are not known as
     /// a short expression. So is a joint that is elsewhere now.
-    pub(crate) fn constructed_from(self, old: &Self, origins: [&[Origin]; 2]) -> Self {
+    pub fn constructed_from(self, old: &Self, origins: [&[Origin]; 2]) -> Self {
         let mut made = Constructions::default();
         for body in Body::BOTH {
             let list = self.carried(old, body, origins[body.index()]);
@@ -42,7 +42,7 @@ impl Design {
     }
 
     /// The same with the joints of a body at these decimals, in their order; a body without a list stays as it is.
-    pub(crate) fn at_decimals(self, decimals: [Option<&[[String; 3]]>; 2]) -> Self {
+    pub fn at_decimals(self, decimals: [Option<&[[String; 3]]>; 2]) -> Self {
         let mut made = self.current_constructions();
         for (own, list) in made.joints.iter_mut().zip(decimals) {
             let number = |text: &String| WrittenNumber::text(text).ok();
@@ -57,7 +57,7 @@ impl Design {
     }
 
     /// The design with base and platform exchanged, as which this one has been built: joints keep their constructions.
-    pub(crate) fn exchanged_from(self, old: &Self) -> Self {
+    pub fn exchanged_from(self, old: &Self) -> Self {
         let mut made = old.constructions.clone();
         made.joints.swap(0, 1);
         made.home = None; // of the other body

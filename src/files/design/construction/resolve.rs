@@ -10,8 +10,8 @@ use super::{
     Construction, Constructions, CoordinatePlane, LinePlace, RealPoint, WrittenCranks, WrittenHome,
     WrittenNumber, exact_double,
 };
-use crate::files::design::Code;
-use crate::files::design::validate::nearest_help;
+use crate::design::Code;
+use crate::design::validate::nearest_help;
 use num::real::{NoReal, RealNumber};
 use platform::manipulator::Body;
 
@@ -20,7 +20,7 @@ const MAX_WORK: usize = 12_000;
 
 /// What a fault belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::files::design) enum Owner {
+pub(in crate::design) enum Owner {
     Parameter(usize),
     Joint(Body, usize),
     Home,
@@ -32,30 +32,30 @@ pub(in crate::files::design) enum Owner {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{message}; {help}")]
 pub(crate) struct Fault {
-    pub(in crate::files::design) owner: Owner,
+    pub(in crate::design) owner: Owner,
     /// Which of the things that are written for it: a coordinate, a key.
-    pub(in crate::files::design) part: Option<usize>,
+    pub(in crate::design) part: Option<usize>,
     /// The place in the expression.
-    pub(in crate::files::design) within: Option<Range<usize>>,
-    pub(in crate::files::design) code: Code,
-    pub(in crate::files::design) message: String,
-    pub(in crate::files::design) help: String,
+    pub(in crate::design) within: Option<Range<usize>>,
+    pub(in crate::design) code: Code,
+    pub(in crate::design) message: String,
+    pub(in crate::design) help: String,
 }
 
 /// Names of the joints, and their coordinates where they are three numbers: not finite where they could not be read.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::files::design) struct Joints<'a> {
-    pub(in crate::files::design) names: [&'a [String]; 2],
-    pub(in crate::files::design) points: [&'a [Point3<f64>]; 2],
+pub(in crate::design) struct Joints<'a> {
+    pub(in crate::design) names: [&'a [String]; 2],
+    pub(in crate::design) points: [&'a [Point3<f64>]; 2],
     /// Parameters whose values could not be read.
-    pub(in crate::files::design) unread: &'a [String],
+    pub(in crate::design) unread: &'a [String],
 }
 
 impl Constructions {
     /// The exact coordinates of all joints, which are kept, and the doubles nearest to them; and the home pose, which is kept.
     ///
     /// Every fault is reported once: what depends on a faulty value is silent.
-    pub(in crate::files::design) fn resolve(
+    pub(in crate::design) fn resolve(
         &mut self,
         given: Joints<'_>,
     ) -> Result<[Vec<Point3<f64>>; 2], Vec<Fault>> {
@@ -358,7 +358,7 @@ fn no_real(why: NoReal) -> (Code, String, String) {
 }
 
 /// "did you mean", or all names.
-pub(in crate::files::design) fn known_names(given: &str, known: &[&str]) -> String {
+pub(in crate::design) fn known_names(given: &str, known: &[&str]) -> String {
     if known.is_empty() {
         return format!("add [parameters] with `{given} = ...`");
     }

@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::Exactness;
-use crate::files::design::{Code, Design, Format, JointError, Violation, parse};
+use crate::design::{Code, DesignModel, Format, JointError, Violation, parse};
 use platform::manipulator::Body;
 
 /// A design with these lines in `[parameters]` and `[base]`.
@@ -24,7 +24,7 @@ F = [3.0, 5.0, 0.0]
 
 const TRIANGLE: &str = "A = [0, 0, 0]\nB = [\"6\", \"6*sqrt(3)\", 0]\nC = [12, 0, 0]\n";
 
-fn read(parameters: &str, base: &str) -> Design {
+fn read(parameters: &str, base: &str) -> DesignModel {
     let text = text(parameters, base);
     parse(&text, Format::Toml).unwrap_or_else(|v| panic!("{text}\n{v:?}")).0
 }
@@ -33,7 +33,7 @@ fn refused(parameters: &str, base: &str) -> Vec<Violation> {
     parse(&text(parameters, base), Format::Toml).unwrap_err()
 }
 
-fn base(design: &Design, name: &str) -> ([String; 3], Exactness, [f64; 3]) {
+fn base(design: &DesignModel, name: &str) -> ([String; 3], Exactness, [f64; 3]) {
     let i = design.base_names().iter().position(|n| n == name).unwrap();
     let exact = design.exact_joints(Body::Base).swap_remove(i);
     (exact.coordinates, exact.exactness, design.manipulator().base_joints()[i].coords.into())

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::as_map;
-use crate::files::design::{CalibrationTable, Correlations, Design};
+use crate::design::{CalibrationTable, Correlations, DesignModel};
 use platform::manipulator::Body;
 
 /// `[calibration]`.
@@ -30,7 +30,7 @@ pub(super) struct CorrelationsFile<'a> {
 }
 
 impl<'a> CorrelationsFile<'a> {
-    fn of(design: &Design, found: &'a Correlations) -> Self {
+    fn of(design: &DesignModel, found: &'a Correlations) -> Self {
         Self {
             unknowns: found.unknowns.iter().map(|number| number.name(design)).collect(),
             matrix: &found.triangle,
@@ -54,7 +54,7 @@ impl<'a> CorrelationsFile<'a> {
 }
 
 impl<'a> CalibrationFile<'a> {
-    pub(super) fn of(design: &'a Design, table: &'a CalibrationTable) -> Self {
+    pub(super) fn of(design: &'a DesignModel, table: &'a CalibrationTable) -> Self {
         let named = |body: Body| {
             let of = |(joint, name): (usize, &'a String)| {
                 Some((name.as_str(), table.deviation(body, joint)?.into()))

@@ -4,8 +4,8 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use super::as_map;
-use crate::files::design::construction::{CrankCopy, Spelling, WrittenCrank, WrittenCranks};
-use crate::files::design::{Construction, LinePlace, WrittenNumber};
+use crate::design::construction::{CrankCopy, Spelling, WrittenCrank, WrittenCranks};
+use crate::design::{Construction, LinePlace, WrittenNumber};
 use machine::rotary::Elbow;
 
 /// `[cranks]`: what is said of all cranks, and of single ones by name.

@@ -21,7 +21,7 @@ use self::loads::{KeepOutTable, LoadTable, PayloadTable, SpeedTable, StiffnessTa
 use self::optimize::OptimizeFile;
 use self::plates::{HolesTable, PlatesTable};
 use self::poses::{HomeTable, PoseTable, WorkspaceTable};
-use super::{Design, SearchTable, WrittenNumber};
+use super::{DesignModel, SearchTable, WrittenNumber};
 use machine::requirements::{ForceUnit, ListedFrom, MassUnit, Region};
 use platform::manipulator::Body;
 
@@ -99,7 +99,7 @@ fn as_map<S: Serializer>(list: &[(&str, impl Serialize)], serializer: S) -> Resu
     serializer.collect_map(list.iter().map(|(name, value)| (name, value)))
 }
 
-impl Design {
+impl DesignModel {
     /// The design as TOML. Reading it back gives an equal design, bit for bit.
     #[must_use]
     pub fn to_toml(&self) -> String {

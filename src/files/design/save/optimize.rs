@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::files::design::{Combination, OptimizeTable, SearchTable};
+use crate::design::{Combination, OptimizeTable, SearchTable};
 use machine::requirements::KeptSymmetry;
 
 #[derive(Serialize, PartialEq)]

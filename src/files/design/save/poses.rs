@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::files::design::construction::WrittenHome;
-use crate::files::design::{Design, WrittenNumber};
+use crate::design::construction::WrittenHome;
+use crate::design::{DesignModel, WrittenNumber};
 use platform::geom::Pose;
 
 #[derive(Serialize)]
@@ -22,7 +22,7 @@ pub(super) enum HomeTable<'a> {
 }
 
 impl<'a> HomeTable<'a> {
-    pub(super) fn of(design: &'a Design) -> Option<Self> {
+    pub(super) fn of(design: &'a DesignModel) -> Option<Self> {
         let table = PoseTable::from(design.home.as_ref()?);
         Some(match design.written_home() {
             None => Self::Numbers(table),

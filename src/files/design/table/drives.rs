@@ -3,56 +3,59 @@
 use thiserror::Error;
 
 use super::sheet::{InvalidSheet, Sheet, SheetRow};
-use crate::files::design::{micrometres, nearest_word};
+use crate::design::{micrometres, nearest_word};
 use machine::requirements::{ForceUnit, LengthLimits, MassUnit};
 
 /// A linear drive, in the units of a design.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Drive {
+pub struct Drive {
     /// Line of the table, from 1.
-    pub(crate) line: usize,
+    pub line: usize,
     /// Its name; its number in the table where there is no column of names.
-    pub(crate) name: String,
+    pub name: String,
     /// Travel.
-    pub(crate) stroke: f64,
+    pub stroke: f64,
     /// From joint centre to joint centre.
-    pub(crate) lengths: LengthLimits,
+    pub lengths: LengthLimits,
     /// Greatest force, push or pull.
-    pub(crate) force: Option<f64>,
+    pub force: Option<f64>,
     /// Greatest speed.
-    pub(crate) speed: Option<f64>,
+    pub speed: Option<f64>,
     /// Mass of the whole drive.
-    pub(crate) mass: Option<f64>,
+    pub mass: Option<f64>,
     /// Along its line.
-    pub(crate) stiffness: Option<f64>,
+    pub stiffness: Option<f64>,
     /// In the currency of the table.
-    pub(crate) price: Option<f64>,
+    pub price: Option<f64>,
     /// Where the numbers are from.
-    pub(crate) source: Option<String>,
+    pub source: Option<String>,
 }
 
 /// A table of drives.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct DriveTable {
-    pub(crate) drives: Vec<Drive>,
+pub struct DriveTable {
+    /// The drives, in the order of the table.
+    pub drives: Vec<Drive>,
     /// What the header writes behind `price`.
-    pub(crate) currency: Option<String>,
+    pub currency: Option<String>,
     /// What was guessed and what is not used, a sentence each.
-    pub(crate) guesses: Vec<String>,
+    pub guesses: Vec<String>,
 }
 
 /// The units of a design.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct DesignUnits<'a> {
+pub struct DesignUnits<'a> {
     /// The label of its lengths.
-    pub(crate) length: &'a str,
-    pub(crate) force: ForceUnit,
-    pub(crate) mass: MassUnit,
+    pub length: &'a str,
+    /// The unit of its forces.
+    pub force: ForceUnit,
+    /// The unit of its masses.
+    pub mass: MassUnit,
 }
 
 /// Why a table holds no drives.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub(crate) enum InvalidDriveTable {
+pub enum InvalidDriveTable {
     /// It is no table.
     #[error(transparent)]
     Sheet(#[from] InvalidSheet),
@@ -209,7 +212,7 @@ impl DriveTable {
     ///
     /// # Errors
     /// [`InvalidDriveTable`].
-    pub(crate) fn read(bytes: &[u8], units: &DesignUnits<'_>) -> Result<Self, InvalidDriveTable> {
+    pub fn read(bytes: &[u8], units: &DesignUnits<'_>) -> Result<Self, InvalidDriveTable> {
         let sheet = Sheet::read(bytes, 2)?;
         let header = sheet.header.clone().ok_or(InvalidDriveTable::NoHeader)?;
         let mut guesses = sheet.guesses.clone();

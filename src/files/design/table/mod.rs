@@ -9,16 +9,13 @@ mod header;
 mod mjcf;
 mod placed;
 mod points;
-#[cfg(feature = "cli")]
 mod rig_sheet;
 mod series;
 mod sheet;
 mod text;
 
-pub(crate) use drives::{DesignUnits, Drive, DriveTable, InvalidDriveTable};
-#[cfg(feature = "cli")]
-pub(crate) use points::InvalidPointTable;
-pub(crate) use points::PointTable;
-#[cfg(feature = "cli")]
-pub(crate) use rig_sheet::{RigSheet, SheetDialect};
-pub(crate) use series::{InvalidSeries, SeriesKind, SeriesRow, TimeSeries};
+pub use drives::{DesignUnits, Drive, DriveTable, InvalidDriveTable};
+pub use points::{InvalidPointTable, PointTable};
+pub use rig_sheet::{InvalidRigSheet, RigSheet, SheetDialect, SheetLegs};
+pub use series::{InvalidSeries, SeriesKind, SeriesRow, TimeSeries};
+pub use sheet::InvalidSheet;

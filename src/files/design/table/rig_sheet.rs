@@ -16,13 +16,13 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use super::text::decode;
-use crate::files::design::{Design, HexapodSizes};
+use crate::design::{DesignModel, HexapodSizes};
 use machine::rotary::{Elbow, RotaryPlatform};
 use num::names::{UnknownName, named};
 
 /// Whose sheet it is: it says which of `L3` and `L4` is the long side of the base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum SheetDialect {
+pub enum SheetDialect {
     /// `Motion4Sim`, whose parameters are those of `FlyPT` Mover: `L3` is the short side of the base, `L4` the long one.
     Motion4Sim,
     /// DR Sim Manager of Departed Reality: `L3` is the long side of the base, `L4` the short one.
@@ -31,10 +31,10 @@ pub(crate) enum SheetDialect {
 
 impl SheetDialect {
     /// Both.
-    pub(crate) const ALL: [Self; 2] = [Self::Motion4Sim, Self::DrSimManager];
+    pub const ALL: [Self; 2] = [Self::Motion4Sim, Self::DrSimManager];
 
     /// Its name on the command line.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Motion4Sim => "motion4sim",
             Self::DrSimManager => "dr-sim-manager",
@@ -75,7 +75,7 @@ impl std::str::FromStr for SheetDialect {
 
 /// What moves the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum SheetLegs {
+pub enum SheetLegs {
     /// Legs that change their lengths: the length in the middle, and how far it goes to either side.
     Linear {
         /// `middle`.
@@ -98,18 +98,18 @@ pub(crate) enum SheetLegs {
 
 /// The parameters of a hexapod.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct RigSheet {
+pub struct RigSheet {
     /// Long and short side of the platform.
-    pub(crate) platform: [f64; 2],
+    pub platform: [f64; 2],
     /// Long and short side of the base.
-    pub(crate) base: [f64; 2],
+    pub base: [f64; 2],
     /// Drives.
-    pub(crate) legs: SheetLegs,
+    pub legs: SheetLegs,
 }
 
 /// Why parameters and designs do not belong together.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub(crate) enum InvalidRigSheet {
+pub enum InvalidRigSheet {
     /// It cannot be read as text.
     #[error("{0}")]
     Text(String),
@@ -188,7 +188,7 @@ pub(crate) enum InvalidRigSheet {
 
 impl InvalidRigSheet {
     /// What to do about it.
-    pub(crate) fn help(&self) -> String {
+    pub fn help(&self) -> String {
         match self {
             Self::Dialect { dialect, .. } => format!(
                 "if the sheet is one of {0}, name that: --dialect {0}; {1} is the long side there",
@@ -240,7 +240,7 @@ impl RigSheet {
     ///
     /// # Errors
     /// [`InvalidRigSheet`].
-    pub(crate) fn read(bytes: &[u8], dialect: SheetDialect) -> Result<Self, InvalidRigSheet> {
+    pub fn read(bytes: &[u8], dialect: SheetDialect) -> Result<Self, InvalidRigSheet> {
         let text = decode(bytes).map_err(InvalidRigSheet::Text)?.text;
         let known = || SIDES.iter().chain(&LINEAR).chain(&CRANKS);
         let mut found: Vec<(&str, f64)> = Vec::new();
@@ -309,7 +309,7 @@ impl RigSheet {
     }
 
     /// The sheet as a program of a dialect wants it.
-    pub(crate) fn text(&self, dialect: SheetDialect, design: &Design) -> String {
+    pub fn text(&self, dialect: SheetDialect, design: &DesignModel) -> String {
         let mut out = format!(
             "# {}: parameters for {}, lengths in {}, angles in degrees\n# L1, L2: long and short side of the platform; {} is the long side of the base\n",
             design.name.replace('\n', " "),
@@ -372,7 +372,7 @@ impl RigSheet {
     ///
     /// # Errors
     /// [`InvalidRigSheet`]: legs and rods that do not hold the platform.
-    pub(crate) fn to_toml(self, name: &str, units: &str) -> Result<String, InvalidRigSheet> {
+    pub fn to_toml(self, name: &str, units: &str) -> Result<String, InvalidRigSheet> {
         let height = self.height()?;
         let [(rb, sb), (rp, sp)] = [circle(self.base), circle(self.platform)];
         let sizes = HexapodSizes { radius: [rb, rp], spread_deg: [sb.to_degrees(), sp.to_degrees()], height };
@@ -411,7 +411,7 @@ impl RigSheet {
     ///
     /// # Errors
     /// [`InvalidRigSheet::NotSymmetric`]: a design that a sheet does not hold.
-    pub(crate) fn of(design: &Design, cranks: Option<&RotaryPlatform>) -> Result<Self, InvalidRigSheet> {
+    pub fn of(design: &DesignModel, cranks: Option<&RotaryPlatform>) -> Result<Self, InvalidRigSheet> {
         let no = |what: &str| InvalidRigSheet::NotSymmetric(format!("{}: {what}", design.name));
         let m = design.manipulator();
         let home = design.home_or_default();
@@ -492,7 +492,7 @@ impl RigSheet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Format, parse, parse_with_cranks};
+    use crate::design::{Format, parse, parse_with_cranks};
 
     const LINEAR_SHEET: &str = "# a rig\nL1 = 900\nL2: 150\nL3, 200\nL4 = 1100\nmiddle = 900\nrange = 150\n";
 

@@ -15,7 +15,7 @@ const LEGS: usize = 6;
 
 /// What the rows of a table hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum SeriesKind {
+pub enum SeriesKind {
     /// Six leg lengths.
     Lengths,
     /// Six angles of cranks.
@@ -28,29 +28,29 @@ pub(crate) enum SeriesKind {
 
 /// A row that was read.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct SeriesRow<T> {
+pub struct SeriesRow<T> {
     /// Its line in the text, from 1.
-    pub(crate) line: usize,
+    pub line: usize,
     /// Its time, where the table has a column for it; the unit is that of the table.
-    pub(crate) time: Option<f64>,
+    pub time: Option<f64>,
     /// What it holds.
-    pub(crate) value: T,
+    pub value: T,
 }
 
 /// A table of rows.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct TimeSeries<T> {
+pub struct TimeSeries<T> {
     /// The name of the column of times.
-    pub(crate) time_name: Option<String>,
+    pub time_name: Option<String>,
     /// In the order of the text; at least one.
-    pub(crate) rows: Vec<SeriesRow<T>>,
+    pub rows: Vec<SeriesRow<T>>,
     /// What was guessed, a sentence each.
-    pub(crate) guesses: Vec<String>,
+    pub guesses: Vec<String>,
 }
 
 /// Why a text is no such table.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub(crate) enum InvalidSeries {
+pub enum InvalidSeries {
     /// It is no table.
     #[error("{0}")]
     Sheet(InvalidSheet),
@@ -69,7 +69,7 @@ fn quoted(rows: &[String]) -> String {
 
 impl InvalidSeries {
     /// What is wrong, a sentence for each line that is.
-    pub(crate) fn sentences(&self) -> Vec<String> {
+    pub fn sentences(&self) -> Vec<String> {
         match self {
             Self::Rows(rows) => rows.clone(),
             other => vec![other.to_string()],
@@ -96,7 +96,7 @@ impl SeriesKind {
     ///
     /// # Errors
     /// [`InvalidSeries`].
-    pub(crate) fn read<T>(
+    pub fn read<T>(
         self,
         bytes: &[u8],
         record: impl Fn(&str) -> Result<T, String>,

@@ -8,26 +8,26 @@ use super::text::decode;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SheetRow {
     /// Line of the text it begins on, from 1.
-    pub(crate) line: usize,
+    pub line: usize,
     /// The cells, without the blanks and quotes around them.
-    pub(crate) cells: Vec<String>,
+    pub cells: Vec<String>,
 }
 
 /// A table of cells, some of which are numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Sheet {
+pub(super) struct Sheet {
     /// The names of the columns, where the table has them.
-    pub(crate) header: Option<Vec<String>>,
+    pub header: Option<Vec<String>>,
     /// All rows below the header, those without numbers included.
-    pub(crate) rows: Vec<SheetRow>,
+    pub rows: Vec<SheetRow>,
     /// What was guessed, a sentence each.
-    pub(crate) guesses: Vec<String>,
+    pub guesses: Vec<String>,
     decimal: char,
 }
 
 /// Why a text is no table.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub(crate) enum InvalidSheet {
+pub enum InvalidSheet {
     /// It cannot be read as text.
     #[error("{0}")]
     Encoding(String),
@@ -54,7 +54,7 @@ impl Sheet {
     ///
     /// # Errors
     /// [`InvalidSheet`].
-    pub(crate) fn read(bytes: &[u8], least: usize) -> Result<Self, InvalidSheet> {
+    pub(super) fn read(bytes: &[u8], least: usize) -> Result<Self, InvalidSheet> {
         let decoded = decode(bytes).map_err(InvalidSheet::Encoding)?;
         let mut guesses: Vec<String> = decoded.guess.into_iter().collect();
         let mut text = decoded.text;
@@ -123,7 +123,7 @@ impl Sheet {
     }
 
     /// The number in a cell; `None` where it is none, or not finite.
-    pub(crate) fn number(&self, cell: &str) -> Option<f64> {
+    pub(super) fn number(&self, cell: &str) -> Option<f64> {
         number(cell, self.decimal)
     }
 

@@ -4,14 +4,14 @@ use nalgebra::{Unit, Vector3};
 
 use super::joint_models::check_axes;
 use super::tables::is_normal;
-use crate::files::design::Design;
-use crate::files::design::tree::{Entry, Node, Value, find};
-use crate::files::design::violation::Findings;
+use crate::design::DesignModel;
+use crate::design::tree::{Entry, Node, Value, find};
+use crate::design::violation::Findings;
 use machine::requirements::{JointAxes, plate_normal};
 use platform::manipulator::Body;
 
 /// Puts the normals in where the file names them, and checks the axes of universal joints once more.
-pub(super) fn turn_to_normals(report: &mut Findings<'_>, top: &[Entry], design: &mut Design) {
+pub(super) fn turn_to_normals(report: &mut Findings<'_>, top: &[Entry], design: &mut DesignModel) {
     let Some(Value::Table(hardware)) = find(top, "hardware").map(|e| &e.node.value) else { return };
     for body in Body::BOTH {
         let Some(entry) = find(hardware, body.of(("base_axes", "platform_axes"))) else { continue };
@@ -46,7 +46,7 @@ pub(super) fn named(node: &Node) -> [bool; 6] {
 }
 
 /// The normal of the greatest triangle of the joints, towards the other body at home on the base, away from it on the platform.
-fn normal(design: &Design, body: Body) -> Unit<Vector3<f64>> {
+fn normal(design: &DesignModel, body: Body) -> Unit<Vector3<f64>> {
     let (m, home) = (design.manipulator(), design.home_or_default());
     let lines: Vector3<f64> = m.legs().iter().map(|l| home.transform(&l.platform) - l.base).sum();
     let towards = if body == Body::Base { lines } else { home.rotation.inverse() * lines };

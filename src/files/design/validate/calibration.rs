@@ -4,9 +4,9 @@ use nalgebra::Vector3;
 
 use super::joints::NamedJoints;
 use super::{check_keys, element_span, elements, nearest_help, number, numbers, shown, table};
-use crate::files::design::tree::{Entry, Node, Value, find};
-use crate::files::design::violation::Findings;
-use crate::files::design::{CalibratedNumber, CalibrationTable, Code, Correlations};
+use crate::design::tree::{Entry, Node, Value, find};
+use crate::design::violation::Findings;
+use crate::design::{CalibratedNumber, CalibrationTable, Code, Correlations};
 use platform::manipulator::Body;
 
 pub(super) const CALIBRATION_KEYS: [&str; 5] =

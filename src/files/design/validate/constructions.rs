@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use super::cranks::CrankPlaces;
 use super::joints::NamedJoints;
 use super::{LARGEST, check_keys, nearest_help, number, shown, table};
-use crate::files::design::Code;
-use crate::files::design::construction::expression::{Slip, function_names, is_name};
-use crate::files::design::construction::resolve::{Joints, Owner};
-use crate::files::design::construction::{
+use crate::design::Code;
+use crate::design::construction::expression::{Slip, function_names, is_name};
+use crate::design::construction::resolve::{Joints, Owner};
+use crate::design::construction::{
     Construction, Constructions, CoordinatePlane, LinePlace, WrittenCranks, WrittenHome, WrittenNumber,
 };
-use crate::files::design::tree::{Entry, Node, Span, Value, find};
-use crate::files::design::violation::Findings;
+use crate::design::tree::{Entry, Node, Span, Value, find};
+use crate::design::violation::Findings;
 
 /// Keys of joints that are given as tables; the first of each decides what the others are.
 const FORMS: [&[&str]; 4] =

@@ -4,12 +4,12 @@ use super::constructions::{Places, quantity, three_quantities};
 use super::joints::{Legs, NamedJoints};
 use super::tables::positive;
 use super::{check_keys, nearest_help, shown, table, text};
-use crate::files::design::construction::{
+use crate::design::construction::{
     Constructions, CoordinatePlane, CrankCopy, CrankLimits, PARTS, WrittenCrank, WrittenCranks, WrittenNumber,
 };
-use crate::files::design::tree::{Entry, Node, Span, Value, find};
-use crate::files::design::violation::Findings;
-use crate::files::design::{Code, Design};
+use crate::design::tree::{Entry, Node, Span, Value, find};
+use crate::design::violation::Findings;
+use crate::design::{Code, DesignModel};
 use machine::rotary::Elbow;
 
 /// Keys of all cranks and of single ones.
@@ -291,7 +291,7 @@ pub(super) fn check_legs(
 }
 
 /// Tips and joints make a platform at the angles zero.
-pub(super) fn check_platform(report: &mut Findings<'_>, design: &Design, places: &CrankPlaces) {
+pub(super) fn check_platform(report: &mut Findings<'_>, design: &DesignModel, places: &CrankPlaces) {
     if let Err(why) = design.rotary() {
         report.refuse(
             Code::OutOfRange,

@@ -2,9 +2,9 @@
 
 use super::tables::positive;
 use super::{check_keys, nearest_help, number, numbers, shown, table, text};
-use crate::files::design::Code;
-use crate::files::design::tree::{Entry, Node, Span, Value, find};
-use crate::files::design::violation::Findings;
+use crate::design::Code;
+use crate::design::tree::{Entry, Node, Span, Value, find};
+use crate::design::violation::Findings;
 use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern};
 
 /// The plates, base first.

@@ -5,9 +5,9 @@ use nalgebra::{Unit, Vector3};
 use super::axes::named;
 use super::tables::{angle_to_half_turn, axis, housing, joint_axes, not_negative, positive};
 use super::{check_keys, element_span, number, numbers, shown, table, text};
-use crate::files::design::Code;
-use crate::files::design::tree::{Entry, Node, Value, find};
-use crate::files::design::violation::Findings;
+use crate::design::Code;
+use crate::design::tree::{Entry, Node, Value, find};
+use crate::design::violation::Findings;
 use machine::requirements::{Hardware, Housing, JointAxes, UniversalJoint};
 use platform::manipulator::Body;
 

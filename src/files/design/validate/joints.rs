@@ -6,10 +6,10 @@ use nalgebra::Point3;
 
 use super::constructions::{self, Places};
 use super::{nearest, numbers, shown};
-use crate::files::design::construction::{Construction, Constructions};
-use crate::files::design::tree::{Entry, Node, Span, Value};
-use crate::files::design::violation::Findings;
-use crate::files::design::{Code, Warning};
+use crate::design::construction::{Construction, Constructions};
+use crate::design::tree::{Entry, Node, Span, Value};
+use crate::design::violation::Findings;
+use crate::design::{Code, Warning};
 use platform::manipulator::{Body, is_collinear};
 
 /// A joint of the file. One with bad coordinates is kept so that legs still find its name.

@@ -4,10 +4,10 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::tables::{not_negative, positive, shape, vector};
 use super::{check_keys, number, numbers, shown, table, text};
-use crate::files::design::Code;
-use crate::files::design::scale::micrometres;
-use crate::files::design::tree::{Entry, Node, Value, find};
-use crate::files::design::violation::Findings;
+use crate::design::Code;
+use crate::design::scale::micrometres;
+use crate::design::tree::{Entry, Node, Value, find};
+use crate::design::violation::Findings;
 use machine::requirements::{
     Envelope, Envelopes, ForceUnit, GRAVITY, MassUnit, Payload, PlateMass, Reserve, Reserves, TermKind,
 };

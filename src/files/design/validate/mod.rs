@@ -19,7 +19,7 @@ use nalgebra::Point3;
 use self::joints::{Legs, NamedJoints};
 use super::tree::{Entry, Node, Span, Value, find};
 use super::violation::Findings;
-use super::{Code, Design, Warning, nearest_word};
+use super::{Code, DesignModel, Warning, nearest_word};
 use platform::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 
 /// Words less similar than this are no help.
@@ -57,7 +57,7 @@ const TOP_LEVEL: [&str; 27] = [
 
 /// The design, or `None` with the reasons in the report. Later checks run on whatever earlier ones left
 /// intact, so that one run shows all violations. Rods on cranks, and joints that are not ideal, are refused unless `takes_cranks`.
-pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool) -> Option<Design> {
+pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool) -> Option<DesignModel> {
     let Value::Table(entries) = &root.value else {
         let help = "write { \"name\": ..., \"units\": ..., \"base\": { ... }, \"platform\": { ... }, \"legs\": [ ... ] }";
         report.refuse(
@@ -127,7 +127,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     let (base, platform) = (base?, platform?);
     let manipulator = manipulator(report, &root.span, &base, &platform, &legs?)?;
     let mut design =
-        Design::new(name?, units?, manipulator).with_joint_names(base.names(), platform.names()).ok()?;
+        DesignModel::new(name?, units?, manipulator).with_joint_names(base.names(), platform.names()).ok()?;
     design.home = home;
     design.set_constructions(constructions?);
     cranks::check_platform(report, &design, &crank_places);
@@ -254,7 +254,7 @@ const LARGEST: f64 = 1e60;
 const SMALLEST: f64 = 1e-60;
 
 /// Refuses every key that is not in `known`.
-pub(crate) fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[&str], place: &str) {
+pub fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[&str], place: &str) {
     for entry in entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
         let message = format!("`{}` is not a key of {place}", shown(&entry.key));
         let help =
@@ -264,7 +264,7 @@ pub(crate) fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[
 }
 
 /// "did you mean ..." when something is near, else the list, `what` said before.
-pub(crate) fn nearest_help(what: &str, given: &str, known: &[&str]) -> String {
+pub fn nearest_help(what: &str, given: &str, known: &[&str]) -> String {
     let near = nearest(given, known).map(|near| format!("did you mean `{}`?", shown(near)));
     near.unwrap_or_else(|| {
         let more = if known.len() > 20 { ", and more" } else { "" };
@@ -279,7 +279,7 @@ fn nearest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
 }
 
 /// A name as it is put into messages: control characters escaped, cut after 60 characters.
-pub(crate) fn shown(name: &str) -> String {
+pub fn shown(name: &str) -> String {
     let mut text: String = name.chars().take(60).flat_map(char::escape_debug).collect();
     if name.chars().nth(60).is_some() {
         text.push_str("...");
@@ -288,7 +288,7 @@ pub(crate) fn shown(name: &str) -> String {
 }
 
 /// A text that is not blank.
-pub(crate) fn text(report: &mut Findings<'_>, entry: &Entry) -> Option<String> {
+pub fn text(report: &mut Findings<'_>, entry: &Entry) -> Option<String> {
     let key = &entry.key;
     match &entry.node.value {
         Value::Text(s) if !s.trim().is_empty() => Some(s.clone()),
@@ -310,7 +310,7 @@ fn text_or_absent(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Op
 }
 
 /// A finite number of a magnitude that can be squared.
-pub(crate) fn number(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<f64> {
+pub fn number(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<f64> {
     match &node.value {
         Value::Number(x) if !x.is_finite() => {
             let message = format!("{what} is {x}, not a finite number");
@@ -377,7 +377,7 @@ fn element_span(node: &Node, i: usize) -> Span {
 }
 
 /// The entries of a table, or a refusal.
-pub(crate) fn table<'a>(report: &mut Findings<'_>, node: &'a Node, what: &str) -> Option<&'a [Entry]> {
+pub fn table<'a>(report: &mut Findings<'_>, node: &'a Node, what: &str) -> Option<&'a [Entry]> {
     match &node.value {
         Value::Table(entries) => Some(entries),
         other => {

@@ -2,10 +2,10 @@
 
 use super::tables::{not_negative, positive};
 use super::{check_keys, nearest_help, number, shown, table, text};
-use crate::files::design::scale::micrometres;
-use crate::files::design::tree::{Entry, find};
-use crate::files::design::violation::Findings;
-use crate::files::design::{Code, Design};
+use crate::design::scale::micrometres;
+use crate::design::tree::{Entry, find};
+use crate::design::violation::Findings;
+use crate::design::{Code, DesignModel};
 use machine::requirements::{BoltPattern, BoltsFrom, Hardware, MATERIALS, PlateDesign, PlateMass, Plates};
 use platform::manipulator::Body;
 
@@ -178,7 +178,7 @@ fn bolts(report: &mut Findings<'_>, entry: &Entry) -> Option<BoltPattern> {
 }
 
 /// A payload that has the plate in its mass weighs no less than the plate, and one that has it added knows its mass.
-pub(super) fn check_masses(report: &mut Findings<'_>, top: &[Entry], design: &Design) {
+pub(super) fn check_masses(report: &mut Findings<'_>, top: &[Entry], design: &DesignModel) {
     let (Some(payload), Some(entry)) = (design.payload, find(top, "payload")) else { return };
     let plate = design.plate_mass(Body::Platform);
     let unit = design.mass_unit();

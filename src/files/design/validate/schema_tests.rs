@@ -9,7 +9,7 @@ use super::limits::{ENVELOPE_KEYS, PAYLOAD_KEYS};
 use super::plates::{BOLT_KEYS, PLATE_TABLE_KEYS, PLATES_KEYS};
 use super::search::SEARCH_KEYS;
 use super::tables::{HARDWARE_KEYS, LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
-use crate::files::design::SCHEMA;
+use crate::design::SCHEMA;
 use machine::requirements::{HolePattern, Objective, TermKind, VariableKind};
 
 fn sorted<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
@@ -29,7 +29,7 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys(""), sorted(super::TOP_LEVEL));
     assert_eq!(keys("/properties/workspace"), sorted(WORKSPACE_KEYS));
     assert_eq!(keys("/properties/hardware"), sorted(HARDWARE_KEYS));
-    assert_eq!(keys("/$defs/joint_model"), sorted(crate::files::design::validate::joint_models::KEYS));
+    assert_eq!(keys("/$defs/joint_model"), sorted(crate::design::validate::joint_models::KEYS));
     assert_eq!(keys("/properties/optimize"), sorted(SEARCH_KEYS.into_iter().chain(LIMIT_KEYS)));
     assert_eq!(keys("/$defs/pose"), sorted(POSE_KEYS));
     assert_eq!(keys("/$defs/home_pose"), sorted(POSE_KEYS));

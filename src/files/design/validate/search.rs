@@ -4,9 +4,9 @@ use super::holes::PLATE_KEYS;
 use super::joints::NamedJoints;
 use super::tables::positive;
 use super::{check_keys, nearest_help, number, numbers, shown, table};
-use crate::files::design::tree::{Entry, Node, Value, find};
-use crate::files::design::violation::Findings;
-use crate::files::design::{Code, Combination, SearchTable};
+use crate::design::tree::{Entry, Node, Value, find};
+use crate::design::violation::Findings;
+use crate::design::{Code, Combination, SearchTable};
 use machine::requirements::{KeptSymmetry, Objective, VariableKind};
 
 /// The keys read here.

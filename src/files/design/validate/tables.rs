@@ -7,10 +7,10 @@ use super::joint_models as joints;
 use super::joints::NamedJoints;
 use super::search::{SEARCH_KEYS, search};
 use super::{check_keys, element_span, number, numbers, shown, table, text};
-use crate::files::design::construction::WrittenHome;
-use crate::files::design::tree::{Entry, Node, Value, find};
-use crate::files::design::violation::Findings;
-use crate::files::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
+use crate::design::construction::WrittenHome;
+use crate::design::tree::{Entry, Node, Value, find};
+use crate::design::violation::Findings;
+use crate::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
 use machine::requirements::{
     Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits,
     ListedFrom, Load, PlatformSpeed, PlatformStiffness, Region, Swing,

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
 use super::{EquivalentOctahedral, braces, heading, number};
-use crate::files::export::Export;
+use crate::export::Export;
 use fk::{NearOptions, NearOutcome, NearSolver, WhyLost};
 use machine::reach::{PoseAxis, Reach, StraightWay};
 use machine::requirements::{Hardware, Limit, Requirements, TermKind, Terms};

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use nalgebra::Point2;
 
-use crate::files::export::text::{ascii, real};
+use crate::export::text::{ascii, real};
 
 /// Layers: name and colour. Only the first two are cut.
 const LAYERS: [(&str, u8); 5] = [("OUTLINE", 7), ("HOLES", 1), ("NAMES", 3), ("DIMENSIONS", 5), ("TABLE", 8)];

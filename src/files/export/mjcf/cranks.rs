@@ -6,8 +6,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::swing::{self, SwingTendon};
 use super::{Export, ModelMasses, Scale, Unsupported, opening, platform, quat, shape};
-use crate::files::export::model::ExportCranks;
-use crate::files::export::text::{real, reals};
+use crate::export::model::ExportCranks;
+use crate::export::text::{real, reals};
 use platform::geom::Pose;
 
 /// Natural gains of the actuators over those of legs that change their lengths, times the square of the length of the crank.

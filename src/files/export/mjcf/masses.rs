@@ -12,8 +12,8 @@
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-use crate::files::export::Export;
-use crate::files::export::text::{real, reals};
+use crate::export::Export;
+use crate::export::text::{real, reals};
 use machine::requirements::{LegMasses, LegPart};
 
 /// Each rod has this share of the mass of the platform moving along it where the platform can spare it.

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::text::{one_line, real, reals, scaled, xml_comment};
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Unsupported, Writer};
-use crate::files::plot::escape;
+use crate::plot::escape;
 use machine::requirements::{JointAxes, KeepOutShape};
 use platform::geom::{Pose, any_across};
 

@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Vector3};
 
 use super::builder::{Builder, Id, list, string};
-use crate::files::export::Export;
-use crate::files::export::text::reals;
+use crate::export::Export;
+use crate::export::text::reals;
 use platform::geom::Pose;
 
 /// A part: product definition, shape representation, and the frame it is given in.

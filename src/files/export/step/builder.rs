@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use nalgebra::{Point3, Vector3};
 
-use crate::files::export::text::{one_line, step_real};
+use crate::export::text::{one_line, step_real};
 
 /// The number of an entity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use nalgebra::{Point2, Point3, Vector3};
 
 use super::builder::{Builder, Id};
-use crate::files::export::Plate;
-use crate::files::export::text::step_real;
+use crate::export::Plate;
+use crate::export::text::step_real;
 use machine::requirements::{OutlinePart, on_circle};
 
 fn at(p: &Point2<f64>, z: f64) -> Point3<f64> {

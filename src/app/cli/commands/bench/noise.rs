@@ -10,7 +10,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::output::Answer;
 use crate::app::records::{BenchAnswer, NoiseAnswer, NoiseLevelRecord, NoiseRowRecord, SpreadRecord};
-use crate::files::plot::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
+use ::files::plot::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
 use fk::{ForwardKinematics, Threads};
 
 /// Levels the published figure shows, other than zero.

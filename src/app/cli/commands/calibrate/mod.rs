@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -17,7 +18,7 @@ use crate::app::records::{
     CalibrateAnswer, CalibrateOutcome, CalibrationRecord, ComputedPosesRecord, NextPoseRecord, Number,
     ResidualsRecord,
 };
-use crate::files::design::{Design, SeriesKind};
+use ::files::design::SeriesKind;
 use machine::calibration::{
     CalibrateOptions, Calibration, CalibrationError, CalibrationStatus, CarriedFrames, HeldParts, Loss,
     LossUnit, Measurement, MeasurementNoise, NextPose, StartChoice, Unknowns, next_poses, planning_root,

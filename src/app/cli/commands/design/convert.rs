@@ -8,7 +8,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::records::ConvertAnswer;
-use crate::files::design::{Format, RigSheet, SheetDialect};
+use ::files::design::{Format, RigSheet, SheetDialect};
 
 /// Arguments of `design convert`.
 #[derive(Debug, clap::Args)]
@@ -43,10 +43,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     };
     let mut design = context.load_with_cranks(&args.design)?;
     if let Some(units) = &args.units {
-        design = design.in_units(units).map_err(|why| {
+        let scaled = design.in_units(units).map_err(|why| {
             Failure::refused("convert::units", why.to_string())
                 .with_help("`units` of the design and --units each name one of um, mm, cm, m, in, ft")
         })?;
+        design = scaled.into();
     }
     match args.dialect {
         Some(dialect) => {
@@ -65,5 +66,5 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let output = args.output.display().to_string();
     let text = format!("wrote {output}\n");
-    Ok(Answer::new(Exit::Yes, ConvertAnswer { name: design.name, output, format }, text))
+    Ok(Answer::new(Exit::Yes, ConvertAnswer { name: design.name.clone(), output, format }, text))
 }

@@ -2,12 +2,15 @@
 
 use std::fmt::Write as _;
 
+use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
+use crate::app::design::parse_with_cranks;
+use crate::app::presets::{PRESETS, Preset};
 use crate::app::records::{PresetAnswer, PresetFile, PresetRecord, PresetsAnswer};
-use crate::files::design::{Design, Format, PRESETS, Preset, parse_with_cranks};
+use ::files::design::Format;
 
 /// Arguments of `design presets`.
 #[derive(Debug, clap::Args)]

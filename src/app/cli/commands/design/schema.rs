@@ -7,7 +7,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::records::{self, SchemaAnswer};
-use crate::files::design::SCHEMA;
+use files::design::SCHEMA;
 
 /// Arguments of `design schema`.
 #[derive(Debug, clap::Args)]

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use crate::app::Design;
 use crate::app::cli::commands::{GENERAL, NEAREST};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -12,7 +13,6 @@ use crate::app::cli::output::Answer;
 use crate::app::entrance::leg_map;
 use crate::app::equivalents::{Original, Origins};
 use crate::app::records::{FamilyAnswer, InstanceRecord, PatternPlace, PatternRecord};
-use crate::files::design::Design;
 use platform::manipulator::{Body, Octahedral};
 use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 

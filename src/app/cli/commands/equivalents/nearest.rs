@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use crate::app::Design;
 use crate::app::cli::commands::optimize::check_extension;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -11,7 +12,6 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::equivalents::NearestDesigns;
 use crate::app::records::NearestAnswer;
-use crate::files::design::Design;
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
 use synthesis::NearestOptions;
 

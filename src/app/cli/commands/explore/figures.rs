@@ -4,11 +4,9 @@ use std::fmt::Write as _;
 
 use super::Poses;
 use super::search::Search;
+use crate::app::Design;
 use crate::app::records::LengthsOrigin;
-use crate::files::design::Design;
-use crate::files::plot::{
-    ModesFigure, OffsetPlane, PlaneAxis, PlanePoint, assembly_modes, determinant_plane,
-};
+use files::plot::{ModesFigure, OffsetPlane, PlaneAxis, PlanePoint, assembly_modes, determinant_plane};
 use fk::Reality;
 use platform::manipulator::Octahedral;
 use synthesis::edge_lengths;

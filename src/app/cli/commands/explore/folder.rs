@@ -13,7 +13,7 @@ use crate::app::entrance::freedoms::ConflictFreedom;
 use crate::app::entrance::whole::{WholeFile, part_of};
 use crate::app::records::sha256;
 use crate::app::report::ReportFile;
-use crate::files::export::ExportedFile;
+use ::files::export::ExportedFile;
 
 /// Files of a finished run, in the order they appear.
 pub(super) const ORIGINAL: &str = "original.toml";

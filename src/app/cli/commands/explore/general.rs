@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::folder::{self, Folder};
 use super::{Args, Verified, fk_record, original, report, solve, text, verification};
+use crate::app::Design;
 use crate::app::cli::commands::equivalents::r#move::found::{Found, platforms};
 use crate::app::cli::commands::equivalents::r#move::wishes::WishArgs;
 use crate::app::cli::commands::equivalents::nearest;
@@ -21,7 +22,6 @@ use crate::app::records::{
     NearestErrorRecord, Number, PoseTotalsRecord, ProvenanceRecord, SearchWord, StageRecord, StageWord,
     VerdictWord,
 };
-use crate::files::design::Design;
 use fk::{FkOptions, PoseCounting};
 use synthesis::components::{ComponentOptions, Components, components};
 

@@ -17,6 +17,7 @@ use super::build::round::render::RoundReport;
 use super::equivalents::r#move as relocation;
 use super::report::page;
 use super::{export, fk as fk_command, optimize, verify as verify_command};
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -36,8 +37,8 @@ use crate::app::records::{
     FreedomWord, LengthsOrigin, OnHolesRecord, PoseTotalsRecord, PriceRecord, ProvenanceRecord, RoundAnswer,
     VariantWord, VerdictWord, VerifyAnswer,
 };
-use crate::files::design::{Design, DriveTable};
-use crate::files::export::{ExportFormat, PartLine};
+use ::files::design::DriveTable;
+use ::files::export::{ExportFormat, PartLine};
 use fk::{self, FkOptions, FkSolutions, PoseCounting};
 use machine::manufacture::NoRounding;
 use machine::requirements::KeptSymmetry;

@@ -10,7 +10,7 @@ use crate::app::cli::requirements as table;
 use crate::app::entrance::optimizing::offset_reserves;
 use crate::app::entrance::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
 use crate::app::records::{AssessAnswer, DriveSearchRecord, LengthsOrigin, Number};
-use crate::files::export::PART_COLUMNS;
+use files::export::PART_COLUMNS;
 use fk::{Completeness, FkSolutions};
 use optimize::offsets::OffsetSolution;
 use platform::manipulator::LegIndex;

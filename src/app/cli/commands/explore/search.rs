@@ -2,6 +2,7 @@
 
 use super::Asked;
 use super::folder::Folder;
+use crate::app::Design;
 use crate::app::cli::commands::optimize::{self, Choices, Done, dimensional};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -14,9 +15,9 @@ use crate::app::records::{
     AssessAnswer, DesignRoleWord, DriveSearchRecord, FreedomRecord, OptimizeAnswer, OptimizedRecord,
     ProvenanceRecord, SymmetryRecord,
 };
-use crate::files::design::{Combination, Design};
 use ::optimize::dimensional::{Progress, ShapeSearchOptions, Stage, Triangles};
 use ::optimize::offsets;
+use files::design::Combination;
 use machine::manufacture::NoRounding;
 use machine::requirements::StartSymmetry;
 use verify::Verdict;

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use super::near::{self, Machine};
 use super::{Args, Table, exit_of, failure_of, render, threads};
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -17,7 +18,7 @@ use crate::app::cli::rows::{self, TableName};
 use crate::app::records::{
     FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
 };
-use crate::files::design::{Design, SeriesKind, SeriesRow, TimeSeries};
+use files::design::{SeriesKind, SeriesRow, TimeSeries};
 use fk::{self, FkOptions, FkSolutions};
 use machine::rotary::{RotaryFkError, RotaryPlatform, RotaryTracker};
 use platform::geom::Pose;

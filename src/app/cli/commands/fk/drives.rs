@@ -3,12 +3,12 @@
 use super::Table;
 use super::lengths::{Given, ShownLengths};
 use super::near::{self, Followed, Machine, Proof};
+use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use crate::app::records::{DriveSolutionRecord, NearWord};
-use crate::files::design::Design;
 use fk::Reality;
 use machine::coupled::{CoupledLegs, CoupledOutcome, CoupledStatus, CoupledTracker};
 use platform::geom::Pose;

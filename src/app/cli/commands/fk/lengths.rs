@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::rows::{self, TableName};
-use crate::files::design::{Design, SeriesKind, SeriesRow, TimeSeries};
+use files::design::{SeriesKind, SeriesRow, TimeSeries};
 use platform::manipulator::LegLengths;
 
 /// Lengths as the legs show them, and the distances of their joints: less the offsets of a calibration.
@@ -86,7 +87,7 @@ fn rows(path: &Path, offsets: &[f64; 6], context: &Context) -> Result<TimeSeries
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::InvalidSeries;
+    use files::design::InvalidSeries;
 
     #[test]
     fn csv_takes_a_header_comments_and_names_all_bad_lines() {

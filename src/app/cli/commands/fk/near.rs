@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::lengths::{Given, ShownLengths};
 use super::{Table, render};
+use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
@@ -12,7 +13,6 @@ use crate::app::records::{
     FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord, PoseUncertaintyRecord,
     SolvedRecord,
 };
-use crate::files::design::Design;
 use fk::solve::certify::{Certifier, ProvedReality, RootCertificate};
 use fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet};
 use platform::geom::{ComplexPose, Pose};

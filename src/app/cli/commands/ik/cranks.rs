@@ -1,10 +1,11 @@
 //! The angles of cranks at given poses, where the legs are rods on cranks.
 
+use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::output::Answer;
 use crate::app::cli::table::{column_unit, csv_line, number};
 use crate::app::records::{IkAnswer, RotaryIkRecord, RotaryIkRowsAnswer};
-use crate::files::design::{Design, TimeSeries};
+use files::design::TimeSeries;
 use machine::rotary::RotaryPlatform;
 use platform::geom::Pose;
 

@@ -4,6 +4,7 @@ mod render;
 
 use std::path::{Path, PathBuf};
 
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -12,8 +13,7 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::{poses, rows};
 use crate::app::entrance::{MotionMasses, MotionReport, PlatformMotion};
 use crate::app::records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
-use crate::files::design::Design;
-use crate::files::export::LengthUnit;
+use ::files::export::LengthUnit;
 use machine::dynamics::{InvalidManoeuvre, Manoeuvre, PathEnds, PosePath};
 use machine::requirements::Load;
 use platform::geom::Pose;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::app::Design;
 use crate::app::cli::numbers::significant as short;
 use crate::app::cli::poses;
 use crate::app::cli::table::{column_unit, csv_line, number};
@@ -10,7 +11,6 @@ use crate::app::records::{
     CrankMotionRecord, ExtremeRecord, MotionAnswer, MotionRegularity, MotionRunRecord, StiffnessRecord,
     TimedMarginRecord,
 };
-use crate::files::design::Design;
 
 /// The sentence, and for each motion a table of legs and one of requirements.
 pub(super) fn text(answer: &MotionAnswer) -> String {

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Write};
 
 use crate::app::cli::files::OutputPath;
-use crate::files::design::HexapodSizes;
+use ::files::design::HexapodSizes;
 
 /// What was answered.
 #[derive(Debug, PartialEq)]

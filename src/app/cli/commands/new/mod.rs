@@ -6,15 +6,17 @@ use std::fmt::Write as _;
 use std::io::{IsTerminal, stderr, stdin};
 use std::path::PathBuf;
 
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
+use crate::app::design::parse_with_cranks;
 use crate::app::records::{NewAnswer, PresetFile};
-use crate::files::design::{
-    Design, Format, HexapodSizes, InvalidPointTable, PointTable, RigSheet, SheetDialect, octahedral_toml,
-    parse_with_cranks, with_lengths,
+use ::files::design::{
+    Format, HexapodSizes, InvalidPointTable, PointTable, RigSheet, SheetDialect, octahedral_toml,
+    with_lengths,
 };
 use platform::geom::{Angles, Pose};
 use synthesis::singularity::Architecture;
@@ -241,7 +243,7 @@ fn from_table(args: &Args, path: &std::path::Path, context: &Context) -> Result<
         );
     }
     context.note_guesses(&shown, &table.guesses);
-    Ok(Made { toml: design.to_toml(), design, guesses: table.guesses })
+    Ok(Made { toml: design.to_toml(), design: design.into(), guesses: table.guesses })
 }
 
 /// Adds the lengths at home, and writes the file.
@@ -277,8 +279,8 @@ fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<
         }
     };
     let answer = NewAnswer {
-        name: design.name,
-        units: design.units,
+        name: design.name.clone(),
+        units: design.units.clone(),
         file,
         home: (&home).into(),
         lengths,

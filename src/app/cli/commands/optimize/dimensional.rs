@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use crate::app::Design;
 use crate::app::cli::commands::build::drives;
 use crate::app::cli::commands::verify::failure_of;
 use crate::app::cli::commands::{GENERAL, NEAREST};
@@ -18,7 +19,7 @@ use crate::app::entrance::platform_search::{FoundPlatform, find_platform};
 use crate::app::records::{
     DriveSearchRecord, FreedomRecord, OptimizeAnswer, OptimizeWord, OptimumRecord, SymmetryRecord,
 };
-use crate::files::design::{Design, Drive, DriveTable};
+use ::files::design::{Drive, DriveTable};
 use machine::requirements::StartSymmetry;
 use optimize::dimensional::{
     DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Progress, ShapeSearchOptions,

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::dimensional::{failed, options};
+use crate::app::Design;
 use crate::app::cli::commands::verify::failure_of;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
@@ -12,7 +13,6 @@ use crate::app::entrance::freedoms::{FreedomSearch, OpenedFreedom};
 use crate::app::entrance::optimizing::dimensional_problem;
 use crate::app::entrance::platform_search::{FoundFront, find_front};
 use crate::app::records::{FreedomRecord, OptimizeAnswer, SymmetryRecord};
-use crate::files::design::Design;
 
 /// `out.toml` as `out-1.toml`, `out-2.toml`, ...
 fn numbered(path: &Path, k: usize) -> PathBuf {
@@ -78,8 +78,9 @@ mod tests {
     use super::super::render::text;
     use super::*;
     use crate::app::cli::exit::Exit;
+    use crate::app::design::parse;
     use crate::app::records::OptimizeWord;
-    use crate::files::design::{Format, parse};
+    use files::design::Format;
     use optimize::dimensional::ParetoReport;
 
     #[test]

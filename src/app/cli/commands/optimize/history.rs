@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use crate::app::Design;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
-use crate::files::design::Design;
-use crate::files::plot::{SearchStep, StepsFigure, steps_chart};
+use ::files::plot::{SearchStep, StepsFigure, steps_chart};
 
 /// A step with its trust radius.
 pub(super) type Row = (SearchStep, f64);

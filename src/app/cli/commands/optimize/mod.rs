@@ -11,6 +11,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use crate::app::Design;
 use crate::app::cli::commands::verify::failure_of;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -23,8 +24,8 @@ use crate::app::entrance::optimizing::{
     offset_problem, offset_status, with_sizes_to_choose,
 };
 use crate::app::records::{OptimizeAnswer, OptimizeWord};
-use crate::files::design::{Combination, Design};
-use crate::files::plot::SearchStep;
+use ::files::design::Combination;
+use ::files::plot::SearchStep;
 use optimize::dimensional::InvalidProblem;
 use optimize::offsets::{self, OffsetProblem, OffsetReport, OffsetSearchOptions, OffsetSolution, optimize};
 use platform::manipulator::Octahedral;

@@ -315,7 +315,8 @@ fn conflict_text(out: &mut String, c: &ConflictRecord) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::design::{Format, parse};
+    use crate::app::design::parse;
+    use files::design::Format;
     use machine::requirements::TermKind;
     use optimize::dimensional::{ConstraintConflict, Demand, Give};
 

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
-use crate::files::plot::{FrontAxis, FrontFigure, pareto_front};
+use ::files::plot::{FrontAxis, FrontFigure, pareto_front};
 use machine::requirements::Objective;
 
 /// Arguments of `plot pareto`.

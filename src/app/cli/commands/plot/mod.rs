@@ -20,7 +20,7 @@ use crate::app::cli::freedoms::Freedoms;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use crate::app::records::{FigureWord, PictureRecord, PlotAnswer};
-use crate::files::plot::singular_slice;
+use ::files::plot::singular_slice;
 
 /// Arguments of `plot`.
 #[derive(Debug, clap::Args)]

@@ -6,7 +6,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::poses;
-use crate::files::plot::{PairFigure, platform_pair};
+use files::plot::{PairFigure, platform_pair};
 use synthesis::Relation;
 use verify::judge;
 

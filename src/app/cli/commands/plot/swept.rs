@@ -6,9 +6,7 @@ use clap::ValueEnum;
 
 use crate::app::cli::failure::Failure;
 use crate::app::cli::swept_table::{Better, SweptTable};
-use crate::files::plot::{
-    SweptColumn, SweptFigure, swept_cloud, swept_field, swept_histogram, swept_parallel,
-};
+use files::plot::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_histogram, swept_parallel};
 
 /// Arguments of `plot sweep`.
 #[derive(Debug, clap::Args)]

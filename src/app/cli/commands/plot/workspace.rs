@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::freedoms::{Freedoms, PoseGrid};
 use crate::app::cli::numbers;
 use crate::app::cli::poses;
-use crate::files::design::Design;
-use crate::files::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};
+use files::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};
 use machine::requirements::{Limit, Limits, Region};
 use platform::geom::{Pose, turn_between};
 
@@ -205,10 +205,10 @@ mod tests {
 
     #[test]
     fn every_limit_has_its_colour() {
-        let known = |code: &str| crate::files::plot::LIMIT_FILLS.iter().any(|(c, _)| *c == code);
+        let known = |code: &str| files::plot::LIMIT_FILLS.iter().any(|(c, _)| *c == code);
         let kinds = TermKind::ALL;
         assert!(kinds.into_iter().map(Kind::Requirement).chain([Kind::Singular]).all(|k| known(k.code())));
-        assert_eq!(kinds.len() + 1, crate::files::plot::LIMIT_FILLS.len());
+        assert_eq!(kinds.len() + 1, files::plot::LIMIT_FILLS.len());
     }
 
     /// The zero line of the function for other poses is the section that is drawn at home.

@@ -3,10 +3,8 @@
 use super::{Reader, missing};
 use crate::app::sweep::plan::{AxisValues, MOST_CANDIDATES, PlanAxis, PlanBlock, Spreading};
 use crate::app::sweep::sample::{DIMENSIONS, MOST, PointSpread};
-use crate::files::design::Code;
-use crate::files::design::spanned::{
-    Entry, Node, Span, Value, check_keys, find, nearest_help, shown, table, text,
-};
+use files::design::Code;
+use files::design::spanned::{Entry, Node, Span, Value, check_keys, find, nearest_help, shown, table, text};
 
 const SPREADINGS: [(&str, Spreading); 5] = [
     ("grid", Spreading::Grid),

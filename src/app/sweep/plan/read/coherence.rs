@@ -4,8 +4,8 @@ use super::Reader;
 use crate::app::equivalents::Original;
 use crate::app::sweep::column::SweepColumn;
 use crate::app::sweep::plan::{AnswerField, AnswerName, AxisValues, FreeQuantity, SweepPlan, SweepTask};
-use crate::files::design::Code;
-use crate::files::design::spanned::{Span, shown};
+use files::design::Code;
+use files::design::spanned::{Span, shown};
 use synthesis::Pattern;
 impl Reader<'_, '_> {
     pub(super) fn count(&mut self, plan: &SweepPlan, place: &Span) {

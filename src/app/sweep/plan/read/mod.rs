@@ -7,11 +7,12 @@ mod settings;
 mod tasks;
 
 use super::{BaseName, BasePlan, PlanFiles, PlanText, PoseChoice, SweepPlan};
-use crate::files::design::spanned::{
+use crate::app::presets::PRESETS;
+use files::design::spanned::{
     Entry, Findings, Node, Span, Value, check_keys, find, nearest_help, number, read as read_tree, shown,
     text,
 };
-use crate::files::design::{Code, PRESETS, Violation};
+use files::design::{Code, Violation};
 use platform::geom::Pose;
 
 const TOP_LEVEL: [&str; 12] = [

@@ -5,10 +5,8 @@ use crate::app::sweep::column::{ColumnKind, SweepColumn};
 use crate::app::sweep::plan::place::TRAJECTORY;
 use crate::app::sweep::plan::{AxisValues, FreeQuantity, POSE_COORDINATES, PlanAxis};
 use crate::app::sweep::sample::MOST;
-use crate::files::design::Code;
-use crate::files::design::spanned::{
-    Entry, Node, Value, check_keys, find, nearest_help, number, shown, text,
-};
+use files::design::Code;
+use files::design::spanned::{Entry, Node, Value, check_keys, find, nearest_help, number, shown, text};
 use synthesis::{Family, Pattern};
 impl Reader<'_, '_> {
     /// The axes of a quantity: `offsets` and `lengths` stand for six.

@@ -2,8 +2,8 @@
 
 use super::{Reader, pose_of};
 use crate::app::sweep::plan::{AssessEffort, PoseChoice};
-use crate::files::design::Code;
-use crate::files::design::spanned::{Entry, Node, Value, check_keys, find, number, shown, table};
+use files::design::Code;
+use files::design::spanned::{Entry, Node, Value, check_keys, find, number, shown, table};
 use machine::manufacture::ErrorBound;
 use platform::geom::Pose;
 impl Reader<'_, '_> {

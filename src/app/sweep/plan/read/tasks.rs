@@ -3,8 +3,8 @@
 use super::{Reader, missing};
 use crate::app::sweep::column::{ColumnKind, SweepColumn};
 use crate::app::sweep::plan::{AnswerField, AnswerName, KeepCondition, SweepTask, TASK_WORDS};
-use crate::files::design::Code;
-use crate::files::design::spanned::{Entry, Node, Value, check_keys, find, nearest_help, shown, text};
+use files::design::Code;
+use files::design::spanned::{Entry, Node, Value, check_keys, find, nearest_help, shown, text};
 impl Reader<'_, '_> {
     pub(super) fn tasks(&mut self, root: &Node, entry: Option<&Entry>) -> Option<Vec<SweepTask>> {
         const FORM: &str = "write compute = [\"det_a\", \"conditioning\"]";

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::tree::{JointKind, ModelJoint, MujocoModel, WORLD};
-use crate::files::design::table::placed::{extent, order_of, trailing_number};
+use crate::design::table::placed::{extent, order_of, trailing_number};
 
 /// Points and axes of joints that are nearer to the end of a leg than this times the size go through it.
 pub(super) const SAME_POINT: f64 = 1e-9;

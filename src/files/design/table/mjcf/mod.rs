@@ -12,7 +12,7 @@ use self::legs::{ModelLegs, SAME_POINT};
 use self::tree::MujocoModel;
 use super::placed::{FileUnit, PlacedLegs, number_between};
 use super::points::PointTable;
-use crate::files::design::unit_of_millimetres;
+use crate::design::unit_of_millimetres;
 
 /// The site that is the platform frame in models of this program.
 const PLATFORM_SITE: &str = "platform_frame";

@@ -6,7 +6,7 @@ use nalgebra::{Point3, Unit, Vector3};
 use roxmltree::Node;
 
 use super::attributes::{Settings, at, elements};
-use crate::files::design::table::placed::{identity, within};
+use crate::design::table::placed::{identity, within};
 use platform::geom::Pose;
 
 /// The group of the world.

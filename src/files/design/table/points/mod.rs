@@ -8,7 +8,7 @@ use super::header::{UNITS, plain};
 use super::mjcf;
 use super::sheet::{InvalidSheet, Sheet, SheetRow};
 use super::text::decode;
-use crate::files::design::{Design, NameCount};
+use crate::design::{DesignModel, NameCount};
 use platform::geom::Pose;
 use platform::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
 
@@ -17,22 +17,22 @@ const LEAST_NUMBERS: usize = 2;
 
 /// The ends of the six legs as a table has them.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PointTable {
+pub struct PointTable {
     /// The legs, in leg order: the base end in the base frame, the platform end in the platform frame.
-    pub(crate) legs: [Leg; 6],
+    pub legs: [Leg; 6],
     /// Names of the base and platform ends, in leg order, where the table has names that can stand in a design.
-    pub(crate) names: Option<[[String; 6]; 2]>,
+    pub names: Option<[[String; 6]; 2]>,
     /// The length unit that the header names.
-    pub(crate) units: Option<String>,
+    pub units: Option<String>,
     /// Where the platform frame is at home, base frame, when a comment says so or the table has both bodies in one frame.
-    pub(crate) home: Option<Pose>,
+    pub home: Option<Pose>,
     /// What was guessed, a sentence each.
-    pub(crate) guesses: Vec<String>,
+    pub guesses: Vec<String>,
 }
 
 /// Why a table does not give the ends of six legs.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub(crate) enum InvalidPointTable {
+pub enum InvalidPointTable {
     /// It is no table of numbers.
     #[error(transparent)]
     Sheet(#[from] InvalidSheet),
@@ -58,7 +58,7 @@ impl PointTable {
     ///
     /// # Errors
     /// [`InvalidPointTable`].
-    pub(crate) fn read(bytes: &[u8]) -> Result<Self, InvalidPointTable> {
+    pub fn read(bytes: &[u8]) -> Result<Self, InvalidPointTable> {
         let text = decode(bytes).map(|decoded| decoded.text).unwrap_or_default();
         if text.trim_start().starts_with("ISO-10303-21") {
             return Err(InvalidPointTable::Step);
@@ -128,7 +128,7 @@ impl PointTable {
     ///
     /// # Errors
     /// [`InvalidManipulator`].
-    pub(crate) fn design(&mut self, name: &str, units: &str) -> Result<Design, InvalidManipulator> {
+    pub fn design(&mut self, name: &str, units: &str) -> Result<DesignModel, InvalidManipulator> {
         let manipulator = Manipulator::from_legs(self.legs)?;
         let counts = Body::BOTH.map(|body| manipulator.joints(body).len());
         for (body, count) in Body::BOTH.into_iter().zip(counts).filter(|(_, count)| *count < 6) {
@@ -140,13 +140,13 @@ impl PointTable {
             }
         }
         let pairs = manipulator.pairs();
-        let mut design = Design::new(name, units, manipulator);
+        let mut design = DesignModel::new(name, units, manipulator);
         if let Some(names) = &self.names {
             let of = |body: Body| -> Vec<String> {
                 let leg = |j: usize| pairs.iter().position(|(a, b)| body.of((*a, *b)) == j);
                 (0..counts[body.index()]).filter_map(|j| Some(names[body.index()][leg(j)?].clone())).collect()
             };
-            let named: Result<Design, NameCount> =
+            let named: Result<DesignModel, NameCount> =
                 design.clone().with_joint_names(of(Body::Base), of(Body::Platform));
             design = named.unwrap_or(design);
         }

@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::vectors::{list, moved, pose_numbers, row};
 use super::{ExportedFile, OwnLibrary, braces, heading, matrix, number, points, reals};
-use crate::files::export::{Export, ExportCranks};
+use crate::export::{Export, ExportCranks};
 use fk::NearOutcome;
 use machine::rotary::{Elbow, RotaryTracker};
 use num::Rng;

@@ -10,7 +10,7 @@ use super::vectors::{list, moved, pose_numbers, row};
 use super::{
     ExportedFile, OwnLibrary, SwingAxes, braces, heading, legs, limits, matrix, number, points, reals,
 };
-use crate::files::export::Export;
+use crate::export::Export;
 use fk::NearOptions;
 use machine::coupled::{CoupledLegs, CoupledStatus, CoupledTracker};
 use num::Rng;

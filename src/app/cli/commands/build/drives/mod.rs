@@ -4,6 +4,7 @@ mod render;
 
 use std::path::{Path, PathBuf};
 
+use crate::app::Design;
 use crate::app::cli::commands::motion;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
@@ -12,7 +13,7 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
 use crate::app::entrance::PlatformMotion;
 use crate::app::records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
-use crate::files::design::{Design, Drive, DriveTable, JudgedForces};
+use ::files::design::{Drive, DriveTable, JudgedForces};
 
 /// Arguments of `build drives`.
 #[derive(Debug, clap::Args)]

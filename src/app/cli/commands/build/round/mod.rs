@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use nalgebra::Point3;
 
 use super::tolerances::numbers;
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -15,7 +16,6 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
 use crate::app::entrance::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use crate::app::records::{AssessAnswer, DesignRoleWord, VariantWord};
-use crate::files::design::Design;
 use machine::manufacture::{NoRounding, Rounding};
 use machine::requirements::{Grid, HoleCircles, HolePattern};
 use platform::manipulator::{Body, Manipulator};

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
+use crate::app::Design;
 use crate::app::cli::requirements;
 use crate::app::entrance::rounding::RoundingChoices;
 use crate::app::records::{
     AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, JudgementRecord, NearestRoundingOutcome,
     RoundAnswer, RoundedJointRecord, VariantWord,
 };
-use crate::files::design::Design;
 use machine::manufacture::Rounding;
 
 /// Everything there is to tell.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use nalgebra::Point3;
 
+use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -13,7 +14,6 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use crate::app::records::PoseDeviations;
-use crate::files::design::Design;
 use machine::manufacture::{
     Budget, ErrorAtPose, ErrorBound, JointErrors, MachineErrors, MachineUncertainty, PoseSearch,
     ToleranceError, Trials, budget, error_map, solved_error, trials,

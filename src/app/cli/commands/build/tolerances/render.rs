@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Found;
+use crate::app::Design;
 use crate::app::cli::numbers::significant;
 use crate::app::cli::requirements;
 use crate::app::cli::table::{column_unit, csv_line, number};
@@ -11,7 +12,6 @@ use crate::app::records::{
     JointBudgetRecord, Number, PoseErrorRecord, SolvedBudgetRecord, TolerancesAnswer, TrialsRecord,
     WorkspaceWord, WorstErrorsRecord,
 };
-use crate::files::design::Design;
 use machine::manufacture::{ErrorAtPose, ErrorParts, Trials};
 
 /// The record of the answer.

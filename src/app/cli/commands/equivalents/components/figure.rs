@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::files::design::Design;
-use crate::files::plot::{CurveFigure, CurveMark, CurvePanel, component_curves};
+use crate::app::Design;
+use files::plot::{CurveFigure, CurveMark, CurvePanel, component_curves};
 use num::Purpose;
 use platform::manipulator::LegIndex;
 use synthesis::components::{Components, FlatPair, PlaneCurve, PlanePair, flat_name};

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::naming::{family_names, moved_design};
 use super::wishes::WishArgs;
+use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
@@ -14,7 +15,6 @@ use crate::app::records::{
     AssessAnswer, CandidateRecord, DesignRecord, DesignRoleWord, HoleRecord, MoveAnswer, MoveSearchAnswer,
     Number, PlacementRecord, SearchWord, WishMarginRecord,
 };
-use crate::files::design::Design;
 use synthesis::LegMapOutcome;
 use synthesis::components::{ComponentOptions, Components};
 use synthesis::relocate::search::{

@@ -3,8 +3,9 @@
 use nalgebra::Point3;
 
 use super::request::Along;
+use crate::app::Design;
 use crate::app::cli::failure::Failure;
-use crate::files::design::{Design, Origin};
+use files::design::{DesignModel, Origin};
 use num::linalg::LinalgError;
 use platform::manipulator::Body;
 use synthesis::components::{Components, Parametrisation};
@@ -148,8 +149,8 @@ pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[f64]) -> 
     };
     let base = names(&new.base, design.base_names());
     let on_platform = names(&new.platform_joints, design.platform_names());
-    let built =
-        Design::new(design.name.clone(), design.units.clone(), platform).with_joint_names(base, on_platform);
+    let built = DesignModel::new(design.name.clone(), design.units.clone(), platform)
+        .with_joint_names(base, on_platform);
     let limit = ON_LINE * design.manipulator().size();
     let origins = |body: Body, of: &[JointOrigin]| -> Vec<Origin> {
         let old = design.manipulator().joints(body);
@@ -169,7 +170,7 @@ pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[f64]) -> 
         of.iter().enumerate().map(origin).collect()
     };
     let kept = [origins(Body::Base, &new.base), origins(Body::Platform, &new.platform_joints)];
-    built.ok().map(|d| d.with_tables_of(design).constructed_from(design, [&kept[0], &kept[1]]))
+    built.ok().map(|d| d.with_tables_of(design).constructed_from(design, [&kept[0], &kept[1]]).into())
 }
 
 /// A joint is on a line of others within this share of the size.

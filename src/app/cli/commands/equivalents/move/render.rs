@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 
 use super::Done;
+use crate::app::Design;
 use crate::app::cli::commands::equivalents::map;
 use crate::app::records::{
     DesignRecord, LegEndsRecord, LegMoveRecord, MoveMode, MoveStepRecord, MovesAnswer, Number,
     SingularParametersRecord,
 };
-use crate::files::design::Design;
 use synthesis::Relation;
 use synthesis::relocate::{Chain, MovedLeg, Relocation};
 

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 use nalgebra::Point3;
 
+use crate::app::Design;
 use crate::app::bench::{Class, LengthsFrom, Planar, problem};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -18,8 +19,7 @@ use crate::app::records::{
     RearrangementRecord, RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord,
     VirtualLegsRecord,
 };
-use crate::files::design::Design;
-use crate::files::plot::{TopologyFigure, topology_diagram, topology_sheet};
+use ::files::plot::{TopologyFigure, topology_diagram, topology_sheet};
 use fk::distance::{ClosureDegrees, generic_degrees};
 use fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
 use num::Purpose;

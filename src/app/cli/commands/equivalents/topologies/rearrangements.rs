@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::app::Design;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::records::RearrangementRecord;
-use crate::files::design::Design;
 use platform::manipulator::default_home;
 use platform::topology::NamedTopology;
 use synthesis::rearrangement::{Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement};

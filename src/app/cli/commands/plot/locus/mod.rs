@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use num_complex::Complex64;
 
+use crate::app::Design;
 use crate::app::cli::commands::fk::{MethodArg, failure_of, lengths};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -13,8 +14,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::records::LocusWord;
-use crate::files::design::Design;
-use crate::files::plot::{LocusStep, LocusValue};
+use ::files::plot::{LocusStep, LocusValue};
 use fk::{self, FkOptions, FkSolutions, PoseCounting, Reality, SolutionSet, Threads};
 use platform::manipulator::{Leg, LegLengths, Manipulator};
 use platform::topology::Topology;

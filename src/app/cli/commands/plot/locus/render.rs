@@ -8,7 +8,7 @@ use super::{Between, Found, Row};
 use crate::app::records::{
     LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord, Number,
 };
-use crate::files::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
+use files::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
 use fk::{FkRoot, Reality};
 
 pub(super) fn picture(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {

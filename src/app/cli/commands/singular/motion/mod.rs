@@ -4,6 +4,7 @@ mod render;
 
 use std::path::PathBuf;
 
+use crate::app::Design;
 use crate::app::cli::commands::fk::lengths::six;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -12,8 +13,7 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use crate::app::records::OriginWord;
-use crate::files::design::Design;
-use crate::files::plot::{MotionFigure, motion};
+use ::files::plot::{MotionFigure, motion};
 use fk::{FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, SolutionSet};
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, SquaredLegLengths};

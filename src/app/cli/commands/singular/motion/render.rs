@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Found;
+use crate::app::Design;
 use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
@@ -10,7 +11,6 @@ use crate::app::records::{
     CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, IsolatedRecord, MotionCurveRecord,
     MotionEvidenceWord, Number, OriginWord, PoseQuaternionRecord, SelfmotionAnswer,
 };
-use crate::files::design::Design;
 
 /// The answer.
 pub(super) fn answer(design: &Design, found: &Found) -> Answer {

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Args, Judged};
+use crate::app::Design;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::poses;
@@ -10,8 +11,7 @@ use crate::app::records::{
     Number, PoseQuaternionRecord, SignOutcome, SignPairRecord, SignPairsRecord, SignPartRecord,
     SignPathRecord, WayRecord,
 };
-use crate::files::design::Design;
-use crate::files::plot::{AlongFigure, AlongPart, sign_along};
+use ::files::plot::{AlongFigure, AlongPart, sign_along};
 use platform::geom::Pose;
 use platform::manipulator::leg_determinant;
 use synthesis::singularity::{JoinOptions, Joined, Sign, SignsAlong, between, join, signs_along};

@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 
 use super::{Found, Judged, paths};
+use crate::app::Design;
 use crate::app::cli::output::Answer;
 use crate::app::records::{
     JudgedPoseRecord, Number, PoseQuaternionRecord, RegionWord, RegularBoxRecord, RegularityRecord,
     RegularityWord, ScaledPoseRecord, SingularitiesAnswer,
 };
-use crate::files::design::Design;
 use platform::geom::Region;
 use platform::manipulator::LegLengths;
 use synthesis::singularity::BoxOptions;

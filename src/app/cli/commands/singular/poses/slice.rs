@@ -1,8 +1,8 @@
 //! The singularity surface over two freedoms.
 
+use crate::app::Design;
 use crate::app::cli::freedoms::{Freedoms, PoseGrid};
-use crate::files::design::Design;
-use crate::files::plot::SliceFigure;
+use files::plot::SliceFigure;
 use platform::geom::Pose;
 use platform::manipulator::plucker_matrix;
 use synthesis::singularity::BoxOptions;

@@ -1,25 +1,22 @@
 //! Designs of real hardware that come with the library, as text: every figure in them is sourced or marked as chosen.
 
-use super::{Format, parse_with_cranks};
+use crate::app::design::parse_with_cranks;
+use files::design::Format;
 
 /// What a machine is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "files",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum PresetClass {
     /// Small machines with drives from a catalogue.
     Bench,
     /// Moves a person or a cabin.
-    #[cfg_attr(feature = "files", serde(rename = "motion simulator"))]
+    #[serde(rename = "motion simulator")]
     MotionSimulator,
     /// Travels millimetres, steps by micrometres.
-    #[cfg_attr(feature = "files", serde(rename = "precision positioner"))]
+    #[serde(rename = "precision positioner")]
     PrecisionPositioner,
     /// Carries a spindle.
-    #[cfg_attr(feature = "files", serde(rename = "machine tool"))]
+    #[serde(rename = "machine tool")]
     MachineTool,
     /// Moves a part of a robot.
     Robot,
@@ -58,7 +55,7 @@ pub struct Preset {
 }
 
 impl Preset {
-    /// Whether its legs are rods on cranks: such a preset is read by [`parse_with_cranks`] and refused by [`parse`](super::parse).
+    /// Whether its legs are rods on cranks: such a preset is read by [`parse_with_cranks`] and refused by [`parse`](files::design::parse).
     #[must_use]
     pub fn has_cranks(&self) -> bool {
         parse_with_cranks(self.text, Format::Toml).is_ok_and(|(design, _)| design.has_cranks())
@@ -70,7 +67,7 @@ macro_rules! preset {
         Preset {
             name: $name,
             class: PresetClass::$class,
-            text: include_str!(concat!("../../../designs/presets/", $name, ".toml")),
+            text: include_str!(concat!("../../designs/presets/", $name, ".toml")),
         }
     };
 }
