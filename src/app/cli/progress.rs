@@ -158,7 +158,7 @@ pub(crate) struct Interrupt {
     ends: Option<[Instant; 2]>,
 }
 
-/// What is kept of a limit of time for the judging, as a share and at most.
+/// The part of a limit of time that the judging has: one over this number, and this long at most.
 const FOR_JUDGING: (u32, Duration) = (4, Duration::from_secs(10));
 
 impl Interrupt {

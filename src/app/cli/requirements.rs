@@ -31,7 +31,7 @@ pub(crate) fn without_assumptions(name: &str, found: &AssessAnswer) -> String {
     format!("{}\n{}", sentence(name, found), table(found))
 }
 
-/// What was assumed of masses, a line for each sentence.
+/// The assumptions about masses, a line for each sentence.
 pub(crate) fn assumptions(found: &AssessAnswer) -> String {
     found.assumptions.iter().flat_map(|line| [line.as_str(), "\n"]).collect()
 }

@@ -396,8 +396,9 @@ impl Design {
             return Err(Error::NothingRequired);
         }
         tell(AssessStage::SingularPoses);
-        let cells = if options.is_late() { 1 } else { cells };
-        let patient = if options.is_late() { cells } else { cells.max(options.patient_cells) };
+        // a proof whose time is over looks at one cell
+        let (cells, patient) =
+            if options.is_late() { (1, 1) } else { (cells, cells.max(options.patient_cells)) };
         let of_rods = regular_rods(m, &required, &space, patient, options.seed);
         let (regularity, regularity_cells) = of_rods.map_or_else(
             || regular_workspace(m, &space, cells, options.seed),

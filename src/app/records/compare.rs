@@ -280,7 +280,7 @@ impl CompareAnswer {
         )
     }
 
-    /// What was assumed of masses, a line for each sentence with the names of the designs, where it is not of all.
+    /// The assumptions about masses, a line for each sentence, with the names of the designs where it does not hold for all.
     pub(crate) fn assumptions(&self) -> Vec<String> {
         let mut sentences: Vec<&String> = Vec::new();
         for sentence in self.designs.iter().flat_map(|d| &d.assumptions) {

@@ -41,7 +41,7 @@ impl SingularityVerdict {
         if self.meant.is_some() { None } else { self.architecture.is_singular() }
     }
 
-    /// What the verdict is about; `None` where joints are known between bounds only and nothing is decided.
+    /// The joints that the verdict is proved about; `None` where they are known between bounds only and nothing is decided.
     #[must_use]
     pub fn level(&self) -> Option<Level> {
         if self.meant.is_some() { Some(Level::WithinRounding) } else { self.architecture.level }

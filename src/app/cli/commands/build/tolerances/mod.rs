@@ -134,7 +134,7 @@ fn asked(bound: &str, tool: &str) -> Result<(ErrorBound, Point3<f64>), Failure> 
     Ok((ErrorBound { position, rotation_deg }, tool))
 }
 
-/// How far every joint may be off in any direction, design units: what this command says of a bound and a tool point.
+/// The greatest error that every joint may have in any direction, design units, for a bound and a tool point.
 ///
 /// # Errors
 /// Exit 1: singular poses in the workspace, or no radius that keeps the bound when it is solved. Exit 2: numbers that cannot be read.
