@@ -24,8 +24,8 @@ pub(crate) fn report() -> Result<String, Box<dyn Error>> {
     design.optimize.min_joint_distance = Some(1.2);
     let found = design.optimize_with(OptimizeOptions::new().extension(0.0))?;
 
-    let OptimizeEvidence::Offsets(report) = &found.evidence else { return Err("not offsets".into()) };
-    if let Some(best) = report.solution() {
+    let OptimizeEvidence::Offsets(offsets) = &found.evidence else { return Err("not offsets".into()) };
+    if let Some(best) = offsets.report.solution() {
         let check = &best.recheck;
         writeln!(out, "inverse condition number {:.4}, det A {:.4}", check.objective, check.det.abs())?;
         writeln!(out, "all margins met: {}", check.margins.all_met())?;

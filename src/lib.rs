@@ -172,8 +172,13 @@ pub mod prelude {
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[doc(inline)]
     pub use crate::app::entrance::{
-        OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus,
+        Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, EasedDemand,
+        FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, OpenedFreedom, OptimizeEvidence,
+        OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, SearchedDrive,
     };
+    #[cfg(all(feature = "files", feature = "optimize"))]
+    #[doc(inline)]
+    pub use ::files::design::{Drive, DriveTable};
 }
 
 /// The modules behind the entrance, for those who develop methods: a new solver, a new way to prove a root, another

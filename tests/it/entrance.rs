@@ -250,7 +250,7 @@ fn an_optimisation_reports_its_progress_and_can_be_ended() {
     let mut design = octahedral();
     design.optimize.min_joint_distance = Some(100.0);
     let none = design.optimize().unwrap();
-    assert_eq!((none.status, none.design), (OptimizeStatus::Infeasible, None));
+    assert_eq!((none.status, none.design()), (OptimizeStatus::Infeasible, None));
     let cancel = Cancel::new();
     cancel.cancel();
     let ended = octahedral().optimize_with(OptimizeOptions::new().cancel(&cancel)).unwrap();

@@ -65,6 +65,7 @@ mod nearly_special;
 mod octahedral;
 mod octahedral_class;
 mod one_judgement;
+mod optimize_doors;
 mod optimize_options;
 mod optimizer_evidence;
 mod pose_count;

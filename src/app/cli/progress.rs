@@ -6,6 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
+use crate::app::entrance::optimizing::ends_of;
+
 /// On a terminal one line that changes; elsewhere a line every ten seconds, so that short runs write none.
 #[derive(Debug)]
 pub(crate) struct ProgressLine {
@@ -158,9 +160,6 @@ pub(crate) struct Interrupt {
     ends: Option<[Instant; 2]>,
 }
 
-/// The part of a limit of time that the judging has: one over this number, and this long at most.
-const FOR_JUDGING: (u32, Duration) = (4, Duration::from_secs(10));
-
 impl Interrupt {
     /// Takes over Ctrl-C from now on. Where that is not possible the key ends the process as ever.
     pub(crate) fn watch() -> Self {
@@ -178,12 +177,7 @@ impl Interrupt {
         };
         // an error means that somebody else has the key: the search then cannot be interrupted gently
         let _ = ctrlc::set_handler(handler);
-        let ends = limit.and_then(|TimeLimit(time)| {
-            let now = Instant::now();
-            let kept = (time / FOR_JUDGING.0).min(FOR_JUDGING.1);
-            Some([now.checked_add(time.saturating_sub(kept))?, now.checked_add(time)?])
-        });
-        Self { asked: flag, ends }
+        Self { asked: flag, ends: limit.and_then(|TimeLimit(time)| ends_of(time)) }
     }
 
     /// When the judging of what a search found ends.

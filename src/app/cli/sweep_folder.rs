@@ -474,7 +474,7 @@ impl SweepTexts {
         let PlanFiles { base, drives } = plan::files_named(PlanText { text: &text, format })
             .map_err(|violations| bad_plan(&shown, &text, violations))?;
         let beside = |name: String| path.parent().unwrap_or(Path::new("")).join(name);
-        let drives = drives.map(|name| files::read_text(&beside(name))).transpose()?;
+        let mut drives = drives.map(|name| files::read_text(&beside(name))).transpose()?;
         let (design, poses) = match base {
             BaseName::Preset(_, text) => (SweepTextRecord { text: text.into(), format: Format::Toml }, None),
             BaseName::File(name) => {
@@ -482,6 +482,9 @@ impl SweepTexts {
                 // warnings are shown, and provenance knows the design
                 let read = context.load_with_texts(&file)?;
                 let poses = read.poses.map(|(table, bytes)| files::utf8(&table, bytes)).transpose()?;
+                if let (None, Some(name)) = (&drives, &read.design.drive_table) {
+                    drives = Some(files::read_text(&file.parent().unwrap_or(Path::new("")).join(name))?);
+                }
                 (SweepTextRecord { text: read.text, format: Format::of_path(&file) }, poses)
             }
         };

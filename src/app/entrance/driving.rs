@@ -74,7 +74,7 @@ pub(crate) struct LightestDrive<'t> {
 
 impl Design {
     /// What a table of drives has to be read into.
-    pub(crate) fn drive_units(&self) -> DesignUnits<'_> {
+    pub fn drive_units(&self) -> DesignUnits<'_> {
         DesignUnits { length: &self.units, force: self.force_unit(), mass: self.mass_unit() }
     }
 

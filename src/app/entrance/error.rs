@@ -152,14 +152,18 @@ pub enum Error {
     #[cfg(feature = "optimize")]
     #[error(transparent)]
     DimensionalProblem(#[from] optimize::dimensional::InvalidProblem),
-    /// The design asks for a front of several objectives, which is no single platform.
+    /// A front asked for with a table of drives.
     #[cfg(feature = "optimize")]
-    #[error("the design asks for a Pareto front: `equipod::methods::dimensional::pareto` computes fronts")]
-    ParetoFront,
-    /// The design names a table of drives to choose from, which a design in memory does not hold.
+    #[error("a front is many platforms, and a drive is chosen for one")]
+    FrontWithDrives,
+    /// A table of drives that is empty.
+    #[cfg(feature = "optimize")]
+    #[error("the table has no drive")]
+    NoDrive,
+    /// The design names a table of drives to choose from, and the table itself was not given.
     #[cfg(feature = "optimize")]
     #[error(
-        "the design names a table of drives ({0}), from which `equipod optimize` chooses one: remove `drives` from [hardware], or give the limits of one drive"
+        "the design names a table of drives ({0}): give the table too, remove `drives` from [hardware], or give the limits of one drive"
     )]
     DriveTable(String),
     /// It was cancelled before there was an answer.

@@ -6,8 +6,6 @@
 pub(crate) mod calibrating;
 #[cfg(feature = "files")]
 mod comparing;
-#[cfg(all(feature = "files", feature = "optimize"))]
-pub(crate) mod drive_search;
 #[cfg(feature = "files")]
 pub(crate) mod driving;
 #[cfg(feature = "files")]
@@ -17,8 +15,6 @@ mod error;
 pub(crate) mod exporting;
 #[cfg(feature = "files")]
 mod files;
-#[cfg(all(feature = "files", feature = "optimize"))]
-pub(crate) mod freedoms;
 #[cfg(feature = "files")]
 mod holding;
 #[cfg(feature = "files")]
@@ -27,8 +23,6 @@ mod judging;
 mod moving;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub(crate) mod optimizing;
-#[cfg(all(feature = "files", feature = "optimize"))]
-pub(crate) mod platform_search;
 #[cfg(feature = "files")]
 mod reaching;
 #[cfg(feature = "files")]
@@ -55,7 +49,11 @@ pub(crate) use judging::{BOX_CELLS, JudgedPoses};
 #[cfg(feature = "files")]
 pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]
-pub use optimizing::{OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus};
+pub use optimizing::{
+    Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, EasedDemand,
+    FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, OpenedFreedom, OptimizeEvidence,
+    OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, SearchedDrive,
+};
 #[cfg(feature = "files")]
 pub(crate) use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
 #[cfg(feature = "python")]

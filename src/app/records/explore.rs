@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
-    OptimalityWord, OptimizeAnswer, OptimizeWord, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord,
-    VariableRecord, VariantWord, VerdictWord,
+    OptimalityWord, OptimizeAnswer, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord, VariableRecord,
+    VariantWord, VerdictWord,
 };
-use crate::app::entrance::Separation;
 use crate::app::entrance::rounding::{DesignOnHoles, RoundingWay};
+use crate::app::entrance::{OptimizeStatus, Separation};
 use fk::FkSolutions;
 use machine::manufacture::{NoRounding, RoundedJoint};
 use verify::Verification;
@@ -373,7 +373,7 @@ pub struct FamilySizeRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OptimizedRecord {
     /// What came of the search.
-    pub status: OptimizeWord,
+    pub status: OptimizeStatus,
     /// What is known of better ones; null: nothing.
     pub optimality: Option<OptimalityWord>,
     /// Value of the first objective.

@@ -12,7 +12,7 @@ use super::climb::climb;
 use super::column::{ColumnKind, SweepCell, SweepColumn};
 use super::measure::{least_axis_distance, length_range, worst_conditioning};
 use super::plan::{AnswerField, AnswerName, AxisValues, BasePlan, FreeQuantity, SweepPlan, SweepTask};
-use crate::app::entrance::{BOX_CELLS, CheckReport, OptimizeEvidence, OptimizeOptions, Solver};
+use crate::app::entrance::{BOX_CELLS, CheckReport, Checked, OptimizeEvidence, OptimizeOptions, Solver};
 use crate::app::records::{AssessAnswer, CheckAnswer, SolvedRecord};
 use files::design::Drive;
 use fk::{FkOptions, FkRoot, Threads};
@@ -295,14 +295,17 @@ impl Sweep {
 
     fn optimum(&self, c: &SweepCandidate<'_>) -> Result<Vec<SweepCell>, String> {
         // one thread: the candidates of a shard have the others
-        let options =
-            OptimizeOptions::new().seed(self.seed).threads(Threads::Count(std::num::NonZeroUsize::MIN));
+        let threads = Threads::Count(std::num::NonZeroUsize::MIN);
+        let mut options = OptimizeOptions::new().seed(self.seed).threads(threads).freedoms(false);
+        if let (Some(table), Some(_)) = (&self.base.drives, &c.design()?.drive_table) {
+            options = options.drives(table);
+        }
         let report = c.design()?.optimize_with(options).map_err(|e| e.to_string())?;
+        let first = |c: &Checked| c.objectives.first().map(|(_, value)| *value);
         let value = match &report.evidence {
-            OptimizeEvidence::Offsets(report) => report.solution().map(|s| s.recheck.objective),
-            OptimizeEvidence::Dimensions { checked, .. } => {
-                checked.as_ref().and_then(|c| c.objectives.first()).map(|(_, value)| *value)
-            }
+            OptimizeEvidence::Offsets(found) => found.report.solution().map(|s| s.recheck.objective),
+            OptimizeEvidence::Dimensions(found) => found.checked.as_ref().and_then(first),
+            OptimizeEvidence::Front(found) => found.members.first().and_then(first),
         };
         Ok(vec![SweepCell::text(Some(report.status.name())), SweepCell::number(value)])
     }

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ConflictRecord, OptimizeWord, SymmetryRecord};
-use crate::app::entrance::drive_search::{
-    DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive,
+use super::{ConflictRecord, SymmetryRecord};
+use crate::app::entrance::{
+    DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, OptimizeStatus, SearchedDrive,
 };
 use crate::app::records::{MarginRecord, Number};
 use machine::requirements::TermKind;
@@ -99,10 +99,10 @@ impl DriveSearchWord {
         if driven.found.is_met() {
             return Self::Met;
         }
-        match OptimizeWord::from(driven.found.status()) {
-            OptimizeWord::Violated => Self::Violated,
-            OptimizeWord::Infeasible => Self::Infeasible,
-            OptimizeWord::Interrupted => Self::Interrupted,
+        match driven.found.status() {
+            OptimizeStatus::Violated => Self::Violated,
+            OptimizeStatus::Infeasible => Self::Infeasible,
+            OptimizeStatus::Interrupted => Self::Interrupted,
             _ => Self::Undecided,
         }
     }
@@ -206,9 +206,9 @@ impl SearchedDriveRecord {
 }
 
 impl DriveSearchRecord {
-    /// The record of a search over a table whose prices are in a currency.
+    /// The record of a search over a table.
     #[must_use]
-    pub(crate) fn new(search: &DriveSearch, currency: Option<&str>) -> Self {
+    pub fn new(search: &DriveSearch) -> Self {
         let chosen = search.chosen().map(|d| d.name.as_str());
         let one = |d: &SearchedDrive| SearchedDriveRecord::new(d, chosen, search.ranking);
         let drives: Vec<SearchedDriveRecord> = search.drives.iter().map(one).collect();
@@ -227,12 +227,11 @@ impl DriveSearchRecord {
                 drives.len()
             ),
         };
-        let (currency, interrupted) = (currency.map(str::to_owned), search.interrupted);
         Self {
             chosen: chosen.map(str::to_owned),
             ranked_by: search.ranking,
-            currency,
-            interrupted,
+            currency: search.currency.clone(),
+            interrupted: search.interrupted,
             message,
             drives,
         }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::app::Design;
-use crate::app::entrance::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
+use crate::app::entrance::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
 use crate::app::records::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
 

@@ -27,14 +27,16 @@ pub use self::platform::{
 pub use self::riding::{RiddenBoundRecord, RiddenWord, RidingRecord};
 pub use self::symmetry::{SymmetryRecord, SymmetryWord};
 use crate::app::Design;
-use crate::app::entrance::OptimizeStatus;
-use crate::app::entrance::optimizing::{Checked, dimensional_status, offset_status};
-use crate::app::records::{DesignRecord, Number, SourceWord};
-use optimize::dimensional::{
-    DimensionalOutcome, DimensionalProblem, DimensionalReport, ParetoPoint, ParetoReport,
+use crate::app::entrance::{
+    Checked, ConflictFreedom, FoundFront, FoundOffsets, FoundPlatform, OpenedFreedom, OptimizeEvidence,
+    OptimizeReport, OptimizeStatus,
 };
-use optimize::offsets::{OffsetOutcome, OffsetProblem, OffsetReport};
+use crate::app::records::{DesignRecord, Number, SourceWord};
+use optimize::dimensional::{DimensionalOutcome, DimensionalProblem, DimensionalSolution, ParetoPoint};
+use optimize::offsets::{OffsetOutcome, OffsetProblem};
 
+/// Why the sizes and the height are chosen.
+const SIZES: &str = "no leg of the design can be replaced without another kinematics: the sizes of base and platform and the height of home are chosen";
 /// Runners-up that are listed.
 const RUNNERS_UP: usize = 5;
 
@@ -42,7 +44,7 @@ const RUNNERS_UP: usize = 5;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OptimizeAnswer {
     /// What came of the search.
-    pub status: OptimizeWord,
+    pub status: OptimizeStatus,
     /// What is known of better ones; null: nothing, or there is no platform.
     pub optimality: Option<OptimalityWord>,
     /// The best platform found; all its fields are null where there is none, or where the answer is a front.
@@ -86,70 +88,6 @@ pub struct OptimizeAnswer {
     pub runners_up: Option<Vec<BranchRecord>>,
     /// All branches: a zone for each offset.
     pub branches: Option<Vec<BranchRecord>>,
-}
-
-/// What came of a search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum OptimizeWord {
-    /// The requirements are met, and no offsets are better by more than `tolerance`: proved.
-    Optimal,
-    /// The requirements are met, and the platform is a local optimum, the best of all starts; that none is better is not proved.
-    BestFound,
-    /// The requirements are met; better platforms may be near, or a bound on all others was asked for and is not proved to within `tolerance`.
-    Feasible,
-    /// There is no platform: proved where `conflict` says so, else no start met the requirements.
-    Infeasible,
-    /// Nothing that meets the requirements was found, or what was found is not proved to meet them.
-    Undecided,
-    /// The platform found misses requirements; the assessment names them.
-    Violated,
-    /// The search was told to end; the answer is the best until then.
-    Interrupted,
-    /// With mode = "pareto": a front whose members are proved to meet their requirements.
-    Front,
-}
-
-impl From<OptimizeStatus> for OptimizeWord {
-    fn from(status: OptimizeStatus) -> Self {
-        match status {
-            OptimizeStatus::Optimal => Self::Optimal,
-            OptimizeStatus::BestFound => Self::BestFound,
-            OptimizeStatus::Feasible => Self::Feasible,
-            OptimizeStatus::Infeasible => Self::Infeasible,
-            OptimizeStatus::Undecided => Self::Undecided,
-            OptimizeStatus::Violated => Self::Violated,
-            OptimizeStatus::Interrupted => Self::Interrupted,
-        }
-    }
-}
-
-impl OptimizeWord {
-    /// The word.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Optimal => "optimal",
-            Self::BestFound => "best_found",
-            Self::Feasible => "feasible",
-            Self::Infeasible => "infeasible",
-            Self::Undecided => "undecided",
-            Self::Violated => "violated",
-            Self::Interrupted => "interrupted",
-            Self::Front => "front",
-        }
-    }
-
-    /// The status of a search for a front; `met`: all members meet their requirements.
-    #[must_use]
-    pub fn of_front(report: &ParetoReport, met: bool) -> Self {
-        match report.failure.as_deref().map(|r| &r.outcome) {
-            _ if report.interrupted => Self::Interrupted,
-            Some(DimensionalOutcome::Infeasible(_)) => Self::Infeasible,
-            None if met => Self::Front,
-            _ => Self::Undecided,
-        }
-    }
 }
 
 /// What is known of platforms better than the one found.
@@ -251,9 +189,51 @@ impl From<&Design> for PoseRegionRecord {
     }
 }
 
+/// Files in which platforms of an answer were written.
+#[derive(Debug, Clone, Default)]
+pub struct OptimizeFiles {
+    /// The platform, or the one that comes nearest.
+    pub platform: Option<String>,
+    /// The candidates, in their order.
+    pub candidates: Vec<String>,
+    /// The platforms that freedoms led to.
+    pub freedoms: Vec<(ConflictFreedom, String)>,
+    /// The members of the front, in their order.
+    pub front: Vec<String>,
+}
+
 impl OptimizeAnswer {
+    /// The answer of a search, with the files written.
+    #[must_use]
+    pub fn new(r: &OptimizeReport, written: &OptimizeFiles) -> Self {
+        let design = &r.asked;
+        let found = match &r.evidence {
+            OptimizeEvidence::Offsets(found) => Self::of_offsets(design, r.status, found),
+            OptimizeEvidence::Dimensions(found) => Self::of_platform(design, r.status, found),
+            OptimizeEvidence::Front(found) => Self::of_front(design, r.status, found, &written.front),
+        };
+        let opened = |f: &OpenedFreedom| {
+            let path = written.freedoms.iter().find(|(freedom, _)| *freedom == f.freedom);
+            FreedomRecord::new(design, f, path.map(|(_, path)| path.as_str()))
+        };
+        Self {
+            output: written.platform.clone(),
+            freedoms: r.freedoms.as_ref().map(|list| list.iter().map(opened).collect()),
+            symmetry: r.symmetry().map(SymmetryRecord::from),
+            drive_search: r.drives.as_ref().map(DriveSearchRecord::new),
+            candidates: r.candidates.as_ref().map(|list| candidates(r, list, &written.candidates)),
+            choice: r.chooses_sizes.then(|| SIZES.to_owned()),
+            ..found
+        }
+    }
+
     /// An answer without a platform: what every search fills.
-    fn none(design: &Design, status: OptimizeWord, limits: SearchLimitsRecord, search: SearchRecord) -> Self {
+    fn none(
+        design: &Design,
+        status: OptimizeStatus,
+        limits: SearchLimitsRecord,
+        search: SearchRecord,
+    ) -> Self {
         Self {
             status,
             optimality: None,
@@ -280,17 +260,9 @@ impl OptimizeAnswer {
         }
     }
 
-    /// The answer of a search for offsets, with its platform checked and the file written.
-    #[must_use]
-    pub fn of_offsets(
-        design: &Design,
-        p: &OffsetProblem,
-        r: &OffsetReport,
-        checked: Option<&Checked>,
-        output: Option<&str>,
-    ) -> Self {
-        let found = r.solution().zip(checked);
-        let status = offset_status(r, checked);
+    fn of_offsets(design: &Design, status: OptimizeStatus, f: &FoundOffsets) -> Self {
+        let (p, r) = (&f.problem, &f.report);
+        let found = r.solution().zip(f.checked.as_ref());
         let optimality = match (&r.outcome, status) {
             (OffsetOutcome::Optimal(_), OptimizeStatus::Optimal) => Some(OptimalityWord::ProvedWithinGap),
             (OffsetOutcome::LocalOptimum(_), OptimizeStatus::Feasible) => Some(OptimalityWord::BestOfStarts),
@@ -306,7 +278,6 @@ impl OptimizeAnswer {
                 FoundPlatformRecord::of_offsets(design, p, s, c)
             }),
             design: found.map(|(_, c)| (&c.design).into()),
-            output: output.map(str::to_owned),
             conflict: is_empty.then(|| ConflictRecord::of_branches(&branches)),
             global_bound: r.bound.as_ref().map(GlobalBoundRecord::from),
             tolerance: Some(r.tolerance),
@@ -315,23 +286,14 @@ impl OptimizeAnswer {
                 r.runners_up.iter().take(RUNNERS_UP).map(|k| (&r.branches[*k]).into()).collect(),
             ),
             branches: Some(branches),
-            ..Self::none(design, status.into(), limits, search)
+            ..Self::none(design, status, limits, search)
         }
     }
 
-    /// The answer of a search under requirements; `checked` is its solution or its nearest platform, if there is one.
-    #[must_use]
-    pub fn of_platform(
-        design: &Design,
-        p: &DimensionalProblem,
-        report: &DimensionalReport,
-        checked: Option<&Checked>,
-        output: Option<&str>,
-    ) -> Self {
-        let solution = report.solution().zip(checked);
-        let nearest = report.nearest.as_deref().zip(checked);
-        let checked = solution.map(|(_, c)| c);
-        let status = OptimizeWord::from(dimensional_status(report, checked));
+    fn of_platform(design: &Design, status: OptimizeStatus, f: &FoundPlatform) -> Self {
+        let (p, report) = (&f.problem, &f.report);
+        let solution = report.solution().zip(f.checked.as_ref());
+        let nearest = report.nearest.as_deref().zip(f.nearest.as_ref()).filter(|_| solution.is_none());
         let search = SearchRecord {
             starts: Some(report.starts),
             feasible: Some(report.feasible),
@@ -339,12 +301,11 @@ impl OptimizeAnswer {
             ..SearchRecord::of(SearchMethodWord::Dimensional)
         };
         Self {
-            optimality: (status == OptimizeWord::BestFound).then_some(OptimalityWord::BestOfStarts),
+            optimality: (status == OptimizeStatus::BestFound).then_some(OptimalityWord::BestOfStarts),
             platform: solution.map_or_else(FoundPlatformRecord::default, |(s, c)| {
                 FoundPlatformRecord::new(design, p.min_abs_det, s, c)
             }),
-            design: checked.map(|c| (&c.design).into()),
-            output: output.map(str::to_owned),
+            design: solution.map(|(_, c)| (&c.design).into()),
             nearest: nearest.map(|(s, c)| Box::new(NearestPlatformRecord::new(s, c))),
             conflict: conflict_of(design, Some(&report.outcome)),
             failure: failure_of(&report.outcome),
@@ -352,25 +313,17 @@ impl OptimizeAnswer {
         }
     }
 
-    /// The answer of a search for a front from a design, its members checked, with the files written.
-    #[must_use]
-    pub fn of_front(
-        design: &Design,
-        p: &DimensionalProblem,
-        report: &ParetoReport,
-        members: &[Checked],
-        written: &[Option<String>],
-    ) -> Self {
-        let member = |((point, c), output): ((&ParetoPoint, &Checked), &Option<String>)| FrontMemberRecord {
+    fn of_front(design: &Design, status: OptimizeStatus, f: &FoundFront, written: &[String]) -> Self {
+        let (p, report) = (&f.problem, &f.report);
+        let member = |(k, (point, c)): (usize, (&ParetoPoint, &Checked))| FrontMemberRecord {
             platform: FoundPlatformRecord {
                 history: None,
                 ..FoundPlatformRecord::new(design, p.min_abs_det, &point.solution, c)
             },
             design: (&c.design).into(),
-            output: output.clone(),
+            output: written.get(k).cloned(),
             non_dominated_at: point.dense.iter().copied().map(Number).collect(),
         };
-        let status = OptimizeWord::of_front(report, members.iter().all(|c| c.met() == Some(true)));
         let search = SearchRecord {
             dominated: Some(report.dominated),
             unmet: Some(report.unmet),
@@ -378,12 +331,21 @@ impl OptimizeAnswer {
         };
         let outcome = report.failure.as_deref().map(|r| &r.outcome);
         Self {
-            front: Some(report.front.iter().zip(members).zip(written).map(member).collect()),
+            front: Some(report.front.iter().zip(&f.members).enumerate().map(member).collect()),
             conflict: conflict_of(design, outcome),
             failure: outcome.and_then(failure_of),
             ..Self::none(design, status, SearchLimitsRecord::new(design, p), search)
         }
     }
+}
+
+/// Other local optima, with their files.
+fn candidates(r: &OptimizeReport, list: &[Checked], written: &[String]) -> Vec<OptimumRecord> {
+    let OptimizeEvidence::Dimensions(found) = &r.evidence else { return Vec::new() };
+    let of = |(k, (s, c)): (usize, (&DimensionalSolution, &Checked))| {
+        OptimumRecord::new(&r.asked, s, c, written.get(k).map(String::as_str))
+    };
+    found.report.others.iter().zip(list).enumerate().map(of).collect()
 }
 
 fn conflict_of(design: &Design, outcome: Option<&DimensionalOutcome>) -> Option<ConflictRecord> {

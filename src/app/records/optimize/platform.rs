@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::riding::{DetMargin, RidingRecord};
 use crate::app::Design;
-use crate::app::entrance::optimizing::{Checked, offset_reserves};
+use crate::app::entrance::Checked;
+use crate::app::entrance::optimizing::offset_reserves;
 use crate::app::records::map::matrix;
 use crate::app::records::{
     AssessAnswer, DesignRecord, DesignRoleWord, MarginRecord, Number, PoseQuaternionRecord, PoseRecord,

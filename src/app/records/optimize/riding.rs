@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::VariableRecord;
 use crate::app::Design;
-use crate::app::entrance::optimizing::Checked;
+use crate::app::entrance::Checked;
 use crate::app::records::nearest::short;
 use crate::app::records::{MarginRecord, Number};
 use platform::manipulator::Body;

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::app::cli::commands::optimize::dimensional;
+use crate::app::cli::commands::optimize;
 use crate::app::cli::commands::report;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
-use crate::app::entrance::freedoms::ConflictFreedom;
+use crate::app::entrance::ConflictFreedom;
 use crate::app::entrance::whole::{WholeFile, part_of};
 use crate::app::records::sha256;
 use crate::app::report::ReportFile;
@@ -124,7 +124,7 @@ impl Folder {
         files::make_folder(path)?;
         let manifest = Self::manifest_in(path)?;
         let folder = Self { path: path.to_path_buf(), earlier: manifest.files, results: Vec::new() };
-        let opened = ConflictFreedom::ALL.map(dimensional::opened_file);
+        let opened = ConflictFreedom::ALL.map(optimize::opened_file);
         let own = ALL.iter().copied().chain(opened.iter().map(String::as_str));
         let mut names: Vec<String> = own.map(str::to_owned).collect();
         files_below(path, MACHINE, &mut names);

@@ -29,7 +29,7 @@ use crate::app::cli::requirements;
 use crate::app::entrance::exporting::octahedral_of_controllers;
 use crate::app::entrance::optimizing::{EXTENSION, RESERVE_PERCENT, with_default_reserve};
 use crate::app::entrance::rounding::DesignOnHoles;
-use crate::app::entrance::{SAMPLES, sample_plan};
+use crate::app::entrance::{OptimizeEvidence, SAMPLES, sample_plan};
 use crate::app::equivalents::Original;
 use crate::app::records::{
     AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
@@ -173,7 +173,7 @@ impl Results {
 
     /// The freedoms with which the requirements were met, as the end of a sentence; empty where there are none.
     fn what_resolves_it(&self) -> String {
-        let opened = self.search.freedoms(&self.design).into_iter().flatten();
+        let opened = self.search.answer().freedoms.into_iter().flatten();
         let resolved =
             opened.filter(|f| f.outcome == FreedomWord::Resolved).map(|f| format!("; {}", f.message));
         resolved.collect()
@@ -188,20 +188,21 @@ impl Results {
                 |text| text.trim_end().to_owned(),
             )
         };
-        match (self.judgement(), &self.search) {
-            (Judged::Infeasible, Search::Offsets(_)) => {
+        let of_offsets = matches!(self.search.found.evidence, OptimizeEvidence::Offsets(_));
+        match (self.judgement(), of_offsets) {
+            (Judged::Infeasible, true) => {
                 "every branch of offsets is proved to violate the limits".into()
             }
-            (Judged::Infeasible, Search::Dimensions(_)) => {
+            (Judged::Infeasible, false) => {
                 format!(
                     "no start met the requirements together; the conflict stands in optimize.json{}",
                     self.what_resolves_it()
                 )
             }
-            (Judged::NotFound, Search::Offsets(_)) => {
+            (Judged::NotFound, true) => {
                 "no offsets were found that keep the limits, but some branches are not proved empty".into()
             }
-            (Judged::NotFound, Search::Dimensions(_)) => {
+            (Judged::NotFound, false) => {
                 format!(
                     "no platform that meets the requirements was found, and no conflict{}",
                     self.what_resolves_it()
@@ -347,7 +348,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let careful = with_default_reserve(&design);
     let asked = Asked {
         design: &design,
-        octahedral: &octahedral,
         drives: table.as_ref(),
         extension,
         explains: true,
@@ -358,7 +358,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let held = careful.as_ref().filter(|_| reserve == Some(DefaultReserve::Kept)).unwrap_or(&design).clone();
     let mut found = found.with_lengths_of(&design);
     found.open_freedoms(&asked, &mut progress, &mut folder)?;
-    found.write(&held, provenance.clone(), &mut folder)?;
+    found.write(provenance.clone(), &mut folder)?;
     if let Some(new) = found.optimised() {
         folder.keep(folder::OPTIMISED, new.to_toml());
     }
@@ -436,7 +436,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asked<'a> {
     design: &'a Design,
-    octahedral: &'a Octahedral,
     /// The drives to choose from, where a table was given.
     drives: Option<&'a DriveTable>,
     extension: f64,
@@ -608,6 +607,7 @@ fn fk_record(poses: &Poses) -> FkRunRecord {
 /// What `--json` writes to standard output.
 fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
     let c = r.family.counts();
+    let answer = r.search.answer();
     ExploreOctahedralAnswer {
         verdict: r.verdict(),
         explanation: r.explanation(),
@@ -615,14 +615,14 @@ fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
         name: r.design.name.clone(),
         paths: folder.paths().collect(),
         family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
-        optimize: r.search.key_figures(&r.held),
+        optimize: r.search.key_figures(),
         price: r.price(),
         reserve: r.reserve.map(|r| DefaultReserveRecord::new(RESERVE_PERCENT, r == DefaultReserve::Kept)),
         verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
         holes: r.holes.as_ref().map(OnHolesRecord::from),
-        symmetry: r.search.symmetry(),
-        drive_search: r.search.drive_search(),
-        freedoms: r.search.freedoms(&r.design),
+        symmetry: answer.symmetry,
+        drive_search: answer.drive_search,
+        freedoms: answer.freedoms,
         fk: PoseTotalsRecord::new(r.poses.from, &r.poses.solutions),
     }
 }

@@ -2,14 +2,13 @@
 
 use std::fmt::Write as _;
 
-use super::search::Search;
 use super::{Machine, Results, Verified, folder};
-use crate::app::cli::commands::optimize::Done;
-use crate::app::cli::commands::optimize::dimensional::{self, opened_file};
+use crate::app::cli::commands::optimize::opened_file;
 use crate::app::cli::requirements as table;
 use crate::app::entrance::optimizing::offset_reserves;
 use crate::app::entrance::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
-use crate::app::records::{AssessAnswer, DriveSearchRecord, LengthsOrigin, Number};
+use crate::app::entrance::{FoundOffsets, FoundPlatform, OptimizeEvidence};
+use crate::app::records::{AssessAnswer, DriveSearchRecord, FreedomRecord, LengthsOrigin, Number};
 use files::export::PART_COLUMNS;
 use fk::{Completeness, FkSolutions};
 use optimize::offsets::OffsetSolution;
@@ -41,9 +40,10 @@ pub(super) fn markdown(r: &Results, headline: &[String]) -> String {
     }
     inputs(&mut out, r);
     class(&mut out, r);
-    match &r.search {
-        Search::Offsets(done) => offsets(&mut out, r, done),
-        Search::Dimensions(done) => platform(&mut out, r, done),
+    match &r.search.found.evidence {
+        OptimizeEvidence::Offsets(found) => offsets(&mut out, r, found),
+        OptimizeEvidence::Dimensions(found) => platform(&mut out, r, found),
+        OptimizeEvidence::Front(_) => (),
     }
     if let Some(v) = &r.verified {
         verification(&mut out, v);
@@ -77,11 +77,11 @@ fn inputs(out: &mut String, r: &Results) {
     for (leg, (a, b)) in LegIndex::all().zip(d.leg_names()) {
         let _ = writeln!(out, "| {} | {} | {} |", leg.get() + 1, plain(a), plain(b));
     }
-    let Search::Offsets(done) = &r.search else {
+    let OptimizeEvidence::Offsets(found) = &r.search.found.evidence else {
         out.push('\n');
         return;
     };
-    let p = &done.problem;
+    let p = &found.problem;
     let given = |by_design| if by_design { "of the design" } else { "default" };
     let _ = writeln!(
         out,
@@ -211,16 +211,17 @@ fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
 }
 
 /// What was chosen under the requirements.
-fn platform(out: &mut String, r: &Results, done: &dimensional::Done) {
+fn platform(out: &mut String, r: &Results, found: &FoundPlatform) {
     let _ = writeln!(out, "## The best platform under the requirements\n");
-    if let Some(s) = r.search.symmetry() {
+    let answer = r.search.answer();
+    if let Some(s) = &answer.symmetry {
         let _ = writeln!(out, "{}.\n", sentence(&s.message));
     }
-    if let Some(d) = r.search.drive_search() {
-        drives(out, &d);
+    if let Some(d) = &answer.drive_search {
+        drives(out, d);
     }
-    freedoms(out, r);
-    let Some((s, c)) = done.report.solution().zip(done.checked.as_ref()) else {
+    freedoms(out, answer.freedoms.as_deref().unwrap_or_default());
+    let Some((s, c)) = found.report.solution().zip(found.checked.as_ref()) else {
         let _ = writeln!(out, "No platform was found. Details: [{0}]({0}).\n", folder::OPTIMIZE);
         return;
     };
@@ -273,10 +274,12 @@ fn drives(out: &mut String, d: &DriveSearchRecord) {
 }
 
 /// What other freedoms came to.
-fn freedoms(out: &mut String, r: &Results) {
-    let Some(list) = r.search.freedoms(&r.design).filter(|list| !list.is_empty()) else { return };
+fn freedoms(out: &mut String, list: &[FreedomRecord]) {
+    if list.is_empty() {
+        return;
+    }
     let _ = writeln!(out, "Which freedom more would resolve it was tried:\n");
-    for f in &list {
+    for f in list {
         let file = opened_file(f.freedom);
         let link = f.output.as_ref().map_or_else(String::new, |_| format!(" ([{file}]({file}))"));
         let _ = writeln!(out, "- {}{link}", plain(&f.message));
@@ -284,12 +287,12 @@ fn freedoms(out: &mut String, r: &Results) {
     out.push('\n');
 }
 
-fn offsets(out: &mut String, r: &Results, done: &Done) {
-    let n = done.report.counts();
+fn offsets(out: &mut String, r: &Results, found: &FoundOffsets) {
+    let n = found.report.counts();
     let _ = writeln!(out, "## Offsets of the platform without shared joints\n");
-    if let Some(s) = done.report.solution() {
+    if let Some(s) = found.report.solution() {
         let _ = writeln!(out, "Optimised design: [{0}]({0}).\n", folder::OPTIMISED);
-        solution(out, r, done, s);
+        solution(out, r, found, s);
         map(out, &s.map, &r.design.units);
     } else {
         let _ = writeln!(out, "No offsets were found.\n");
@@ -310,8 +313,8 @@ fn offsets(out: &mut String, r: &Results, done: &Done) {
     );
 }
 
-fn solution(out: &mut String, r: &Results, done: &Done, s: &OffsetSolution) {
-    let (units, p) = (plain(&r.design.units), &done.problem);
+fn solution(out: &mut String, r: &Results, found: &FoundOffsets, s: &OffsetSolution) {
+    let (units, p) = (plain(&r.design.units), &found.problem);
     let (order, edges, bodies) = (r.octahedral.order(), p.edge_lengths(), p.sliding_bodies());
     let _ = writeln!(
         out,

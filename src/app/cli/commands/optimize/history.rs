@@ -2,24 +2,48 @@
 
 use std::path::Path;
 
-use crate::app::Design;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
+use crate::app::entrance::{OptimizeEvidence, OptimizeReport};
 use ::files::plot::{SearchStep, StepsFigure, steps_chart};
+use optimize::dimensional::HistoryStep;
+use optimize::offsets::OffsetHistoryStep;
 
 /// A step with its trust radius.
-pub(super) type Row = (SearchStep, f64);
+type Row = (SearchStep, f64);
 
-/// Writes the steps: `.svg` a picture, anything else CSV.
-pub(super) fn write(path: &Path, design: &Design, quantity: &str, rows: &[Row]) -> Result<(), Failure> {
+/// Writes the steps, where there is a run: `.svg` a picture, anything else CSV.
+pub(super) fn write(path: &Path, found: &OptimizeReport) -> Result<(), Failure> {
+    let Some((quantity, rows)) = steps(found) else { return Ok(()) };
     let is_picture = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
-    let text = if is_picture { picture(design, quantity, rows) } else { table(rows) };
+    let text = if is_picture { picture(&found.asked.name, quantity, &rows) } else { table(&rows) };
     files::write_text(path, &text)
 }
 
-fn picture(design: &Design, quantity: &str, rows: &[Row]) -> String {
+/// What was optimised, and the steps of the run.
+fn steps(found: &OptimizeReport) -> Option<(&'static str, Vec<Row>)> {
+    match &found.evidence {
+        OptimizeEvidence::Offsets(f) => {
+            let of = |h: &OffsetHistoryStep| {
+                (SearchStep { value: h.value, violation: h.violation, accepted: h.accepted }, h.radius)
+            };
+            let history = &f.report.solution()?.history;
+            Some(("worst inverse condition number", history.iter().map(of).collect()))
+        }
+        OptimizeEvidence::Dimensions(f) => {
+            let of = |h: &HistoryStep| {
+                (SearchStep { value: h.gain, violation: h.violation, accepted: h.accepted }, h.radius)
+            };
+            let history = &f.report.solution().or(f.report.nearest.as_deref())?.history;
+            Some(("sum of the weighted objectives", history.iter().map(of).collect()))
+        }
+        OptimizeEvidence::Front(_) => None,
+    }
+}
+
+fn picture(name: &str, quantity: &str, rows: &[Row]) -> String {
     steps_chart(&StepsFigure {
-        title: format!("{}: the run that found the answer", design.name),
+        title: format!("{name}: the run that found the answer"),
         quantity: quantity.into(),
         note: format!("equipod {}", env!("CARGO_PKG_VERSION")),
         steps: rows.iter().map(|r| r.0).collect(),

@@ -1,34 +1,30 @@
 //! `equipod optimize`: the best platform equivalent to a design, or the best under its requirements.
 
-pub(super) mod dimensional;
-mod front;
 mod history;
 mod render;
 
 pub(super) use self::render::drives_text;
 
-use std::ops::ControlFlow;
-use std::path::PathBuf;
-use std::time::Instant;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
 use crate::app::Design;
+use crate::app::cli::commands::build::drives;
 use crate::app::cli::commands::verify::failure_of;
+use crate::app::cli::commands::{GENERAL, NEAREST};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
-use crate::app::entrance::optimizing::{
-    Checked, EXTENSION, Judging, asks_for_more, checked_offsets, dimensional_problem, hopeless_home,
-    offset_problem, offset_status, with_sizes_to_choose,
+use crate::app::entrance::optimizing::{EXTENSION, SearchKind, dimensional_problem, hopeless_home};
+use crate::app::entrance::{
+    ConflictFreedom, Error, OptimizeEvidence, OptimizeOptions, OptimizeReport, OptimizeStatus,
 };
-use crate::app::records::{OptimizeAnswer, OptimizeWord};
-use ::files::design::Combination;
-use ::files::plot::SearchStep;
+use crate::app::records::{OptimizeAnswer, OptimizeFiles};
+use fk::Threads;
 use optimize::dimensional::InvalidProblem;
-use optimize::offsets::{self, OffsetProblem, OffsetReport, OffsetSearchOptions, OffsetSolution, optimize};
-use platform::manipulator::Octahedral;
 
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
@@ -64,112 +60,154 @@ pub(crate) struct Args {
     time_limit: Option<TimeLimit>,
 }
 
-/// How the search is to go.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Choices {
-    pub(super) extension: f64,
-    pub(super) survey: bool,
-    pub(super) gap: f64,
-    pub(super) threads: Option<u16>,
-    /// When the judging of what was found ends.
-    pub(super) until: Option<Instant>,
-}
-
-impl Choices {
-    /// Defaults but for the extension and a limit of time.
-    pub(super) fn plain(extension: f64, until: Option<Instant>) -> Self {
-        Self { extension, survey: false, gap: OffsetSearchOptions::default().gap, threads: None, until }
-    }
-}
-
-/// How many threads work where so many were asked for.
-pub(super) fn workers(asked: Option<u16>) -> usize {
-    asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
-}
-
-/// Why the sizes and the height are chosen.
-const SIZES: &str = "no leg of the design can be replaced without another kinematics: the sizes of base and platform and the height of home are chosen";
-
 /// Optimises, and writes the design when asked to.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     refuse_singular_home(&design, args.extension, "optimize::singular_home")?;
-    let sized = with_sizes_to_choose(&design);
-    let choice = sized.as_ref().map(|_| SIZES.to_owned());
-    let design = sized.unwrap_or(design);
-    // lengths of drives are requirements
-    if asks_for_more(&design) || args.drives.is_some() || design.drive_table.is_some() {
-        let why = "no bound over all offsets is proved for a design that asks for more than the best offsets";
-        context.no_effect("gap", why)?;
-        context.no_effect(
-            "survey",
-            "the branches of the offsets are not searched for a design that asks for more",
-        )?;
-        refuse_extension(&design, context)?;
-        if let Some(Combination::Pareto { points }) = design.search.mode {
-            context.no_effect("history", "a front is the result of many runs")?;
-            context.no_effect("candidates", "a front is a list of platforms already")?;
-            context.no_effect("drives", "a front is many platforms, and a drive is chosen for one")?;
-            refuse_drives(&design, "a front is many platforms, and a drive is chosen for one")?;
-            return front::run(&design, points, args, context);
-        }
-        let done = dimensional::run(&design, args, context)?;
-        let shown = done.report.solution().or(done.report.nearest.as_deref());
-        if let (Some(path), Some(s)) = (&args.history, shown) {
-            let of = |h: &optimize::dimensional::HistoryStep| {
-                (SearchStep { value: h.gain, violation: h.violation, accepted: h.accepted }, h.radius)
-            };
-            let rows: Vec<history::Row> = s.history.iter().map(of).collect();
-            history::write(path, &design, "sum of the weighted objectives", &rows)?;
-        }
-        let written = write(args.output.as_deref(), done.platform())?;
-        let record = OptimizeAnswer { choice, ..done.record(&design, written.as_deref()) };
-        return Ok(answered(&design, record, context));
-    }
-    context.no_effect(
-        "candidates",
-        "the search for offsets alone looks for the best of all; --survey gives the best of every branch",
-    )?;
-    // a design that is not octahedral asks for more
-    let octahedral = Octahedral::recognise(design.manipulator())
-        .map_err(|why| dimensional::refusal(&InvalidProblem::NotOctahedral(why)))?;
-    if !(args.gap > 0.0 && args.gap.is_finite()) {
-        return Err(Failure::refused(
-            "optimize::bad_gap",
-            format!("--gap is {}, not a positive number", args.gap),
-        ));
-    }
+    refuse_options(args, &design, context)?;
+    let table = drives::asked(args.drives.as_deref(), &args.design, &design, context)?;
     let (mut progress, interrupt) =
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
-    let choices = Choices {
-        extension: args.extension,
-        survey: args.survey,
-        gap: args.gap,
-        threads: args.threads,
-        until: interrupt.until(),
-    };
-    let done = search(&design, octahedral, &choices, context.seed(), &mut |p| {
-        progress.note(&p.to_string());
-        interrupt.flow()
-    })?;
-    progress.end();
-    let written = write(args.output.as_deref(), done.optimised())?;
-    if let (Some(path), Some(s)) = (&args.history, done.report.solution()) {
-        let of = |h: &offsets::OffsetHistoryStep| {
-            (SearchStep { value: h.value, violation: h.violation, accepted: h.accepted }, h.radius)
-        };
-        let rows: Vec<history::Row> = s.history.iter().map(of).collect();
-        history::write(path, &design, "worst inverse condition number", &rows)?;
+    let mut options = OptimizeOptions::new()
+        .seed(context.seed())
+        .threads(workers(args.threads))
+        .extension(args.extension)
+        .survey(args.survey)
+        .gap(args.gap)
+        .candidates(args.candidates.is_some())
+        .until(interrupt.until())
+        .on_progress(|p| {
+            progress.note(&p.to_string());
+            interrupt.flow()
+        });
+    if let Some(table) = &table {
+        options = options.drives(table);
     }
-    let record = done.record(&design, written.as_deref());
-    Ok(answered(&design, record, context))
+    let found = design.optimize_with(options).map_err(failed)?;
+    progress.end();
+    let written = write(args, &found)?;
+    let record = OptimizeAnswer::new(&found, &written);
+    let text = if context.json() { String::new() } else { render::text(&design.name, &record) };
+    Ok(Answer::new(exit_of(record.status), record, text))
 }
 
-/// An answer with its text and its exit code.
-fn answered(design: &Design, record: OptimizeAnswer, context: &Context) -> Answer {
-    let text = if context.json() { String::new() } else { render::text(&design.name, &record) };
-    Answer::new(exit_of(record.status), record, text)
+/// Refuses what was typed and has no effect on the search that answers the design.
+fn refuse_options(args: &Args, design: &Design, context: &Context) -> Result<(), Failure> {
+    // lengths of drives are requirements
+    let kind = SearchKind::of(design, args.drives.is_some() || design.drive_table.is_some());
+    if kind == SearchKind::Offsets {
+        context.no_effect(
+            "candidates",
+            "the search for offsets alone looks for the best of all; --survey gives the best of every branch",
+        )?;
+        if !(args.gap > 0.0 && args.gap.is_finite()) {
+            let message = format!("--gap is {}, not a positive number", args.gap);
+            return Err(Failure::refused("optimize::bad_gap", message));
+        }
+        return Ok(());
+    }
+    let why = "no bound over all offsets is proved for a design that asks for more than the best offsets";
+    context.no_effect("gap", why)?;
+    context.no_effect(
+        "survey",
+        "the branches of the offsets are not searched for a design that asks for more",
+    )?;
+    refuse_extension(design, context)?;
+    if let SearchKind::Front(_) = kind {
+        context.no_effect("history", "a front is the result of many runs")?;
+        context.no_effect("candidates", "a front is a list of platforms already")?;
+        context.no_effect("drives", "a front is many platforms, and a drive is chosen for one")?;
+        refuse_drives(design, "a front is many platforms, and a drive is chosen for one")?;
+    }
+    Ok(())
+}
+
+/// Why a search could not be asked or its answer not be judged.
+pub(super) fn failed(why: Error) -> Failure {
+    let invalid =
+        |why: &dyn std::fmt::Display| Failure::refused("optimize::invalid_problem", why.to_string());
+    match why {
+        Error::DimensionalProblem(why) => refusal(&why),
+        // a design that is not octahedral asks for more than offsets
+        Error::NotOctahedral(why) => refusal(&InvalidProblem::NotOctahedral(why)),
+        Error::OffsetProblem(why) => invalid(&why),
+        Error::Verify(why) => failure_of(&why),
+        other => Failure::internal(other.to_string()),
+    }
+}
+
+/// A problem that cannot be asked, with what could be asked instead.
+fn refusal(why: &InvalidProblem) -> Failure {
+    let failed = |code| Failure::refused(code, why.to_string());
+    match why {
+        InvalidProblem::NotOctahedral(_) => failed("optimize::not_octahedral").with_help(format!(
+            "for other designs set variables = [\"components\"] in [optimize] (legs move in their families of replaceable legs), \
+             [\"triangle_sizes\"] (sizes of base and platform), or \"home_height\", \"joint_axes\"; {NEAREST} {GENERAL}"
+        )),
+        InvalidProblem::NoFamily => failed("optimize::invalid_problem").with_help(format!(
+            "variables = [\"triangle_sizes\"] (sizes of base and platform), [\"home_height\"] or [\"joint_axes\"] in [optimize] need no family, \
+             and make other platforms than equivalent ones; {NEAREST} {GENERAL}"
+        )),
+        _ => failed("optimize::invalid_problem"),
+    }
+}
+
+/// How many threads work where so many were asked for.
+fn workers(asked: Option<u16>) -> Threads {
+    asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
+}
+
+/// Writes the files that were asked for.
+fn write(args: &Args, found: &OptimizeReport) -> Result<OptimizeFiles, Failure> {
+    let mut written = OptimizeFiles::default();
+    let keep = |path: &Path, design: &Design| -> Result<String, Failure> {
+        files::write_design(path, design)?;
+        Ok(path.display().to_string())
+    };
+    if let Some(path) = &args.history {
+        history::write(path, found)?;
+    }
+    if let Some(path) = args.output.as_deref() {
+        if let Some(c) = found.checked().or(found.nearest()) {
+            written.platform = Some(keep(path, &c.design)?);
+        }
+        if let OptimizeEvidence::Front(front) = &found.evidence {
+            let all = front.members.iter().enumerate();
+            written.front =
+                all.map(|(k, c)| keep(&numbered(path, k), &c.design)).collect::<Result<_, Failure>>()?;
+        }
+    }
+    if let Some(folder) = args.candidates.as_deref() {
+        files::make_folder(folder)?;
+        let path = |k: usize| folder.join(format!("candidate-{k}.toml"));
+        if let Some(design) = found.design() {
+            keep(&path(1), design)?;
+        }
+        let others = found.candidates.iter().flatten().enumerate();
+        written.candidates =
+            others.map(|(k, c)| keep(&path(k + 2), &c.design)).collect::<Result<_, Failure>>()?;
+        for (opened, design) in found.freedoms.iter().flatten().filter_map(|f| Some((f, f.design()?))) {
+            let path = keep(&folder.join(opened_file(opened.freedom)), design)?;
+            written.freedoms.push((opened.freedom, path));
+        }
+    }
+    Ok(written)
+}
+
+/// The file of the platform that a freedom led to.
+pub(super) fn opened_file(freedom: ConflictFreedom) -> String {
+    format!("with-{}.toml", freedom.name())
+}
+
+/// `out.toml` as `out-1.toml`, `out-2.toml`, ...
+fn numbered(path: &Path, k: usize) -> PathBuf {
+    let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let name = match path.extension() {
+        Some(e) => format!("{stem}-{}.{}", k + 1, e.to_string_lossy()),
+        None => format!("{stem}-{}", k + 1),
+    };
+    path.with_file_name(name)
 }
 
 /// Ends a search at once whose home pose is singular for every platform that it could find: exit 1.
@@ -200,13 +238,6 @@ pub(super) fn refuse_drives(design: &Design, why: &str) -> Result<(), Failure> {
     Err(Failure::refused("drives::not_chosen", message).with_help(help))
 }
 
-/// Writes the design when a path is given; the path as it is shown.
-fn write(path: Option<&std::path::Path>, design: Option<&Design>) -> Result<Option<String>, Failure> {
-    let (Some(path), Some(design)) = (path, design) else { return Ok(None) };
-    files::write_design(path, design)?;
-    Ok(Some(path.display().to_string()))
-}
-
 /// Refuses an `--extension` that is not a length.
 pub(super) fn check_extension(extension: f64) -> Result<(), Failure> {
     if extension >= 0.0 && extension.is_finite() {
@@ -216,61 +247,13 @@ pub(super) fn check_extension(extension: f64) -> Result<(), Failure> {
     Err(Failure::refused("optimize::bad_extension", message))
 }
 
-/// A search with everything it was asked and what came out.
-#[derive(Debug)]
-pub(super) struct Done {
-    pub(super) problem: OffsetProblem,
-    pub(super) report: OffsetReport,
-    /// The platform found.
-    pub(super) checked: Option<Checked>,
-}
-
-impl Done {
-    /// The answer about it.
-    pub(super) fn record(&self, design: &Design, written: Option<&str>) -> OptimizeAnswer {
-        OptimizeAnswer::of_offsets(design, &self.problem, &self.report, self.checked.as_ref(), written)
-    }
-
-    /// The optimised platform, when there is one.
-    pub(super) fn optimised(&self) -> Option<&Design> {
-        self.checked.as_ref().map(|c| &c.design)
-    }
-
-    pub(super) fn exit(&self) -> Exit {
-        exit_of(offset_status(&self.report, self.checked.as_ref()).into())
-    }
-}
-
 /// What the status means for the exit code.
-pub(super) fn exit_of(status: OptimizeWord) -> Exit {
+pub(super) fn exit_of(status: OptimizeStatus) -> Exit {
     match status {
-        OptimizeWord::Optimal | OptimizeWord::BestFound | OptimizeWord::Front => Exit::Yes,
-        OptimizeWord::Infeasible | OptimizeWord::Violated => Exit::No,
-        OptimizeWord::Feasible | OptimizeWord::Undecided | OptimizeWord::Interrupted => Exit::Inconclusive,
+        OptimizeStatus::Optimal | OptimizeStatus::BestFound | OptimizeStatus::Front => Exit::Yes,
+        OptimizeStatus::Infeasible | OptimizeStatus::Violated => Exit::No,
+        OptimizeStatus::Feasible | OptimizeStatus::Undecided | OptimizeStatus::Interrupted => {
+            Exit::Inconclusive
+        }
     }
-}
-
-/// Optimises the offsets of a design; `progress` is told how far the search is.
-pub(super) fn search(
-    design: &Design,
-    octahedral: Octahedral,
-    choices: &Choices,
-    seed: u64,
-    progress: &mut dyn FnMut(offsets::OffsetProgress) -> ControlFlow<()>,
-) -> Result<Done, Failure> {
-    let poses = design.workspace_or_default().sample(&design.home_or_default());
-    let problem = offset_problem(design, octahedral, poses, choices.extension);
-    let options = OffsetSearchOptions {
-        seed,
-        threads: workers(choices.threads),
-        survey: choices.survey,
-        gap: choices.gap,
-        ..OffsetSearchOptions::default()
-    };
-    let report = optimize(&problem, &options, progress)
-        .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
-    let judging = Judging { seed, until: choices.until };
-    let of = |s: &OffsetSolution| checked_offsets(design, &problem, s, judging).map_err(|e| failure_of(&e));
-    let checked = report.solution().map(of).transpose()?;
-    Ok(Done { problem, report, checked })
 }

@@ -4,17 +4,18 @@ use std::fmt::Write as _;
 
 use crate::app::cli::numbers::significant as short;
 use crate::app::cli::requirements;
+use crate::app::entrance::OptimizeStatus;
 use crate::app::records::{
     ConflictReasonRecord, ConflictRecord, DesignRecord, DriveSearchRecord, FoundPlatformRecord,
     FrontMemberRecord, MarginRecord, NearestPlatformRecord, Number, OptimalityWord, OptimizeAnswer,
-    OptimizeWord, OptimumRecord, VariableRecord,
+    OptimumRecord, VariableRecord,
 };
 use optimize::offsets::Zone;
 use synthesis::sliding_body;
 
 /// For people. Writing to a string cannot fail, so the results of `write!` are dropped.
 pub(super) fn text(name: &str, a: &OptimizeAnswer) -> String {
-    let mut out = format!("{name}: {}\n", a.status.as_str().replace('_', " "));
+    let mut out = format!("{name}: {}\n", a.status.name().replace('_', " "));
     if let Some(choice) = &a.choice {
         let _ = writeln!(out, "{choice}");
     }
@@ -75,7 +76,7 @@ fn search_text(out: &mut String, a: &OptimizeAnswer) {
         let _ = writeln!(out, "{starts} starts, {feasible} of them feasible in the first pass");
     }
     if let (Some(list), Some(dominated), Some(unmet)) = (&a.front, r.dominated, r.unmet) {
-        if a.status == OptimizeWord::Interrupted {
+        if a.status == OptimizeStatus::Interrupted {
             out.push_str("the front as far as it was found; runs that were not finished may be improved\n");
         }
         let _ = writeln!(
@@ -89,7 +90,7 @@ fn search_text(out: &mut String, a: &OptimizeAnswer) {
 /// What the word of the status means here.
 fn meaning_text(out: &mut String, a: &OptimizeAnswer) {
     match (a.status, a.optimality) {
-        (OptimizeWord::Feasible, Some(OptimalityWord::BestOfStarts)) => {
+        (OptimizeStatus::Feasible, Some(OptimalityWord::BestOfStarts)) => {
             let gap =
                 a.tolerance.map_or_else(String::new, |t| format!(" to within the gap of {t} asked for"));
             let _ =
@@ -98,11 +99,11 @@ fn meaning_text(out: &mut String, a: &OptimizeAnswer) {
         (_, Some(OptimalityWord::BestOfStarts)) => out.push_str(
             "a local optimum, the best of all starts; that there is no better platform is not proved\n",
         ),
-        (OptimizeWord::Violated, _) => {
+        (OptimizeStatus::Violated, _) => {
             out.push_str("the platform misses requirements and is not called optimal\n");
         }
-        (OptimizeWord::Feasible, _) => out.push_str("the limits are met; better platforms may be near\n"),
-        (OptimizeWord::Undecided, _) if a.platform.objective.is_none() && a.front.is_none() => {
+        (OptimizeStatus::Feasible, _) => out.push_str("the limits are met; better platforms may be near\n"),
+        (OptimizeStatus::Undecided, _) if a.platform.objective.is_none() && a.front.is_none() => {
             let reason = a.failure.as_ref().map_or_else(String::new, |w| format!(": {w}"));
             let _ =
                 writeln!(out, "no platform that meets the requirements was found, and no conflict{reason}");
@@ -316,8 +317,10 @@ fn conflict_text(out: &mut String, c: &ConflictRecord) {
 mod tests {
     use super::*;
     use crate::app::design::parse;
+    use crate::app::entrance::OptimizeOptions;
+    use crate::app::records::OptimizeFiles;
     use files::design::Format;
-    use machine::requirements::TermKind;
+    use machine::requirements::{Objective, TermKind};
     use optimize::dimensional::{ConstraintConflict, Demand, Give};
 
     #[test]
@@ -347,5 +350,17 @@ mod tests {
           leg_force               4.500e-7 force
         ");
         assert!(!out.contains("0.000000"));
+    }
+
+    #[test]
+    fn an_interrupted_front_is_said_to_be_so_far() {
+        let file = std::fs::read_to_string("designs/worked/isolator-octahedral.toml").unwrap();
+        let (mut design, _) = parse(&file, Format::Toml).unwrap();
+        design.search.mode = Some(files::design::Combination::Pareto { points: 2 });
+        design.search.objectives = vec![(Objective::Stroke, 1.0), (Objective::WorstConditioning, 1.0)];
+        let ended = OptimizeOptions::new().on_progress(|_| std::ops::ControlFlow::Break(()));
+        let answer = OptimizeAnswer::new(&design.optimize_with(ended).unwrap(), &OptimizeFiles::default());
+        assert_eq!(answer.status, OptimizeStatus::Interrupted);
+        assert!(text(&design.name, &answer).contains("as far as it was found"));
     }
 }

@@ -53,7 +53,9 @@ impl Reader<'_, '_> {
                 );
             }
         }
-        if self.base.drives.is_some() && has(&|q| *q == FreeQuantity::Drive) == 0 {
+        // a table that the base design names is for its searches
+        let named_by_plan = self.base.drives.is_some() && self.base.design.drive_table.is_none();
+        if named_by_plan && has(&|q| *q == FreeQuantity::Drive) == 0 {
             self.refuse(
                 Code::ConflictingKeys,
                 place,

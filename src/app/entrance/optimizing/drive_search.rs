@@ -3,21 +3,17 @@
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
-use super::Error;
-use super::optimizing::OptimizeStatus;
+use super::super::Error;
+use super::OptimizeStatus;
 use super::platform_search::{FoundPlatform, find_platform};
 use crate::app::Design;
-use files::design::Drive;
+use files::design::{Drive, DriveTable};
 use machine::requirements::TermKind;
 use optimize::dimensional::{DimensionalOutcome, Progress, ShapeSearchOptions};
 
 /// What decides between drives with which the requirements can be met.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "files",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum DriveRanking {
     /// The lowest price, and of equal prices the best value of the first objective: every drive of the table has a price.
     Price,
@@ -26,16 +22,19 @@ pub enum DriveRanking {
 }
 
 /// A design with a drive, and what the search found for it.
-#[derive(Debug, Clone)]
-pub(crate) struct DrivenPlatform {
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct DrivenPlatform {
     /// The design with the drive.
-    pub(crate) design: Design,
-    pub(crate) found: FoundPlatform,
+    pub design: Design,
+    /// What was found.
+    pub found: FoundPlatform,
 }
 
 /// What became of a drive.
-#[derive(Debug, Clone)]
-pub(crate) enum DriveOutcome {
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum DriveOutcome {
     /// The search with it.
     Searched(Box<DrivenPlatform>),
     /// Not searched: it costs more than this drive, with which the requirements can be met.
@@ -47,10 +46,13 @@ pub(crate) enum DriveOutcome {
 }
 
 /// A drive of the table with what became of it.
-#[derive(Debug, Clone)]
-pub(crate) struct SearchedDrive {
-    pub(crate) drive: Drive,
-    pub(crate) outcome: DriveOutcome,
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct SearchedDrive {
+    /// The drive.
+    pub drive: Drive,
+    /// What became of it.
+    pub outcome: DriveOutcome,
 }
 
 impl SearchedDrive {
@@ -70,23 +72,29 @@ impl SearchedDrive {
 }
 
 /// All drives of a table.
-#[derive(Debug, Clone)]
-pub(crate) struct DriveSearch {
-    pub(crate) ranking: DriveRanking,
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct DriveSearch {
+    /// What decided.
+    pub ranking: DriveRanking,
     /// The best first; those with which the requirements are met before the others.
-    pub(crate) drives: Vec<SearchedDrive>,
+    pub drives: Vec<SearchedDrive>,
+    /// The unit of the prices, as the table writes it.
+    pub currency: Option<String>,
     /// Whether the search was told to end before all drives were tried that could win.
-    pub(crate) interrupted: bool,
+    pub interrupted: bool,
 }
 
 impl DriveSearch {
     /// The drive of the answer: the best with which the requirements are met.
-    pub(crate) fn chosen(&self) -> Option<&Drive> {
+    #[must_use]
+    pub fn chosen(&self) -> Option<&Drive> {
         self.drives.first().filter(|d| d.gain().is_some()).map(|d| &d.drive)
     }
 
     /// The answer: the platform with the drive chosen; where there is none that of the drive with which most was reached. `None` where no search was begun.
-    pub(crate) fn answer(&self) -> Option<&DrivenPlatform> {
+    #[must_use]
+    pub fn answer(&self) -> Option<&DrivenPlatform> {
         self.drives.iter().find_map(SearchedDrive::searched)
     }
 }
@@ -179,11 +187,12 @@ fn order_of_answers(a: &SearchedDrive, b: &SearchedDrive, ranking: DriveRanking)
 /// As [`find_platform`].
 pub(crate) fn search_drives(
     design: &Design,
-    drives: &[Drive],
+    table: &DriveTable,
     extension: f64,
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(&Drive, Progress) -> ControlFlow<()>,
 ) -> Result<DriveSearch, Error> {
+    let drives = &table.drives[..];
     let priced = drives.iter().all(|d| d.price.is_some());
     let ranking = if priced { DriveRanking::Price } else { DriveRanking::Objective };
     let mut tried: Vec<SearchedDrive> = Vec::new();
@@ -204,7 +213,7 @@ pub(crate) fn search_drives(
         tried.push(SearchedDrive { drive: drive.clone(), outcome });
     }
     tried.sort_by(|a, b| order_of_answers(a, b, ranking));
-    Ok(DriveSearch { ranking, drives: tried, interrupted })
+    Ok(DriveSearch { ranking, drives: tried, currency: table.currency.clone(), interrupted })
 }
 
 /// A drive that costs less and with which the requirements are met.

@@ -3,14 +3,16 @@
 
 use std::ops::ControlFlow;
 
-use super::Error;
-use super::optimizing::{Checked, Judging, OptimizeStatus, checked, dimensional_problem, dimensional_status};
+use super::super::Error;
+use super::OptimizeStatus;
+use super::judged::{Checked, Judging, checked, dimensional_status};
+use super::problem::dimensional_problem;
 use crate::app::Design;
 use machine::manufacture::holes_turn;
 use machine::requirements::{KeptSymmetry, StartSymmetry};
 use optimize::dimensional::{
-    DimensionalProblem, DimensionalReport, DimensionalSolution, ParetoReport, Progress, ShapeSearchOptions,
-    Triangles, optimize, optimize_without_conflict, pareto,
+    DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, ParetoReport, Progress,
+    ShapeSearchOptions, Triangles, optimize, optimize_without_conflict, pareto,
 };
 use platform::manipulator::{Body, Octahedral};
 use verify::VerifyError;
@@ -41,17 +43,19 @@ pub(super) fn keeps_symmetry_of_start(
 }
 
 /// What a search under requirements found, judged by code that the search does not use.
-#[derive(Debug, Clone)]
-pub(crate) struct FoundPlatform {
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct FoundPlatform {
     /// The problem of the answer.
-    pub(crate) problem: DimensionalProblem,
-    pub(crate) report: DimensionalReport,
+    pub problem: DimensionalProblem,
+    /// The search.
+    pub report: DimensionalReport,
     /// The platform found.
-    pub(crate) checked: Option<Checked>,
+    pub checked: Option<Checked>,
     /// The platform that misses the requirements least, where none that meets them was found.
-    pub(crate) nearest: Option<Checked>,
-    /// Where the design has a symmetry and names none.
-    pub(crate) symmetry: Option<StartSymmetry>,
+    pub nearest: Option<Checked>,
+    /// Where the design has a symmetry and names none: what became of it.
+    pub symmetry: Option<StartSymmetry>,
 }
 
 impl FoundPlatform {
@@ -69,12 +73,14 @@ impl FoundPlatform {
     }
 
     /// What became of it.
-    pub(crate) fn status(&self) -> OptimizeStatus {
+    #[must_use]
+    pub fn status(&self) -> OptimizeStatus {
         dimensional_status(&self.report, self.checked.as_ref())
     }
 
     /// Whether the platform found is proved to meet all requirements with their reserves.
-    pub(crate) fn is_met(&self) -> bool {
+    #[must_use]
+    pub fn is_met(&self) -> bool {
         self.checked.as_ref().and_then(Checked::met) == Some(true)
     }
 
@@ -127,27 +133,42 @@ pub(crate) fn find_platform(
 }
 
 /// A front, its members judged.
-#[derive(Debug, Clone)]
-pub(crate) struct FoundFront {
-    pub(crate) report: ParetoReport,
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct FoundFront {
+    /// The problem of the front.
+    pub problem: DimensionalProblem,
+    /// The search.
+    pub report: ParetoReport,
     /// The members in the order of the front.
-    pub(crate) members: Vec<Checked>,
-    /// Where the design has a symmetry and names none.
-    pub(crate) symmetry: Option<StartSymmetry>,
+    pub members: Vec<Checked>,
+    /// Where the design has a symmetry and names none: what became of it.
+    pub symmetry: Option<StartSymmetry>,
 }
 
 impl FoundFront {
     fn judged(
         design: &Design,
-        problem: &DimensionalProblem,
+        problem: DimensionalProblem,
         report: ParetoReport,
         symmetry: Option<StartSymmetry>,
         judging: Judging,
     ) -> Result<Self, VerifyError> {
         let of =
-            |point: &optimize::dimensional::ParetoPoint| checked(design, problem, &point.solution, judging);
+            |point: &optimize::dimensional::ParetoPoint| checked(design, &problem, &point.solution, judging);
         let members = report.front.iter().map(of).collect::<Result<Vec<Checked>, VerifyError>>()?;
-        Ok(Self { report, members, symmetry })
+        Ok(Self { problem, report, members, symmetry })
+    }
+
+    /// What became of it.
+    #[must_use]
+    pub fn status(&self) -> OptimizeStatus {
+        match self.report.failure.as_deref().map(|r| &r.outcome) {
+            _ if self.report.interrupted => OptimizeStatus::Interrupted,
+            Some(DimensionalOutcome::Infeasible(_)) => OptimizeStatus::Infeasible,
+            None if self.members.iter().all(|c| c.met() == Some(true)) => OptimizeStatus::Front,
+            _ => OptimizeStatus::Undecided,
+        }
     }
 
     /// Whether there are members, and all are proved to meet the requirements.
@@ -171,7 +192,7 @@ pub(crate) fn find_front(
     let symmetric = match keeps_symmetry_of_start(design, &free) {
         Some(kept) => {
             let report = pareto(&kept, points, options, progress)?;
-            Some(FoundFront::judged(design, &kept, report, Some(StartSymmetry::Kept), options.into())?)
+            Some(FoundFront::judged(design, kept, report, Some(StartSymmetry::Kept), options.into())?)
         }
         None => None,
     };
@@ -180,7 +201,7 @@ pub(crate) fn find_front(
         symmetric => {
             let given_up = symmetric.as_ref().map(|_| StartSymmetry::GivenUp);
             let report = pareto(&free, points, options, progress)?;
-            let other = FoundFront::judged(design, &free, report, given_up, options.into())?;
+            let other = FoundFront::judged(design, free, report, given_up, options.into())?;
             Ok(match symmetric {
                 Some(found) if other.members.is_empty() && !found.members.is_empty() => {
                     let interrupted = other.report.interrupted;

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use super::optimizing::{Checked, checked, dimensional_problem};
+use super::judged::{Checked, checked};
 use super::platform_search::keeps_symmetry_of_start;
+use super::problem::dimensional_problem;
 use crate::app::Design;
 use machine::requirements::{Envelope, LengthLimits, PlateDesign, TermKind, VariableKind};
 use optimize::dimensional::{
@@ -15,13 +16,20 @@ use platform::manipulator::Octahedral;
 use verify::VerifyError;
 
 /// A freedom that a design does not have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(
-    feature = "files",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case"),
-    schemars(rename = "Freedom")
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
 )]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Freedom")]
 pub enum ConflictFreedom {
     /// The height of home is chosen.
     HomeHeight,
@@ -103,7 +111,8 @@ impl ConflictFreedom {
 
 /// What came of a search with a freedom more.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum FreedomOutcome {
+#[non_exhaustive]
+pub enum FreedomOutcome {
     /// A platform was found that meets all requirements with their reserves, proved by [`Design::assess`].
     Resolved(Box<Checked>),
     /// One was found that meets them at the poses looked at; not all is proved.
@@ -116,27 +125,39 @@ pub(crate) enum FreedomOutcome {
 
 /// A freedom with the search that had it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct OpenedFreedom {
+#[non_exhaustive]
+pub struct OpenedFreedom {
     /// Which.
-    pub(crate) freedom: ConflictFreedom,
+    pub freedom: ConflictFreedom,
     /// By how much a limit gave way in the last search, design units; for a variable by how much the platform found differs: its height in design units; `None` where there is no such
     /// number.
-    pub(crate) amount: Option<f64>,
+    pub amount: Option<f64>,
     /// What came of it.
-    pub(crate) outcome: FreedomOutcome,
+    pub outcome: FreedomOutcome,
     /// Demands of the conflict that have to give less with it, from how much to how much.
-    pub(crate) eased: Vec<EasedDemand>,
+    pub eased: Vec<EasedDemand>,
+}
+
+impl OpenedFreedom {
+    /// The platform found with it.
+    #[must_use]
+    pub fn design(&self) -> Option<&Design> {
+        match &self.outcome {
+            FreedomOutcome::Resolved(c) | FreedomOutcome::Undecided(c) => Some(&c.design),
+            FreedomOutcome::Unresolved | FreedomOutcome::NotTried => None,
+        }
+    }
 }
 
 /// A demand of a conflict that has to give less when a default of the search is left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct EasedDemand {
+pub struct EasedDemand {
     /// Which.
-    pub(crate) demand: Demand,
+    pub demand: Demand,
     /// By how much it has to give under the default.
-    pub(crate) from: f64,
+    pub from: f64,
     /// By how much without it.
-    pub(crate) to: f64,
+    pub to: f64,
 }
 
 /// Multiples of the amount that the conflict names, tried one after the other.
