@@ -6,6 +6,7 @@
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
+use num_traits::float::FloatCore;
 
 use super::modular::Field;
 
@@ -34,9 +35,32 @@ impl ExactNumber for Rational {
 /// A vector of rational numbers.
 pub type ExactVector = Vec<Rational>;
 
-/// The value of a double; `None` for NaN and infinities.
+/// The value of a double, in lowest terms; `None` for NaN and infinities.
 pub fn rational(x: f64) -> Option<Rational> {
-    Rational::from_float(x)
+    if !x.is_finite() {
+        return None;
+    }
+    let (mantissa, exponent, sign) = x.integer_decode();
+    if mantissa == 0 {
+        return Some(zero());
+    }
+    let twos = mantissa.trailing_zeros();
+    let numerator = BigInt::from(mantissa >> twos) * sign;
+    let exponent = i64::from(exponent) + i64::from(twos);
+    let power = exponent.unsigned_abs();
+    Some(if exponent < 0 {
+        // an odd number over a power of two
+        Rational::new_raw(numerator, BigInt::from(1) << power)
+    } else {
+        Rational::from_integer(numerator << power)
+    })
+}
+
+/// The greatest common divisor. Powers of two are taken out first, since most denominators are some.
+pub(crate) fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
+    let (Some(m), Some(n)) = (a.trailing_zeros(), b.trailing_zeros()) else { return a.gcd(b) };
+    let is_power = |x: &BigInt, twos: u64| x.bits() == twos + 1;
+    if is_power(a, m) || is_power(b, n) { BigInt::from(1) << m.min(n) } else { a.gcd(b) }
 }
 
 fn zero() -> Rational {
@@ -165,10 +189,17 @@ pub fn nearest(x: &Rational) -> f64 {
 /// An upper bound of how far a double is from the numbers between `low` and `high`; zero where they are the double.
 pub fn farthest(double: f64, low: &Rational, high: &Rational) -> f64 {
     let Some(double) = rational(double) else { return f64::INFINITY };
-    let modulus = |x: Rational| if x < zero() { -x } else { x };
-    let far = modulus(&double - low).max(modulus(high - &double));
-    // the approximation is off by one unit in the last place at most
-    if far == zero() { 0.0 } else { approximate(&far).next_up().next_up() }
+    // a difference in lowest terms would take longer than all else
+    let off = |x: &Rational| {
+        let difference = double.numer() * x.denom() - x.numer() * double.denom();
+        if difference == BigInt::ZERO {
+            return 0.0;
+        }
+        // the approximation is off by one unit in the last place at most
+        let far = approximate(&Rational::new_raw(difference, double.denom() * x.denom())).abs();
+        far.next_up().next_up()
+    };
+    off(low).max(off(high))
 }
 
 /// The value as a double, within one unit in the last place; overflow gives an infinity, underflow zero.

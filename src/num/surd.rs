@@ -16,7 +16,7 @@ use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 
 use super::cosine::{FieldRoot, Generator};
-use super::exact::{Rational, farthest, nearest};
+use super::exact::{Rational, common_divisor, farthest, nearest};
 
 /// Most terms of a sum: the degree of a field with four square roots, or of the cosines of 3, 3.75, 4.5 and 5.625
 /// degrees.
@@ -76,7 +76,7 @@ impl Surd {
             if common.is_one() {
                 break;
             }
-            common = common.gcd(c);
+            common = common_divisor(&common, c);
         }
         let denominator = if common.is_one() { denominator } else { denominator / &common };
         if !common.is_one() {
@@ -102,7 +102,7 @@ impl Surd {
         match self.terms.iter().next() {
             None => Some(Rational::zero()),
             Some((&FieldRoot::ONE, c)) if self.terms.len() == 1 => {
-                Some(Rational::new(c.clone(), self.denominator.clone()))
+                Some(Rational::new_raw(c.clone(), self.denominator.clone()))
             }
             Some(_) => None,
         }
@@ -141,7 +141,8 @@ impl Surd {
 
     /// The sum, however long.
     pub(super) fn sum(&self, other: &Self) -> Self {
-        let common = self.denominator.lcm(&other.denominator);
+        let common =
+            &self.denominator / common_divisor(&self.denominator, &other.denominator) * &other.denominator;
         let (f, g) = (&common / &self.denominator, &common / &other.denominator);
         let mut terms: BTreeMap<FieldRoot, BigInt> = self.terms.iter().map(|(r, c)| (*r, c * &f)).collect();
         for (r, c) in &other.terms {
@@ -304,7 +305,11 @@ impl Surd {
             let error = BigInt::from(2 * self.terms.len());
             if sum.bits() > error.bits() + bits {
                 let scale = &self.denominator << k;
-                return (Rational::new(&sum - &error, scale.clone()), Rational::new(sum + error, scale));
+                // bounds need no lowest terms
+                return (
+                    Rational::new_raw(&sum - &error, scale.clone()),
+                    Rational::new_raw(sum + error, scale),
+                );
             }
             k *= 2;
         }

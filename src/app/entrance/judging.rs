@@ -14,8 +14,8 @@ use machine::requirements::{
     AssessOptions, AssessStage, LeastConditioning, MarginBound, MarginProof, Requirements, RodRegularity,
     Terms, least_conditioning, least_rod_conditioning, prove_telling, regular_rods,
 };
-use platform::geom::{PoseSpace, Region};
-use platform::manipulator::{Level, Manipulator};
+use platform::geom::{BestLine, PoseSpace, Region};
+use platform::manipulator::{Body, Level, Manipulator};
 use synthesis::singularity::{
     Assembly, BoxOptions, Conditioning, NearestSingular, Regularity, SingularityVerdict, assembly,
     conditioning, nearest_singular, regular_workspace, singular_distance_at_least,
@@ -43,6 +43,8 @@ pub struct CheckReport {
     pub common_points: Option<CommonPoints>,
     /// The theorem with the smallest bound on the isolated finite poses, for all lengths.
     pub pose_bound: Theorem,
+    /// The line that fits the joints of each body best; `None` where they are in one place.
+    pub best_lines: [Option<BestLine>; 2],
     /// The home pose that the design states, where it is singular.
     pub singular_home: Option<SingularHome>,
 }
@@ -345,6 +347,7 @@ impl Design {
             pose_count,
             common_points,
             pose_bound,
+            best_lines: Body::BOTH.map(|body| BestLine::of(m.joints(body))),
             singular_home: self.singular_home(),
         })
     }

@@ -11,7 +11,8 @@ use crate::app::entrance::CheckReport;
 use files::design::{DesignExactness, Exactness};
 use fk::Theorem;
 use fk::solve::pose_count::CommonPoints;
-use platform::manipulator::{LegLengths, Level};
+use platform::geom::BestLine;
+use platform::manipulator::{Body, LegLengths, Level};
 use synthesis::singularity::{
     Architecture, Assembly, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound,
     RationalPose,
@@ -64,10 +65,37 @@ pub struct CheckAnswer {
     pub common_points: Option<CommonPointsRecord>,
     /// How many isolated finite poses no lengths exceed, by a theorem.
     pub pose_bound: PoseBoundRecord,
+    /// The line that fits the joints of each body best, base first: a body whose joints all lie on one turns about it. A body with its joints in one place has none.
+    pub best_lines: Vec<BestLineRecord>,
     /// Singular values of the normalised leg vectors.
     pub singular_values: [Number; 6],
     /// How well conditioned the Jacobian is at random poses.
     pub jacobian_inverse_condition: ConditioningRecord,
+}
+
+/// A line that joints of a body lie nearly on, in the frame of the body, design units.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BestLineRecord {
+    /// The body.
+    pub body: Body,
+    /// A point of the line, the centroid of the joints.
+    pub point: [Number; 3],
+    /// A unit vector along it.
+    pub direction: [Number; 3],
+    /// The greatest distance of a joint from the line.
+    pub distance: Number,
+    /// The greatest distance of a joint from the centroid along the line.
+    pub reach: Number,
+}
+
+impl BestLineRecord {
+    fn of((body, line): (Body, Option<BestLine>)) -> Option<Self> {
+        let BestLine { point, direction, distance, reach } = line?;
+        let (point, direction) = (point.into(), direction.into_inner().into());
+        let numbers = |x: [f64; 3]| x.map(Number);
+        let (distance, reach) = (Number(distance), Number(reach));
+        Some(Self { body, point: numbers(point), direction: numbers(direction), distance, reach })
+    }
 }
 
 impl From<&CheckReport> for CheckAnswer {
@@ -104,6 +132,7 @@ impl From<&CheckReport> for CheckAnswer {
             pose_count: (&c.pose_count).into(),
             common_points: c.common_points.map(CommonPointsRecord::from),
             pose_bound: c.pose_bound.into(),
+            best_lines: Body::BOTH.into_iter().zip(c.best_lines).filter_map(BestLineRecord::of).collect(),
             singular_values: f.leg_vectors.map(Number),
             jacobian_inverse_condition: ConditioningRecord {
                 poses: f.poses,

@@ -12,6 +12,9 @@ use crate::app::records::{
     AssemblyRecord, CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number,
 };
 
+/// Joints of a body lie nearly on a line where they are nearer to it than this share of their distance along it.
+const NEARLY: f64 = 0.05;
+
 /// Arguments of `check`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -71,6 +74,15 @@ fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
     }
     if let Some(n) = &c.nearest_singular {
         nearest(&mut text, n, size, units);
+    }
+    // a body whose joints lie nearly on a line turns nearly freely about it
+    for l in c.best_lines.iter().filter(|l| l.distance.0 <= NEARLY * l.reach.0) {
+        let (off, [x, y, z], [a, b, c]) = (l.distance.0, l.point.map(|x| x.0), l.direction.map(|x| x.0));
+        let _ = writeln!(
+            text,
+            "the joints of the {} lie within {off:.3e} {units} of a line, through ({x:.4}, {y:.4}, {z:.4}) along ({a:.4}, {b:.4}, {c:.4})",
+            l.body
+        );
     }
     pose_count(&mut text, c);
     let f = &c.jacobian_inverse_condition;
