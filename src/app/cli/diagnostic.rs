@@ -3,11 +3,11 @@
 //! Colours only on a terminal and without `NO_COLOR`: `anstream` strips them elsewhere.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 
 use anstyle::{AnsiColor, Style};
 
 use super::failure::Failure;
+use super::streams::Errors;
 use files::design::{Violation, Warning};
 use num::names::changes_direction;
 
@@ -35,8 +35,7 @@ pub(crate) fn print_note(text: &str) {
 }
 
 fn print(text: &str) {
-    // standard error may be closed: there is nobody left to tell
-    let _ = anstream::stderr().lock().write_all(text.as_bytes());
+    Errors::of_run().write_styled(text);
 }
 
 fn render_failure(failure: &Failure) -> String {

@@ -20,6 +20,7 @@ mod progress;
 mod reference;
 mod requirements;
 mod rows;
+mod streams;
 mod sweep_folder;
 mod swept_table;
 mod table;
@@ -28,6 +29,8 @@ mod usage;
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
 
 use clap::FromArgMatches;
 
@@ -36,6 +39,7 @@ use self::context::Context;
 use self::exit::Exit;
 use self::failure::Failure;
 use self::output::Output;
+pub use self::streams::Stop;
 use num::rounding::check_arithmetic;
 
 /// Runs the program on its arguments and returns its exit code. Panics inside are caught and reported.
@@ -45,15 +49,26 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// As [`main`]; the exit code as a number.
 pub fn status(args: impl IntoIterator<Item = OsString>) -> u8 {
-    let args: Vec<OsString> = args.into_iter().collect();
+    std::panic::set_hook(Box::new(|info| diagnostic::print_note(&format!("internal: {info}"))));
+    started(args.into_iter().collect()).code()
+}
+
+/// Runs the program for a caller in the same process: exit code and standard output.
+///
+/// The texts for standard error go to `said`, piece by piece. Standard input is empty.
+/// The streams, the signals and the panic hook of the process stay as they are. Several threads may call this at once.
+pub fn asked(args: Vec<OsString>, said: Sender<String>, stop: Arc<Stop>) -> (u8, String) {
+    streams::for_caller(said, stop, || started(args).code())
+}
+
+fn started(args: Vec<OsString>) -> Exit {
     // clap knows about --json only when it understood everything, but its refusals must obey it too
     let json = args.iter().skip(1).take_while(|a| *a != "--").any(|a| a == "--json");
-    guarded(json, || run(args, json)).code()
+    guarded(json, || run(args, json))
 }
 
 /// Runs `body`; a panic in it becomes a failure with exit 4, in JSON when asked.
 fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
-    std::panic::set_hook(Box::new(|info| diagnostic::print_note(&format!("internal: {info}"))));
     catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|payload| {
         let text = payload.downcast_ref::<&str>().map(ToString::to_string);
         let text = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
@@ -160,10 +175,50 @@ mod tests {
         assert!(group.get_subcommands().all(|c| SWEEP_COMMANDS.contains(&c.get_name())));
     }
 
+    /// Exit code, standard output and standard error of a command for a caller.
+    fn asked_here(line: &str) -> (u8, String, String) {
+        let (said, heard) = std::sync::mpsc::channel();
+        let (code, output) = asked(line.split(' ').map(Into::into).collect(), said, Arc::default());
+        (code, output, heard.iter().collect())
+    }
+
+    #[test]
+    fn a_caller_gets_all_that_a_command_writes() {
+        let (code, output, said) = asked_here("equipod design presets --json");
+        assert!(code == 0 && output.starts_with('{') && said.is_empty(), "{code} {output} {said}");
+        let (code, output, said) = asked_here("equipod chekc a.toml");
+        assert!(
+            code == 2 && output.is_empty() && said.starts_with("error[usage]: "),
+            "{code} {output} {said}"
+        );
+        let (code, output, _) = asked_here("equipod --help");
+        assert!(code == 0 && output.contains("design") && !output.contains('\x1b'), "{code} {output}");
+    }
+
+    #[test]
+    fn standard_input_is_empty_for_a_caller() {
+        let (code, _, said) = asked_here("equipod check -");
+        assert!(code == 2 && said.contains("standard input"), "{code} {said}");
+        let (code, _, said) = asked_here("equipod new");
+        assert!(code == 2 && said.starts_with("error[new::nothing_given]: "), "{code} {said}");
+    }
+
+    #[test]
+    fn a_caller_is_told_whether_a_command_heeds_the_stop() {
+        let (said, _heard) = std::sync::mpsc::channel();
+        let stop = Arc::<Stop>::default();
+        let ((), output) = streams::for_caller(said, Arc::clone(&stop), || {
+            let interrupt = progress::Interrupt::watch();
+            assert!(interrupt.flow().is_continue());
+            assert!(stop.ask(), "a first request is heeded");
+            assert!(!stop.ask() && interrupt.flow().is_break());
+        });
+        assert!(output.is_empty() && !Stop::default().ask(), "no command heeds this stop");
+    }
+
     #[test]
     fn a_panic_is_an_internal_failure() {
         assert_eq!(guarded(true, || panic!("boom {}", 1)), Exit::Internal);
         assert_eq!(guarded(false, || Exit::No), Exit::No);
-        let _ = std::panic::take_hook();
     }
 }

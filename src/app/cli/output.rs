@@ -1,7 +1,7 @@
 //! Answers and failures to standard output and standard error.
 
 use std::fmt::Debug;
-use std::io::{self, Write};
+use std::io;
 
 use serde::Serialize;
 
@@ -10,6 +10,7 @@ use super::diagnostic;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::files;
+use super::streams;
 use crate::app::records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord};
 
 /// What a command found: the record that `--json` prints, and the text that people read without it.
@@ -102,8 +103,7 @@ impl Output {
         }
         let styled = said.render().ansi().to_string();
         let shown = anstream::adapter::strip_str(&styled).to_string();
-        let coloured = anstream::AutoStream::choice(&io::stdout()) != anstream::ColorChoice::Never;
-        write_out(if coloured { &styled } else { &shown }, Exit::Yes)
+        write_out(if streams::output_is_coloured() { &styled } else { &shown }, Exit::Yes)
     }
 }
 
@@ -145,8 +145,7 @@ impl From<&FileWarning> for WarningRecord {
 
 /// Writes to standard output. A closed pipe (`| head`) ends quietly with the exit code of the answer, any other failure is exit 4.
 fn write_out(text: &str, exit: Exit) -> Exit {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match streams::write_output(text) {
         Ok(()) => exit,
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => exit,
         Err(error) => {

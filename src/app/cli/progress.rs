@@ -1,11 +1,10 @@
 //! What stage a run is in, on standard error.
 
-use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
+use super::streams::{self, Errors, Stop};
 use crate::app::entrance::optimizing::ends_of;
 
 /// On a terminal one line that changes; elsewhere a line every ten seconds, so that short runs write none.
@@ -20,18 +19,19 @@ pub(crate) struct ProgressLine {
 #[derive(Debug)]
 enum Watcher {
     Nobody,
-    Terminal,
+    Terminal(Errors),
     Log(Ticker),
 }
 
 impl ProgressLine {
     pub(crate) fn new(quiet: bool) -> Self {
+        let errors = Errors::of_run();
         let watcher = if quiet {
             Watcher::Nobody
-        } else if std::io::stderr().is_terminal() {
-            Watcher::Terminal
+        } else if errors.is_terminal() {
+            Watcher::Terminal(errors)
         } else {
-            Watcher::Log(Ticker::start())
+            Watcher::Log(Ticker::start(errors))
         };
         Self { watcher, stage: String::new(), shown: None }
     }
@@ -40,7 +40,7 @@ impl ProgressLine {
     fn put(&self, text: &str, words: &str) {
         match &self.watcher {
             Watcher::Nobody => {}
-            Watcher::Terminal => write(text),
+            Watcher::Terminal(errors) => errors.write(text),
             Watcher::Log(ticker) => ticker.say(&format!("{}{words}", self.stage)),
         }
     }
@@ -75,11 +75,6 @@ impl ProgressLine {
     }
 }
 
-fn write(text: &str) {
-    // the reader may be gone; the run goes on without a watcher
-    let _ = std::io::stderr().write_all(text.as_bytes());
-}
-
 /// Time from one line of a log to the next.
 const TICK: Duration = Duration::from_secs(10);
 
@@ -97,7 +92,7 @@ struct Said {
 }
 
 impl Ticker {
-    fn start() -> Self {
+    fn start(errors: Errors) -> Self {
         let shared = Arc::new((Mutex::new(Said::default()), Condvar::new()));
         let of_thread = Arc::clone(&shared);
         // without a thread there is no log
@@ -109,7 +104,8 @@ impl Ticker {
             while !now.over {
                 let left = next.saturating_duration_since(Instant::now());
                 if left.is_zero() {
-                    write(&format!("{:>5} s  {}\n", begin.elapsed().as_secs(), now.words.trim_end()));
+                    let words = now.words.trim_end();
+                    errors.write(&format!("{:>5} s  {words}\n", begin.elapsed().as_secs()));
                     next += TICK;
                     continue;
                 }
@@ -152,32 +148,23 @@ impl std::str::FromStr for TimeLimit {
     }
 }
 
-/// Ctrl-C, a request to terminate and a limit of time ask a search to stop and to show what it has; the second key or request ends the process.
+/// Ctrl-C, a request to terminate and a limit of time ask a search to stop and to show what it has.
 #[derive(Debug, Clone)]
 pub(crate) struct Interrupt {
-    asked: Arc<AtomicBool>,
+    stop: Arc<Stop>,
     /// When the search ends, and when the judging of what it found.
     ends: Option<[Instant; 2]>,
 }
 
 impl Interrupt {
-    /// Takes over Ctrl-C from now on. Where that is not possible the key ends the process as ever.
+    /// Heeds the stop of the caller from now on, or Ctrl-C. Ctrl-C ends the process where it cannot be taken over.
     pub(crate) fn watch() -> Self {
         Self::watch_for(None)
     }
 
     /// The same, and after a limit of time everything is to end: the search earlier, so that what it found can be judged.
     pub(crate) fn watch_for(limit: Option<TimeLimit>) -> Self {
-        let flag = Arc::new(AtomicBool::new(false));
-        let seen = Arc::clone(&flag);
-        let handler = move || {
-            if seen.swap(true, Ordering::Relaxed) {
-                std::process::exit(INTERRUPTED);
-            }
-        };
-        // an error means that somebody else has the key: the search then cannot be interrupted gently
-        let _ = ctrlc::set_handler(handler);
-        Self { asked: flag, ends: limit.and_then(|TimeLimit(time)| ends_of(time)) }
+        Self { stop: streams::heeded_stop(), ends: limit.and_then(|TimeLimit(time)| ends_of(time)) }
     }
 
     /// When the judging of what a search found ends.
@@ -188,13 +175,6 @@ impl Interrupt {
     /// What a search is told.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
         let late = self.ends.is_some_and(|[search, _]| Instant::now() >= search);
-        if late || self.asked.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        if late || self.stop.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
-
-/// Exit code of a process ended by Ctrl-C (128 + SIGINT).
-const INTERRUPTED: i32 = 130;

@@ -1,13 +1,15 @@
 //! The native module of the Python package: arrays in, arrays and answers out.
 //!
-//! Nothing is computed here. Arrays become poses and lengths, questions go to the front page of the library, and answers leave as arrays or, where they are
-//! records, as the JSON that the command line prints. The Python sources beside this folder's Rust ones make typed objects of both.
+//! Nothing is computed here. Arrays become poses and lengths. Questions go to the front page of the library or
+//! to the program. Answers leave as arrays or, where they are records, as the JSON that the command line prints.
+//! The Python sources beside this folder's Rust ones make typed objects of both.
 
 #![allow(clippy::needless_pass_by_value, reason = "arguments of functions that Python calls are handed over")]
 #![allow(clippy::cast_possible_wrap, reason = "counts that fit in memory, as the integers that numpy has")]
 
 mod answers;
 mod arrays;
+mod command;
 mod design;
 mod failure;
 mod forms;
@@ -28,6 +30,8 @@ fn main(py: Python<'_>, args: Vec<String>) -> u8 {
 mod core {
     #[pymodule_export]
     use super::answers::{leg_map, preset_names, verify};
+    #[pymodule_export]
+    use super::command::ask;
     #[pymodule_export]
     use super::design::NativeDesign;
     #[pymodule_export]

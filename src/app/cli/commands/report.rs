@@ -1,6 +1,5 @@
 //! `equipod report`: a folder of results as one HTML page.
 
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -14,6 +13,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
+use crate::app::cli::streams::output_is_terminal;
 use crate::app::design::parse;
 use crate::app::page::{CORE, Session, page as view};
 use crate::app::records::{AssessAnswer, ReportAnswer};
@@ -53,7 +53,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let first = found.iter().find_map(design_of);
     let assessment = first.as_ref().and_then(|d| AssessAnswer::of(d, context.seed()));
     // the path, for programs; before it the requirements, for people
-    let shown = first.as_ref().filter(|_| std::io::stdout().is_terminal());
+    let shown = first.as_ref().filter(|_| output_is_terminal());
     let lead = shown.map(|d| requirements::lead(&d.name, assessment.as_ref()));
     files::write_text(&output, &page(found, args.title.clone()))?;
     let record = ReportAnswer { output: output.display().to_string(), files, assessment };

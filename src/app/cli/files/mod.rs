@@ -16,6 +16,7 @@ use serde::de::DeserializeOwned;
 
 use super::exit::Exit;
 use super::failure::Failure;
+use super::streams;
 use crate::app::Design;
 use crate::app::design::parse_with_cranks;
 use crate::app::entrance::whole::WholeFile;
@@ -86,7 +87,7 @@ fn read_limited(path: &Path, most: u64, help: &str) -> Result<Vec<u8>, Failure> 
                 Failure::refused("file::read_twice", message).with_help("name a file for one of them")
             );
         }
-        std::io::stdin().lock().take(most + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
+        streams::input().take(most + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
     } else {
         let metadata = std::fs::metadata(path).map_err(|e| unreadable(&e))?;
         if metadata.is_dir() {

@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from os import PathLike
 from typing import TypeAlias, final
 
@@ -9,6 +10,7 @@ __all__ = [
     "Solutions",
     "Tracker",
     "angles_of",
+    "ask",
     "leg_map",
     "main",
     "preset_names",
@@ -34,6 +36,7 @@ _BatchArrays: TypeAlias = tuple[
 ]
 
 def angles_of(poses: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
+def ask(args: list[str], progress: Callable[[str], object] | None) -> tuple[int, str, str]: ...
 def quaternions_of(poses: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 def rotations_of_angles(angles: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 def rotations_of_quaternions(quaternions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...

@@ -1,14 +1,11 @@
-"""Questions that take long, asked of the program in a process of its own: its answers are those of the command line, and an interrupt ends it with the best so far."""
+"""Questions that take long, asked of the program inside this process. Its answers are those of the command line, and an interrupt ends it with the best so far."""
 
 from __future__ import annotations
 
 import json
 import pathlib
-import signal
-import subprocess
 import sys
 import tempfile
-import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -33,7 +30,8 @@ class Workshop:
     """A folder for the files of one question, gone afterwards."""
 
     def __init__(self) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="equipod-")
+        # after an interrupt the command may still write for a moment
+        self._folder = tempfile.TemporaryDirectory(prefix="equipod-", ignore_cleanup_errors=True)
         self.path = pathlib.Path(self._folder.name)
 
     def __enter__(self) -> Workshop:
@@ -80,74 +78,33 @@ def pose_text(pose: PoseLike) -> str:
     return ",".join(map(repr, [*array[:3, 3].tolist(), *quaternion(array).tolist()]))
 
 
-def ask(arguments: Sequence[str], progress: Progress | bool | None = None, folder: str | None = None) -> dict[str, Any]:
+def ask(arguments: Sequence[str], progress: Progress | bool | None = None) -> dict[str, Any]:
     """The JSON document of a command.
 
-    Answers of no (exit code 1) and of not known (3) are documents as those of yes. An interrupt is handed on to the program, which answers with the best so
-    far where it has any.
+    Answers of no (exit code 1) and of not known (3) are documents as those of yes. The first interrupt asks the command for the best so far. Where there is
+    none, and at the second interrupt, `KeyboardInterrupt` is raised.
     """
-    command = [sys.executable, "-m", "equipod", *arguments, "--json"]
     look = shown if progress is True else progress or None
-    if look is None:
-        command.append("--quiet")
-    child = subprocess.Popen(
-        command,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=folder,
-        # a terminal and Jupyter interrupt all of their processes, and a second interrupt would end the program before it answers: it gets ours alone
-        start_new_session=True,
-    )
-    said: list[str] = []
-
-    def read() -> None:
-        assert child.stderr is not None
-        for line in child.stderr:
-            said.append(line)
-            if look is not None:
-                look(line.rstrip("\n"))
-
-    reader = threading.Thread(target=read, daemon=True)
-    reader.start()
-    assert child.stdout is not None
-    interrupted = False
-    try:
-        while True:
-            try:
-                text = child.stdout.read()
-                code = child.wait()
-                break
-            except KeyboardInterrupt:
-                if interrupted:
-                    raise
-                interrupted = True
-                child.send_signal(signal.SIGINT)
-    finally:
-        # nothing of it remains where the caller gives up
-        child.kill()
-    reader.join()
+    code, text, said = _core.ask(["equipod", *arguments, "--json", *(["--quiet"] if look is None else [])], look)
     if look is shown:
         sys.stderr.write("\r\x1b[K")
-    try:
-        document: dict[str, Any] = json.loads(text)
-    except ValueError:
-        if interrupted:
-            raise KeyboardInterrupt from None
-        raise CommandError("".join(said[-5:]) or f"the program ended with exit code {code}") from None
+    if not text:
+        raise CommandError(said or f"the command ended with exit code {code}")
+    document: dict[str, Any] = json.loads(text)
     error = document.get("error")
-    if error is not None:
-        kind = DesignError if code == 2 else CommandError
-        message = error["message"] + (f"; {error['help']}" if error.get("help") else "")
-        raise kind(message, code=error["code"])
-    return document
+    if error is None:
+        return document
+    advice = error.get("help")
+    message = error["message"] + (f"; {advice}" if advice else "")
+    if code != 2:
+        raise CommandError(message, code=error["code"])
+    faults = [(v["code"], v["line"], v["column"], v["message"], v["help"]) for v in error["violations"]]
+    raise DesignError(message, code=error["code"], faults=faults, help=advice)
 
 
 def text_of(arguments: Sequence[str]) -> str:
     """What a command writes to standard output."""
-    command = [sys.executable, "-m", "equipod", *arguments, "--quiet"]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
-    if done.returncode in (2, 4):
-        raise (DesignError if done.returncode == 2 else CommandError)(done.stderr.strip(), code="command")
-    return done.stdout
+    code, text, said = _core.ask(["equipod", *arguments, "--quiet"], None)
+    if code in (2, 4):
+        raise (DesignError if code == 2 else CommandError)(said.strip(), code="command")
+    return text

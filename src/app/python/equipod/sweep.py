@@ -43,7 +43,7 @@ def parts(folder: str | os.PathLike[str]) -> list[str]:
 
 
 def _shard(plan: str, folder: str, shard: int, shards: int, seed: int, threads: int) -> int:
-    """One shard, in a process of its own: what it breaks is that process alone."""
+    """One shard, as a task of a worker."""
     document = ask(
         [
             "sweep",

@@ -7,7 +7,6 @@ mod report;
 mod search;
 
 use std::fmt::Write as _;
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use self::folder::Folder;
@@ -26,6 +25,7 @@ use crate::app::cli::output::{Answer, document};
 use crate::app::cli::poses;
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::app::cli::requirements;
+use crate::app::cli::streams::output_is_terminal;
 use crate::app::entrance::exporting::octahedral_of_controllers;
 use crate::app::entrance::optimizing::{EXTENSION, RESERVE_PERCENT, with_default_reserve};
 use crate::app::entrance::rounding::DesignOnHoles;
@@ -636,7 +636,7 @@ fn text(
     lead: Option<&str>,
 ) -> String {
     let mut out = String::new();
-    if std::io::stdout().is_terminal() {
+    if output_is_terminal() {
         if let Some(lead) = lead {
             let _ = writeln!(out, "{lead}");
         }

@@ -3,7 +3,7 @@
 mod ask;
 
 use std::fmt::Write as _;
-use std::io::{IsTerminal, stderr, stdin};
+use std::io::{stderr, stdin};
 use std::path::PathBuf;
 
 use crate::app::Design;
@@ -12,6 +12,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
+use crate::app::cli::streams;
 use crate::app::design::parse_with_cranks;
 use crate::app::records::{NewAnswer, PresetFile};
 use ::files::design::{
@@ -114,7 +115,7 @@ const WAYS: &str = "give --base-radius, --platform-radius, --base-spread, --plat
 
 /// Questions on a terminal.
 fn asked() -> Result<Asked, Failure> {
-    if !stdin().is_terminal() {
+    if !streams::input_is_terminal() {
         let message = "nothing says what the new design is, and there is no terminal to ask on";
         return Err(Failure::refused("new::nothing_given", message).with_help(WAYS));
     }

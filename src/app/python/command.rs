@@ -1,0 +1,67 @@
+//! Commands of the program `equipod`, run inside this process.
+
+use std::ffi::OsString;
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+
+use crate::app::cli::{self, Stop};
+
+/// How often the calling thread looks for signals.
+const SIGNALS: Duration = Duration::from_millis(50);
+
+/// Twice the stack that the program has on the main thread of a process.
+const STACK: usize = 16 << 20;
+
+/// Runs a command: exit code, standard output and standard error. `progress` gets each line of standard error.
+///
+/// The first interrupt asks the command for the best so far. The second interrupt is raised at once.
+/// An interrupt of a command without a best so far is raised at once too, and so is an exception of `progress`.
+/// The command then goes on unheard until it sees the request or ends.
+#[pyfunction]
+pub(super) fn ask(
+    py: Python<'_>,
+    args: Vec<OsString>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(u8, String, String)> {
+    let (said, heard) = mpsc::channel();
+    let stop = Arc::<Stop>::default();
+    let of_command = Arc::clone(&stop);
+    let command =
+        thread::Builder::new().stack_size(STACK).spawn(move || cli::asked(args, said, of_command))?;
+    py.detach(|| {
+        let said = listen(heard, &stop, progress.as_ref())?;
+        let (code, output) = command.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        Ok((code, output, said))
+    })
+}
+
+/// Hands on the lines of a command until it ends, and looks for signals. Returns the whole text.
+fn listen(heard: Receiver<String>, stop: &Stop, progress: Option<&Py<PyAny>>) -> PyResult<String> {
+    let (mut said, mut told) = (String::new(), 0);
+    loop {
+        match heard.recv_timeout(SIGNALS) {
+            Ok(text) => said.push_str(&text),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return Ok(said),
+        }
+        let looked = Python::attach(|py| -> PyResult<()> {
+            py.check_signals()?;
+            while let Some(length) = said[told..].find('\n') {
+                let line = &said[told..told + length];
+                told += length + 1;
+                progress.map(|p| p.call1(py, (line,))).transpose()?;
+            }
+            Ok(())
+        });
+        let Err(error) = looked else { continue };
+        let gives_best = stop.ask();
+        if !gives_best || !Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py)) {
+            return Err(error);
+        }
+    }
+}
