@@ -110,7 +110,9 @@ fn what_contradicts_itself_is_refused() {
             }
         }
     }
-    assert_eq!(all, r#"26:1 design::missing_key: `dead_length` without `stroke` | add `stroke`, or remove `dead_length`
+    assert_eq!(
+        all,
+        r#"26:1 design::missing_key: `dead_length` without `stroke` | add `stroke`, or remove `dead_length`
 27:1 design::unknown_key: `strok` is not a key of [hardware] | did you mean `stroke`?
 28:1 design::conflicting_keys: leg lengths are limited twice | keep `leg_length`, or `dead_length` with `stroke`
 26:14 design::out_of_range: leg lengths from 9 to 4 | give [least, greatest], the least not negative
@@ -161,7 +163,8 @@ fn what_contradicts_itself_is_refused() {
 69:17 design::out_of_range: a correlation of 1.5 | correlations are from -1 to 1
 69:30 design::wrong_type: number 2 of row 3 of `matrix` is a string, not a number | write a number without quotes
 69:10 design::out_of_range: no quantities have these correlations: the least eigenvalue is -8.000e-1 | a matrix of correlations is positive semidefinite; give six decimals or more
-"#);
+"#
+    );
 }
 
 /// The tables of what is wanted besides limits.
@@ -247,7 +250,9 @@ fn payloads_envelopes_and_reserves_that_are_none_are_refused() {
             }
         }
     }
-    assert_eq!(all, r#"weight = 300: design::missing_key
+    assert_eq!(
+        all,
+        r#"weight = 300: design::missing_key
 mass = 0: design::not_positive
 inertia = [1, 1, 9]: design::out_of_range
 inertia = [[3, 0.2, 0], [0.1, 4, 0], [0, 0, 5]]: design::out_of_range
@@ -258,7 +263,8 @@ all = 5: design::wrong_type
 leg_force = "110%": design::out_of_range
 leg_long = 0.5: design::unknown_key
 leg_too_long = -0.5: design::not_positive
-"#);
+"#
+    );
     let units = GOOD.replacen("units = \"mm\"", "units = \"mm\"\nforce_units = \"newton\"", 1);
     assert!(parse(&units, Format::Toml).is_err());
 }
@@ -747,7 +753,9 @@ fn plates_that_cannot_be_are_refused_at_their_place() {
             }
         }
     }
-    assert_eq!(all, r#"2:9 design::missing_key: `base` of [plates] has no `thickness` | add thickness = 20
+    assert_eq!(
+        all,
+        r#"2:9 design::missing_key: `base` of [plates] has no `thickness` | add thickness = 20
 4:10 design::out_of_range: a `margin` of 0.2 with holes of 0.4 | a hole has to end inside the outline: give a margin of more than half of it
 16:8 design::out_of_range: a `hole` of 0.6 under housings of 0.5 | a ball has to be wider than the hole it sits on: give a smaller hole, or the `height` of the joints
 5:8 design::not_positive: `hole` is 0 | give a positive number
@@ -763,7 +771,8 @@ fn plates_that_cannot_be_are_refused_at_their_place() {
 18:2 design::out_of_range: the payload with the platform weighs 0.000000001 kg, and the plate of the platform alone 0.011549938371315342 | give `mass` with the plate, or write plate = "added" for a mass without it
 22:1 design::conflicting_keys: [payload] has two shapes | keep `box` or `sphere`
 17:2 design::missing_key: the plate is to be added to the payload, and its mass is not known | add [plates.platform] with `material` or `density`, or remove `plate`
-"#);
+"#
+    );
     let palms = with_plates().replace("units = \"mm\"", "units = \"palm\"");
     let found = parse(&palms, Format::Toml).unwrap_err();
     assert!(found.iter().any(|v| v.message.contains("mass of a plate needs a known unit")), "{found:?}");

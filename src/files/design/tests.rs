@@ -59,7 +59,9 @@ fn keys_texts_and_numbers() {
     ] {
         all.push_str(&after(from, to));
     }
-    assert_eq!(all, r#"1:1 design::missing_key: `units` is missing | add `units = "mm"` (a label; all lengths are in it) at the top
+    assert_eq!(
+        all,
+        r#"1:1 design::missing_key: `units` is missing | add `units = "mm"` (a label; all lengths are in it) at the top
 2:1 design::unknown_key: `unit` is not a key of a design | did you mean `units`?
 1:8 design::wrong_type: `name` is a number, not a string | write `name = "..."`
 1:8 design::empty_name: `name` is empty | write something between the quotes of `name`
@@ -77,7 +79,8 @@ fn keys_texts_and_numbers() {
 3:30 design::non_finite: number 6 of `lengths` is NaN, not a finite number | write a finite number
 3:18 design::negative_length: the length of leg 3 is -9 | leg lengths are not negative
 3:11 design::length_count: `lengths` has 7 numbers instead of 6 | give 6 leg lengths, one for each leg
-"#);
+"#
+    );
 }
 
 #[test]
@@ -103,7 +106,9 @@ fn legs_and_triangles() {
     let text =
         format!("name = 'a'\nunits = 'm'\nlegs = [{pairs}]\n[base]\n{one_point}[platform]\n{one_point}");
     all.push_str(&refusals(&text, Format::Toml));
-    assert_eq!(all, r#"4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]
+    assert_eq!(
+        all,
+        r#"4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]
 4 design::coincident_legs: legs 1 and 6 join the same two points | give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid
 4:80 design::missing_joint: leg 6 names `P9`, which is not a joint of the base | add `P9 = [x, y, z]` to [base]
 4:86 design::missing_joint: leg 6 names `X`, which is not a joint of the platform | add `X = [x, y, z]` to [platform]
@@ -119,7 +124,8 @@ fn legs_and_triangles() {
 1:1 design::missing_key: `legs` is missing | add `legs = [["A1", "B1"], ...]` with six pairs base-platform above the first [table]
 4:1 design::unknown_key: `leg` is not a key of a design | did you mean `legs`?
 1:1 design::no_size: all joints in use of the base coincide, and so do those of the platform | give the joints different coordinates
-"#);
+"#
+    );
 }
 
 #[test]
@@ -141,7 +147,9 @@ fn optional_tables() {
     ] {
         all.push_str(&after(from, to));
     }
-    assert_eq!(all, r#"15:13 design::rotation: `quat_wxyz` of [home] has norm 1.4142135623730951, not 1 | divide the quaternion by its norm
+    assert_eq!(
+        all,
+        r#"15:13 design::rotation: `quat_wxyz` of [home] has norm 1.4142135623730951, not 1 | divide the quaternion by its norm
 16:1 design::rotation: [home] gives its rotation more than once | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
 15:12 design::rotation: `rotation` of [home] is not a rotation: R^T R differs from I by 0e0, det R = -1 | give all digits and a right-handed frame, or use quat_wxyz, which is normalised
 13:1 design::rotation: [home] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
@@ -158,7 +166,8 @@ fn optional_tables() {
 21:18 design::not_positive: `joint_diameter` is -0.5 | give a positive number
 20:1 design::unknown_key: `hardware` is not a key of [optimize] | known keys: min_joint_distance, min_abs_det, characteristic_length, variables, symmetry, objective, objectives, mode, slack, points, offset_bounds, stretch_bounds, height_bounds, fixed
 18:2 design::unknown_key: `optimise` is not a key of a design | did you mean `optimize`?
-"#);
+"#
+    );
 }
 
 #[test]
@@ -177,7 +186,9 @@ fn texts_that_are_no_design() {
         all.push_str(&refusals(text, format));
         all.push('\n');
     }
-    assert_eq!(all, r#"1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
+    assert_eq!(
+        all,
+        r#"1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
 
 1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
 
@@ -196,7 +207,8 @@ fn texts_that_are_no_design() {
 1:37 design::wrong_type: `units` is null, not a string | write `units = "..."`
 
 1:15 design::syntax: Trailing commas are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
-"#);
+"#
+    );
 }
 
 #[test]

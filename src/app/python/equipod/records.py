@@ -263,6 +263,21 @@ class AssessAnswer(Record):
     assumptions: Union[tuple[str, ...], None]
 
 
+class BestLineRecord(Record):
+    """A line that joints of a body lie nearly on, in the frame of the body, design units."""
+
+    #: The body.
+    body: Body
+    #: A point of the line, the centroid of the joints.
+    point: tuple[Union[float, None], ...]
+    #: A unit vector along it.
+    direction: tuple[Union[float, None], ...]
+    #: The greatest distance of a joint from the line.
+    distance: Union[float, None]
+    #: The greatest distance of a joint from the centroid along the line.
+    reach: Union[float, None]
+
+
 class BeyondPrecisionRecord(Record):
     """Numbers of poses that were set aside."""
 
@@ -548,6 +563,9 @@ class CheckAnswer(Record):
     common_points: Union[CommonPointsRecord, None]
     #: How many isolated finite poses no lengths exceed, by a theorem.
     pose_bound: PoseBoundRecord
+    #: The line that fits the joints of each body best, base first: a body whose joints all lie on one
+    #: turns about it. A body with its joints in one place has none.
+    best_lines: tuple[BestLineRecord, ...]
     #: Singular values of the normalised leg vectors.
     singular_values: tuple[Union[float, None], ...]
     #: How well conditioned the Jacobian is at random poses.

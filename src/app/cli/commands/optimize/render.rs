@@ -339,7 +339,9 @@ mod tests {
             &mut out,
             &ConflictRecord::new(&design, &ConstraintConflict { demands, proved: false }),
         );
-        assert_eq!(out, r"within the bounds of the variables these requirements could not, from any start, be met together:
+        assert_eq!(
+            out,
+            r"within the bounds of the variables these requirements could not, from any start, be met together:
   the least leg length would have to give by 1.564700 in
   the room between base joints would have to give by 3.250e-8 in
   the greatest leg force would have to give by no more than the spare of the search
@@ -347,7 +349,8 @@ mod tests {
 the sum of the violations, each in its scale, is least where these give, and the others hold:
   leg_too_short           1.564700 in
   leg_force               4.500e-7 force
-");
+"
+        );
         assert!(!out.contains("0.000000"));
     }
 
