@@ -52,6 +52,7 @@ fn has_caller() -> bool {
 /// The stop that the command heeds from now on.
 ///
 /// Without a caller Ctrl-C or a request to terminate asks for the stop, and the second one ends the process.
+#[allow(clippy::exit, reason = "the second Ctrl-C ends the program without an answer")]
 pub(super) fn heeded_stop() -> Arc<Stop> {
     let stop = CALLER.with_borrow(|caller| caller.as_ref().map(|caller| Arc::clone(&caller.stop)));
     let is_of_caller = stop.is_some();
