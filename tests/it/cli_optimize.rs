@@ -527,7 +527,9 @@ fn a_shipped_6_4_platform_is_improved_within_its_replaceable_legs() {
     let (out, folder) = optimize(&format!("{text}\n{asked}{search}"), &["-o", "out.toml"]);
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
     let d = document(&out);
-    assert_eq!((&d["status"], &d["verify"]["verdict"]), (&"best_found".into(), &"equivalent".into()));
+    // joints on curves are doubles, equivalent to within rounding, which no map proves
+    assert_eq!((&d["status"], &d["verify"]["verdict"]), (&"best_found".into(), &"inconclusive".into()));
+    assert!(d["verify"]["worst_distance"].as_f64().unwrap() < 1e-12, "{}", d["verify"]);
     assert_eq!(d["variables"].as_array().unwrap().len(), 4);
     let read =
         |text: &str| equipod::methods::design::parse(text, equipod::methods::design::Format::Toml).unwrap().0;

@@ -5,7 +5,7 @@
 //! are exact. A pose that is left
 //! is singular to rounding: `det J` is not above the rounding errors of its own computation.
 
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3};
 
 use super::path::{ControlPoint, PathPiece, Sign, SignsAlong, signs_along, signs_on_curve};
 use num::exact::{ExactVector, rank, rational};
@@ -57,13 +57,43 @@ impl PoseHold {
 /// Whether the legs hold the platform at a pose. The rotation is that of the rounded quaternion of the pose, exactly.
 #[must_use]
 pub fn hold_at(m: &Manipulator, pose: &Pose) -> PoseHold {
-    if let Some(sign) = signs_along(m, pose, pose).kept() {
+    if let Some(sign) = signs_along(m, pose, pose).kept().or_else(|| sign_in_scale(m, pose)) {
         return PoseHold::Held(sign);
     }
     match is_exactly_singular(m, pose) {
         Some(true) => PoseHold::Singular(SingularEvidence::Zero),
         Some(false) | None => PoseHold::Singular(SingularEvidence::Rounding),
     }
+}
+
+/// The sign of `det J` with moments about the mean of the platform ends and lengths over the size of the platform, so that a platform far smaller than the base is
+/// judged by its own size. `None` where the determinant may be zero to rounding.
+///
+/// Rows `[u_i, (r_i x u_i) / rho]` have norms of at most `sqrt(7)`, and each is off by `err` at most, so that the determinant is off by `6 err 7^(5/2) < 800 err`
+/// (Hadamard); the elimination adds less than as much again.
+fn sign_in_scale(m: &Manipulator, pose: &Pose) -> Option<Sign> {
+    let legs = m.legs();
+    let centre = legs.iter().map(|leg| leg.platform.coords).sum::<Vector3<f64>>() / 6.0;
+    let size = legs.iter().map(|leg| (leg.platform.coords - centre).norm()).fold(0.0, f64::max);
+    let mut rows = Matrix6::zeros();
+    let mut off: f64 = 0.0;
+    for (i, leg) in legs.iter().enumerate() {
+        let [a, b] = [leg.base.coords, leg.platform.coords];
+        let line = pose.rotation * b + pose.position - a;
+        let length = line.norm();
+        let u = line / length;
+        let moment = (pose.rotation * (b - centre)).cross(&u) / size;
+        rows.fixed_view_mut::<1, 3>(i, 0).copy_from(&u.transpose());
+        rows.fixed_view_mut::<1, 3>(i, 3).copy_from(&moment.transpose());
+        let reach = a.norm() + b.norm() + pose.position.norm();
+        off = off.max(32.0 * f64::EPSILON * (1.0 + b.norm() / size + reach / length));
+    }
+    let determinant = rows.determinant();
+    // a NaN proves nothing
+    if !(determinant.abs() > 1600.0 * off) {
+        return None;
+    }
+    Some(if determinant > 0.0 { Sign::Positive } else { Sign::Negative })
 }
 
 /// A singular pose of a path.
@@ -164,5 +194,37 @@ fn is_exactly_singular(m: &Manipulator, pose: &Pose) -> Option<bool> {
     match fractions {
         Some(rows) => Some(rank(&rows) < 6),
         None => Some(eliminate(&mut rows, 6)? < 6),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use num::Rng;
+    use platform::geom::random_rotation;
+
+    /// Platforms of all sizes beside a base of one: the sign is that of the intervals where these decide, and a platform of a ten-millionth is held as one of a half is.
+    #[test]
+    fn the_size_of_the_platform_decides_nothing() {
+        let mut rng = Rng::new(5);
+        let (mut both, mut alone) = (0, 0);
+        for k in 0..60 {
+            let scale = 10f64.powi(-(k % 8));
+            let mut point = |r: f64| Point3::new(rng.uniform(-r, r), rng.uniform(-r, r), rng.uniform(-r, r));
+            let base: Vec<_> = (0..6).map(|_| point(1.0)).collect();
+            let platform: Vec<_> = (0..6).map(|_| point(scale)).collect();
+            let m = Manipulator::try_new(base, platform, std::array::from_fn(|i| (i, i))).unwrap();
+            let pose = Pose { rotation: random_rotation(&mut rng), position: Vector3::new(0.1, 0.2, 1.5) };
+            let (own, intervals) = (sign_in_scale(&m, &pose), signs_along(&m, &pose, &pose).kept());
+            if let Some(sign) = intervals {
+                assert!(own.is_none_or(|own| own == sign), "{k}");
+                both += 1;
+            }
+            alone += usize::from(own.is_some() && intervals.is_none());
+            assert!(matches!(hold_at(&m, &pose), PoseHold::Held(_)), "{k}: a random pose is regular");
+        }
+        assert!(both > 10 && alone > 10, "{both} {alone}");
     }
 }
