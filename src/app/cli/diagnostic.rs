@@ -145,14 +145,13 @@ mod tests {
         let violations = parse(text, Format::Toml).unwrap_err();
         let slip = violations.iter().find(|v| v.line == 2).unwrap();
         let shown = anstream::adapter::strip_str(&render_violation("a.toml", text, slip)).to_string();
-        insta::assert_snapshot!(shown, @r#"
-        error[design::unknown_key]: `unit` is not a key of a design
-          --> a.toml:2:2
-          |
-        2 |  unit = "mm"
-          |  ^^^^
-          = help: did you mean `units`?
-        "#);
+        assert_eq!(shown, r#"error[design::unknown_key]: `unit` is not a key of a design
+  --> a.toml:2:2
+  |
+2 |  unit = "mm"
+  |  ^^^^
+  = help: did you mean `units`?
+"#);
     }
 
     #[test]

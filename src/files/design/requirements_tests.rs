@@ -110,59 +110,61 @@ fn what_contradicts_itself_is_refused() {
             }
         }
     }
-    insta::assert_snapshot!(all, @r#"
-        26:1 design::missing_key: `dead_length` without `stroke` | add `stroke`, or remove `dead_length`
-        27:1 design::unknown_key: `strok` is not a key of [hardware] | did you mean `stroke`?
-        28:1 design::conflicting_keys: leg lengths are limited twice | keep `leg_length`, or `dead_length` with `stroke`
-        26:14 design::out_of_range: leg lengths from 9 to 4 | give [least, greatest], the least not negative
-        26:14 design::wrong_type: `leg_length` is a number, not an array | write an array of 2 lengths, least and greatest
-        23:1 design::missing_key: `cylinder_length` without `rod_diameter` | add `rod_diameter`, or remove `cylinder_length`
-        22:1 design::missing_key: `rod_diameter` without `leg_diameter` | add `leg_diameter`, or remove `rod_diameter`
-        24:1 design::missing_key: `leg_clearance` without `leg_diameter` | add `leg_diameter`, or remove `leg_clearance`
-        28:1 design::missing_key: `base_axes` without `base_swing_deg` | add `base_swing_deg` or universal joints, or remove `base_axes`
-        28:18 design::out_of_range: `base_swing_deg` is 200 | stay within 180 degrees
-        31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
-        29:58 design::not_positive: an axis of `base_axes` is zero | give a direction
-        29:69 design::coordinate_count: an axis of `base_axes` has 2 numbers instead of 3 | give 3 components
-        29:13 design::wrong_type: `base_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
-        21:20 design::not_positive: an edge length of -2 | give positive edge lengths
-        25:17 design::not_positive: `leg_clearance` is -1 | give 0 or more
-        42:10 design::not_positive: `linear` is -20 | give 0 or more
-        43:1 design::unknown_key: `turn` is not a key of [speed] | known keys: linear, angular_deg
-        45:8 design::empty_name: `name` is empty | write something between the quotes of `name`
-        46:1 design::unknown_key: `forces` is not a key of [[loads]] | did you mean `force`?
-        55:12 design::wrong_type: `fixed_to` is "tool" | write "base" or "platform"
-        56:10 design::missing_key: `center` of `sphere` is missing | `sphere` takes center, diameter
-        56:12 design::unknown_key: `centre` is not a key of `sphere` | did you mean `center`?
-        51:3 design::missing_key: table has 0 shapes | give one of box = { center, size }, sphere = { center, diameter }, capsule = { from, to, diameter }
-        17:10 design::wrong_type: `region` is neither box nor ellipsoid | write "box" or "ellipsoid"
-        18:14 design::wrong_type: `trajectory` is a number, not a string | write `trajectory = "..."`
-        19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
-        18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
-        41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
-        70:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
-        72:11 design::not_positive: `angular` is 0 | give a positive number
-        73:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass and the inertia that vibrate | add [payload] with `mass`, `center` and `inertia`
-        60:1 design::unknown_key: `offset` is not a key of [calibration] | did you mean `offsets`?
-        60:11 design::length_count: `offsets` has 4 numbers instead of 6 | give 6 offsets, one for each leg
-        61:22 design::not_positive: a standard deviation of -0.01 | standard deviations are not negative
-        63:6 design::coordinate_count: the deviation of `P1` has 2 numbers instead of 3 | give 3 standard deviations
-        68:13 design::missing_key: `base.P1.x` has no standard deviation | give its deviation in [calibration]
-        66:1 design::missing_joint: `platform_deviations` of [calibration] names `P1`, which is no joint of the body | its joints are: P4, P5, P6
-        67:14 design::missing_key: [calibration.correlations] has no `unknowns` | give `unknowns`, a list of names, and `matrix`, the lower triangle of their correlations
-        68:1 design::unknown_key: `unknown` is not a key of [calibration.correlations] | did you mean `unknowns`?
-        68:13 design::unknown_name: `base.P1.w` is no unknown of a calibration | write `base.JOINT.x`, `platform.JOINT.z` or `offset.3`
-        68:26 design::missing_key: `platform.P5.z` has no standard deviation | give its deviation in [calibration]
-        68:43 design::unknown_name: `offset.7` is no unknown of a calibration | write `base.JOINT.x`, `platform.JOINT.z` or `offset.3`
-        68:38 design::conflicting_keys: `offset.6` stands in `unknowns` twice | name each unknown once
-        69:10 design::out_of_range: `matrix` has 2 rows for 3 unknowns | give a row for each of `unknowns`
-        69:11 design::out_of_range: row 1 of `matrix` has 3 numbers instead of 1 | the matrix is symmetric: give its lower triangle with the diagonal, one number more in each row
-        69:24 design::out_of_range: row 2 of `matrix` has 3 numbers instead of 2 | the matrix is symmetric: give its lower triangle with the diagonal, one number more in each row
-        69:44 design::out_of_range: row 3 of `matrix` ends with 0.9, not with 1 | the diagonal is 1: every quantity is wholly correlated with itself
-        69:17 design::out_of_range: a correlation of 1.5 | correlations are from -1 to 1
-        69:30 design::wrong_type: number 2 of row 3 of `matrix` is a string, not a number | write a number without quotes
-        69:10 design::out_of_range: no quantities have these correlations: the least eigenvalue is -8.000e-1 | a matrix of correlations is positive semidefinite; give six decimals or more
-    "#);
+    assert_eq!(
+        all,
+        r#"26:1 design::missing_key: `dead_length` without `stroke` | add `stroke`, or remove `dead_length`
+27:1 design::unknown_key: `strok` is not a key of [hardware] | did you mean `stroke`?
+28:1 design::conflicting_keys: leg lengths are limited twice | keep `leg_length`, or `dead_length` with `stroke`
+26:14 design::out_of_range: leg lengths from 9 to 4 | give [least, greatest], the least not negative
+26:14 design::wrong_type: `leg_length` is a number, not an array | write an array of 2 lengths, least and greatest
+23:1 design::missing_key: `cylinder_length` without `rod_diameter` | add `rod_diameter`, or remove `cylinder_length`
+22:1 design::missing_key: `rod_diameter` without `leg_diameter` | add `leg_diameter`, or remove `rod_diameter`
+24:1 design::missing_key: `leg_clearance` without `leg_diameter` | add `leg_diameter`, or remove `leg_clearance`
+28:1 design::missing_key: `base_axes` without `base_swing_deg` | add `base_swing_deg` or universal joints, or remove `base_axes`
+28:18 design::out_of_range: `base_swing_deg` is 200 | stay within 180 degrees
+31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
+29:58 design::not_positive: an axis of `base_axes` is zero | give a direction
+29:69 design::coordinate_count: an axis of `base_axes` has 2 numbers instead of 3 | give 3 components
+29:13 design::wrong_type: `base_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
+21:20 design::not_positive: an edge length of -2 | give positive edge lengths
+25:17 design::not_positive: `leg_clearance` is -1 | give 0 or more
+42:10 design::not_positive: `linear` is -20 | give 0 or more
+43:1 design::unknown_key: `turn` is not a key of [speed] | known keys: linear, angular_deg
+45:8 design::empty_name: `name` is empty | write something between the quotes of `name`
+46:1 design::unknown_key: `forces` is not a key of [[loads]] | did you mean `force`?
+55:12 design::wrong_type: `fixed_to` is "tool" | write "base" or "platform"
+56:10 design::missing_key: `center` of `sphere` is missing | `sphere` takes center, diameter
+56:12 design::unknown_key: `centre` is not a key of `sphere` | did you mean `center`?
+51:3 design::missing_key: table has 0 shapes | give one of box = { center, size }, sphere = { center, diameter }, capsule = { from, to, diameter }
+17:10 design::wrong_type: `region` is neither box nor ellipsoid | write "box" or "ellipsoid"
+18:14 design::wrong_type: `trajectory` is a number, not a string | write `trajectory = "..."`
+19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
+18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
+41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
+70:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
+72:11 design::not_positive: `angular` is 0 | give a positive number
+73:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass and the inertia that vibrate | add [payload] with `mass`, `center` and `inertia`
+60:1 design::unknown_key: `offset` is not a key of [calibration] | did you mean `offsets`?
+60:11 design::length_count: `offsets` has 4 numbers instead of 6 | give 6 offsets, one for each leg
+61:22 design::not_positive: a standard deviation of -0.01 | standard deviations are not negative
+63:6 design::coordinate_count: the deviation of `P1` has 2 numbers instead of 3 | give 3 standard deviations
+68:13 design::missing_key: `base.P1.x` has no standard deviation | give its deviation in [calibration]
+66:1 design::missing_joint: `platform_deviations` of [calibration] names `P1`, which is no joint of the body | its joints are: P4, P5, P6
+67:14 design::missing_key: [calibration.correlations] has no `unknowns` | give `unknowns`, a list of names, and `matrix`, the lower triangle of their correlations
+68:1 design::unknown_key: `unknown` is not a key of [calibration.correlations] | did you mean `unknowns`?
+68:13 design::unknown_name: `base.P1.w` is no unknown of a calibration | write `base.JOINT.x`, `platform.JOINT.z` or `offset.3`
+68:26 design::missing_key: `platform.P5.z` has no standard deviation | give its deviation in [calibration]
+68:43 design::unknown_name: `offset.7` is no unknown of a calibration | write `base.JOINT.x`, `platform.JOINT.z` or `offset.3`
+68:38 design::conflicting_keys: `offset.6` stands in `unknowns` twice | name each unknown once
+69:10 design::out_of_range: `matrix` has 2 rows for 3 unknowns | give a row for each of `unknowns`
+69:11 design::out_of_range: row 1 of `matrix` has 3 numbers instead of 1 | the matrix is symmetric: give its lower triangle with the diagonal, one number more in each row
+69:24 design::out_of_range: row 2 of `matrix` has 3 numbers instead of 2 | the matrix is symmetric: give its lower triangle with the diagonal, one number more in each row
+69:44 design::out_of_range: row 3 of `matrix` ends with 0.9, not with 1 | the diagonal is 1: every quantity is wholly correlated with itself
+69:17 design::out_of_range: a correlation of 1.5 | correlations are from -1 to 1
+69:30 design::wrong_type: number 2 of row 3 of `matrix` is a string, not a number | write a number without quotes
+69:10 design::out_of_range: no quantities have these correlations: the least eigenvalue is -8.000e-1 | a matrix of correlations is positive semidefinite; give six decimals or more
+"#
+    );
 }
 
 /// The tables of what is wanted besides limits.
@@ -248,19 +250,21 @@ fn payloads_envelopes_and_reserves_that_are_none_are_refused() {
             }
         }
     }
-    insta::assert_snapshot!(all, @r#"
-    weight = 300: design::missing_key
-    mass = 0: design::not_positive
-    inertia = [1, 1, 9]: design::out_of_range
-    inertia = [[3, 0.2, 0], [0.1, 4, 0], [0, 0, 5]]: design::out_of_range
-    base = { diameter = 90 }: design::missing_key
-    base = { radius = 90, min = [0, 0, 0] }: design::missing_key
-    max = [90, -90, 180]: design::out_of_range
-    all = 5: design::wrong_type
-    leg_force = "110%": design::out_of_range
-    leg_long = 0.5: design::unknown_key
-    leg_too_long = -0.5: design::not_positive
-    "#);
+    assert_eq!(
+        all,
+        r#"weight = 300: design::missing_key
+mass = 0: design::not_positive
+inertia = [1, 1, 9]: design::out_of_range
+inertia = [[3, 0.2, 0], [0.1, 4, 0], [0, 0, 5]]: design::out_of_range
+base = { diameter = 90 }: design::missing_key
+base = { radius = 90, min = [0, 0, 0] }: design::missing_key
+max = [90, -90, 180]: design::out_of_range
+all = 5: design::wrong_type
+leg_force = "110%": design::out_of_range
+leg_long = 0.5: design::unknown_key
+leg_too_long = -0.5: design::not_positive
+"#
+    );
     let units = GOOD.replacen("units = \"mm\"", "units = \"mm\"\nforce_units = \"newton\"", 1);
     assert!(parse(&units, Format::Toml).is_err());
 }
@@ -749,24 +753,26 @@ fn plates_that_cannot_be_are_refused_at_their_place() {
             }
         }
     }
-    insta::assert_snapshot!(all, @r#"
-    2:9 design::missing_key: `base` of [plates] has no `thickness` | add thickness = 20
-    4:10 design::out_of_range: a `margin` of 0.2 with holes of 0.4 | a hole has to end inside the outline: give a margin of more than half of it
-    16:8 design::out_of_range: a `hole` of 0.6 under housings of 0.5 | a ball has to be wider than the hole it sits on: give a smaller hole, or the `height` of the joints
-    5:8 design::not_positive: `hole` is 0 | give a positive number
-    17:12 design::missing_key: the density of `material` "steal" is not known | add `density`, kg/m^3; did you mean `steel`?
-    8:11 design::not_positive: `density` is -1 | give a positive number
-    12:9 design::missing_key: `count` of `bolts` is missing | bolts take count, circle (its diameter) and hole, and may take first_deg and from
-    12:19 design::out_of_range: `count` is 2.5 | give a whole number from 1 to 64
-    12:31 design::wrong_type: `circle` is a string, not a number | write a number without quotes
-    12:70 design::wrong_type: `from` is "corner" | write "axis" or "centre"
-    12:47 design::unknown_key: `first` is not a key of `bolts` | did you mean `first_deg`?
-    13:9 design::unknown_key: `top` is not a key of [plates] | known keys: base, platform
-    21:9 design::wrong_type: `plate` of [payload] is "twice" | write "included" or "added"
-    18:2 design::out_of_range: the payload with the platform weighs 0.000000001 kg, and the plate of the platform alone 0.011549938371315342 | give `mass` with the plate, or write plate = "added" for a mass without it
-    22:1 design::conflicting_keys: [payload] has two shapes | keep `box` or `sphere`
-    17:2 design::missing_key: the plate is to be added to the payload, and its mass is not known | add [plates.platform] with `material` or `density`, or remove `plate`
-    "#);
+    assert_eq!(
+        all,
+        r#"2:9 design::missing_key: `base` of [plates] has no `thickness` | add thickness = 20
+4:10 design::out_of_range: a `margin` of 0.2 with holes of 0.4 | a hole has to end inside the outline: give a margin of more than half of it
+16:8 design::out_of_range: a `hole` of 0.6 under housings of 0.5 | a ball has to be wider than the hole it sits on: give a smaller hole, or the `height` of the joints
+5:8 design::not_positive: `hole` is 0 | give a positive number
+17:12 design::missing_key: the density of `material` "steal" is not known | add `density`, kg/m^3; did you mean `steel`?
+8:11 design::not_positive: `density` is -1 | give a positive number
+12:9 design::missing_key: `count` of `bolts` is missing | bolts take count, circle (its diameter) and hole, and may take first_deg and from
+12:19 design::out_of_range: `count` is 2.5 | give a whole number from 1 to 64
+12:31 design::wrong_type: `circle` is a string, not a number | write a number without quotes
+12:70 design::wrong_type: `from` is "corner" | write "axis" or "centre"
+12:47 design::unknown_key: `first` is not a key of `bolts` | did you mean `first_deg`?
+13:9 design::unknown_key: `top` is not a key of [plates] | known keys: base, platform
+21:9 design::wrong_type: `plate` of [payload] is "twice" | write "included" or "added"
+18:2 design::out_of_range: the payload with the platform weighs 0.000000001 kg, and the plate of the platform alone 0.011549938371315342 | give `mass` with the plate, or write plate = "added" for a mass without it
+22:1 design::conflicting_keys: [payload] has two shapes | keep `box` or `sphere`
+17:2 design::missing_key: the plate is to be added to the payload, and its mass is not known | add [plates.platform] with `material` or `density`, or remove `plate`
+"#
+    );
     let palms = with_plates().replace("units = \"mm\"", "units = \"palm\"");
     let found = parse(&palms, Format::Toml).unwrap_err();
     assert!(found.iter().any(|v| v.message.contains("mass of a plate needs a known unit")), "{found:?}");

@@ -59,26 +59,28 @@ fn keys_texts_and_numbers() {
     ] {
         all.push_str(&after(from, to));
     }
-    insta::assert_snapshot!(all, @r#"
-        1:1 design::missing_key: `units` is missing | add `units = "mm"` (a label; all lengths are in it) at the top
-        2:1 design::unknown_key: `unit` is not a key of a design | did you mean `units`?
-        1:8 design::wrong_type: `name` is a number, not a string | write `name = "..."`
-        1:8 design::empty_name: `name` is empty | write something between the quotes of `name`
-        6:10 design::non_finite: number 2 of base joint P1 is NaN, not a finite number | write a finite number
-        6:15 design::non_finite: number 3 of base joint P1 is -inf, not a finite number | write a finite number
-        6:6 design::coordinate_count: base joint P1 has 2 numbers instead of 3 | give 3 coordinates x, y, z
-        6:6 design::coordinate_count: base joint P1 has 4 numbers instead of 3 | give 3 coordinates x, y, z
-        6:15 design::wrong_type: coordinate 3 of base joint P1 is a boolean, not a number | write a number, or an expression in quotes such as "6*sqrt(3)"
-        6:10 design::out_of_range: number 2 of base joint P1 is 1e300, which is too large to compute with | stay below 1e60; use a larger unit
-        6:17 design::non_finite: number 3 of base joint P1 is inf, not a finite number | write a finite number
-        6:6 design::wrong_type: base joint P1 is a number, not an array | write an array of 3 coordinates x, y, z
-        6:1 design::empty_name: a joint of the base has an empty name | give the joint a name
-        7:1 design::duplicate_key: this key stands twice | keep one of the two
-        3:18 design::negative_length: the length of leg 3 is -9 | leg lengths are not negative
-        3:30 design::non_finite: number 6 of `lengths` is NaN, not a finite number | write a finite number
-        3:18 design::negative_length: the length of leg 3 is -9 | leg lengths are not negative
-        3:11 design::length_count: `lengths` has 7 numbers instead of 6 | give 6 leg lengths, one for each leg
-    "#);
+    assert_eq!(
+        all,
+        r#"1:1 design::missing_key: `units` is missing | add `units = "mm"` (a label; all lengths are in it) at the top
+2:1 design::unknown_key: `unit` is not a key of a design | did you mean `units`?
+1:8 design::wrong_type: `name` is a number, not a string | write `name = "..."`
+1:8 design::empty_name: `name` is empty | write something between the quotes of `name`
+6:10 design::non_finite: number 2 of base joint P1 is NaN, not a finite number | write a finite number
+6:15 design::non_finite: number 3 of base joint P1 is -inf, not a finite number | write a finite number
+6:6 design::coordinate_count: base joint P1 has 2 numbers instead of 3 | give 3 coordinates x, y, z
+6:6 design::coordinate_count: base joint P1 has 4 numbers instead of 3 | give 3 coordinates x, y, z
+6:15 design::wrong_type: coordinate 3 of base joint P1 is a boolean, not a number | write a number, or an expression in quotes such as "6*sqrt(3)"
+6:10 design::out_of_range: number 2 of base joint P1 is 1e300, which is too large to compute with | stay below 1e60; use a larger unit
+6:17 design::non_finite: number 3 of base joint P1 is inf, not a finite number | write a finite number
+6:6 design::wrong_type: base joint P1 is a number, not an array | write an array of 3 coordinates x, y, z
+6:1 design::empty_name: a joint of the base has an empty name | give the joint a name
+7:1 design::duplicate_key: this key stands twice | keep one of the two
+3:18 design::negative_length: the length of leg 3 is -9 | leg lengths are not negative
+3:30 design::non_finite: number 6 of `lengths` is NaN, not a finite number | write a finite number
+3:18 design::negative_length: the length of leg 3 is -9 | leg lengths are not negative
+3:11 design::length_count: `lengths` has 7 numbers instead of 6 | give 6 leg lengths, one for each leg
+"#
+    );
 }
 
 #[test]
@@ -104,24 +106,26 @@ fn legs_and_triangles() {
     let text =
         format!("name = 'a'\nunits = 'm'\nlegs = [{pairs}]\n[base]\n{one_point}[platform]\n{one_point}");
     all.push_str(&refusals(&text, Format::Toml));
-    insta::assert_snapshot!(all, @r#"
-        4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]
-        4 design::coincident_legs: legs 1 and 6 join the same two points | give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid
-        4:80 design::missing_joint: leg 6 names `P9`, which is not a joint of the base | add `P9 = [x, y, z]` to [base]
-        4:86 design::missing_joint: leg 6 names `X`, which is not a joint of the platform | add `X = [x, y, z]` to [platform]
-        4:80 design::missing_joint: leg 6 names `P6`, which is not a joint of the base | `P6` is a joint of the platform; a leg names the base joint first
-        4:86 design::missing_joint: leg 6 names `P1`, which is not a joint of the platform | `P1` is a joint of the base; a leg names the base joint first
-        4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
-        4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
-        5:2 design::collinear_triangle: the base joints P1, P2, P3 are on one line | move one of them: a body held in three points on a line can turn about it
-        9 design::coincident_joints: base joints P1 and P7 have the same coordinates | if the legs share one joint there, name P1 in all of them; P1 and P7 count as two joints
-        9 design::unused_joint: base joint P7 carries no leg | attach a leg to P7 or remove it
-        1:1 design::missing_key: `base` is missing | add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`
-        5:2 design::unknown_key: `bse` is not a key of a design | did you mean `base`?
-        1:1 design::missing_key: `legs` is missing | add `legs = [["A1", "B1"], ...]` with six pairs base-platform above the first [table]
-        4:1 design::unknown_key: `leg` is not a key of a design | did you mean `legs`?
-        1:1 design::no_size: all joints in use of the base coincide, and so do those of the platform | give the joints different coordinates
-    "#);
+    assert_eq!(
+        all,
+        r#"4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]
+4 design::coincident_legs: legs 1 and 6 join the same two points | give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid
+4:80 design::missing_joint: leg 6 names `P9`, which is not a joint of the base | add `P9 = [x, y, z]` to [base]
+4:86 design::missing_joint: leg 6 names `X`, which is not a joint of the platform | add `X = [x, y, z]` to [platform]
+4:80 design::missing_joint: leg 6 names `P6`, which is not a joint of the base | `P6` is a joint of the platform; a leg names the base joint first
+4:86 design::missing_joint: leg 6 names `P1`, which is not a joint of the platform | `P1` is a joint of the base; a leg names the base joint first
+4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
+4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
+5:2 design::collinear_triangle: the base joints P1, P2, P3 are on one line | move one of them: a body held in three points on a line can turn about it
+9 design::coincident_joints: base joints P1 and P7 have the same coordinates | if the legs share one joint there, name P1 in all of them; P1 and P7 count as two joints
+9 design::unused_joint: base joint P7 carries no leg | attach a leg to P7 or remove it
+1:1 design::missing_key: `base` is missing | add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`
+5:2 design::unknown_key: `bse` is not a key of a design | did you mean `base`?
+1:1 design::missing_key: `legs` is missing | add `legs = [["A1", "B1"], ...]` with six pairs base-platform above the first [table]
+4:1 design::unknown_key: `leg` is not a key of a design | did you mean `legs`?
+1:1 design::no_size: all joints in use of the base coincide, and so do those of the platform | give the joints different coordinates
+"#
+    );
 }
 
 #[test]
@@ -143,25 +147,27 @@ fn optional_tables() {
     ] {
         all.push_str(&after(from, to));
     }
-    insta::assert_snapshot!(all, @r#"
-        15:13 design::rotation: `quat_wxyz` of [home] has norm 1.4142135623730951, not 1 | divide the quaternion by its norm
-        16:1 design::rotation: [home] gives its rotation more than once | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
-        15:12 design::rotation: `rotation` of [home] is not a rotation: R^T R differs from I by 0e0, det R = -1 | give all digits and a right-handed frame, or use quat_wxyz, which is normalised
-        13:1 design::rotation: [home] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
-        15:1 design::unknown_key: `rpy` is not a key of [home] | did you mean `rpy_deg`?
-        13:1 design::missing_key: `position` of [home] is missing | add position = [x, y, z]
-        13:2 design::missing_home: the box lies around [home], which is missing | add [home] with position and rpy_deg, or list single poses
-        17:19 design::not_positive: a half width of -1 | half widths are not negative
-        18:23 design::out_of_range: a half width of 200 degrees | stay within 180 degrees
-        19:8 design::grid: a grid of 2.5 points per axis | give 1 (centre), 2 (centre and corners), 3, 4 or 5 points per axis
-        17:10 design::rotation: pose 1 of [workspace] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
-        17:36 design::wrong_type: pose 2 of [workspace] is a number, not a table | write pose 2 of [workspace] as a table
-        19:15 design::not_positive: `min_abs_det` is 0 | give a positive number
-        20:1 design::unknown_key: `min_joint_distnce` is not a key of [optimize] | did you mean `min_joint_distance`?
-        21:18 design::not_positive: `joint_diameter` is -0.5 | give a positive number
-        20:1 design::unknown_key: `hardware` is not a key of [optimize] | known keys: min_joint_distance, min_abs_det, characteristic_length, variables, symmetry, objective, objectives, mode, slack, points, offset_bounds, stretch_bounds, height_bounds, fixed
-        18:2 design::unknown_key: `optimise` is not a key of a design | did you mean `optimize`?
-    "#);
+    assert_eq!(
+        all,
+        r"15:13 design::rotation: `quat_wxyz` of [home] has norm 1.4142135623730951, not 1 | divide the quaternion by its norm
+16:1 design::rotation: [home] gives its rotation more than once | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
+15:12 design::rotation: `rotation` of [home] is not a rotation: R^T R differs from I by 0e0, det R = -1 | give all digits and a right-handed frame, or use quat_wxyz, which is normalised
+13:1 design::rotation: [home] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
+15:1 design::unknown_key: `rpy` is not a key of [home] | did you mean `rpy_deg`?
+13:1 design::missing_key: `position` of [home] is missing | add position = [x, y, z]
+13:2 design::missing_home: the box lies around [home], which is missing | add [home] with position and rpy_deg, or list single poses
+17:19 design::not_positive: a half width of -1 | half widths are not negative
+18:23 design::out_of_range: a half width of 200 degrees | stay within 180 degrees
+19:8 design::grid: a grid of 2.5 points per axis | give 1 (centre), 2 (centre and corners), 3, 4 or 5 points per axis
+17:10 design::rotation: pose 1 of [workspace] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
+17:36 design::wrong_type: pose 2 of [workspace] is a number, not a table | write pose 2 of [workspace] as a table
+19:15 design::not_positive: `min_abs_det` is 0 | give a positive number
+20:1 design::unknown_key: `min_joint_distnce` is not a key of [optimize] | did you mean `min_joint_distance`?
+21:18 design::not_positive: `joint_diameter` is -0.5 | give a positive number
+20:1 design::unknown_key: `hardware` is not a key of [optimize] | known keys: min_joint_distance, min_abs_det, characteristic_length, variables, symmetry, objective, objectives, mode, slack, points, offset_bounds, stretch_bounds, height_bounds, fixed
+18:2 design::unknown_key: `optimise` is not a key of a design | did you mean `optimize`?
+"
+    );
 }
 
 #[test]
@@ -180,27 +186,30 @@ fn texts_that_are_no_design() {
         all.push_str(&refusals(text, format));
         all.push('\n');
     }
-    insta::assert_snapshot!(all, @r#"
-        1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
+    assert_eq!(
+        all,
+        r#"1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
 
-        1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
+1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
 
-        1:8 design::syntax: string values must be quoted, expected literal string | mend the TOML; strings need quotes, tables [brackets], see https://toml.io
+1:8 design::syntax: string values must be quoted, expected literal string | mend the TOML; strings need quotes, tables [brackets], see https://toml.io
 
-        1:1 design::wrong_type: a design is a table, not an array | write { "name": ..., "units": ..., "base": { ... }, "platform": { ... }, "legs": [ ... ] }
+1:1 design::wrong_type: a design is a table, not an array | write { "name": ..., "units": ..., "base": { ... }, "platform": { ... }, "legs": [ ... ] }
 
-        1:15 design::syntax: Comments are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+1:15 design::syntax: Comments are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
 
-        1:37 design::syntax: Unexpected token | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+1:37 design::syntax: Unexpected token | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
 
-        1:1 design::missing_key: `legs` is missing | add `legs = [["A1", "B1"], ...]` with six pairs base-platform above the first [table]
-        1:1 design::missing_key: `base` is missing | add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`
-        1:1 design::missing_key: `platform` is missing | add [platform] with joints such as `B1 = [0.0, 0.0, 0.0]`
-        1:15 design::duplicate_key: this key stands twice | keep one of the two
-        1:37 design::wrong_type: `units` is null, not a string | write `units = "..."`
+1:1 design::missing_key: `legs` is missing | add `legs = [["A1", "B1"], ...]` with six pairs base-platform above the first [table]
+1:1 design::missing_key: `base` is missing | add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`
+1:1 design::missing_key: `platform` is missing | add [platform] with joints such as `B1 = [0.0, 0.0, 0.0]`
+1:15 design::duplicate_key: this key stands twice | keep one of the two
+1:37 design::wrong_type: `units` is null, not a string | write `units = "..."`
 
-        1:15 design::syntax: Trailing commas are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
-    "#);
+1:15 design::syntax: Trailing commas are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+
+"#
+    );
 }
 
 #[test]

@@ -336,16 +336,18 @@ mod tests {
             &mut out,
             &ConflictRecord::new(&design, &ConstraintConflict { demands, proved: false }),
         );
-        insta::assert_snapshot!(out, @r"
-        within the bounds of the variables these requirements could not, from any start, be met together:
-          the least leg length would have to give by 1.564700 in
-          the room between base joints would have to give by 3.250e-8 in
-          the greatest leg force would have to give by no more than the spare of the search
-          the greatest leg speed cannot make room alone, whatever it gives
-        the sum of the violations, each in its scale, is least where these give, and the others hold:
-          leg_too_short           1.564700 in
-          leg_force               4.500e-7 force
-        ");
+        assert_eq!(
+            out,
+            r"within the bounds of the variables these requirements could not, from any start, be met together:
+  the least leg length would have to give by 1.564700 in
+  the room between base joints would have to give by 3.250e-8 in
+  the greatest leg force would have to give by no more than the spare of the search
+  the greatest leg speed cannot make room alone, whatever it gives
+the sum of the violations, each in its scale, is least where these give, and the others hold:
+  leg_too_short           1.564700 in
+  leg_force               4.500e-7 force
+"
+        );
         assert!(!out.contains("0.000000"));
     }
 }
