@@ -1,7 +1,7 @@
 //! What a design costs that is solved again and again: preparation, and a solve with certificates, on one thread.
 //!
-//! Run with `cargo bench --bench prepared -- [method=METHOD] [lengths=N] [CLASS | translations ...]`. Times of a solve are medians over designs and lengths, each solved once, in microseconds and in units of
-//! `eig40`, the eigenvalues of a random 40 x 40 matrix, measured in the same run.
+//! Run with `cargo bench --package equipod-benches --bench prepared -- [method=METHOD] [lengths=N] [CLASS | translations ...]`.
+//! Times of a solve are medians over designs and lengths, each solved once, in microseconds and in units of `eig40`, the eigenvalues of a random 40 x 40 matrix, measured in the same run.
 
 use std::hint::black_box;
 use std::time::Instant;

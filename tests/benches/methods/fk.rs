@@ -1,4 +1,6 @@
-//! `cargo bench`: the rows the figures of `docs/benchmarks.md` are compared by, with two eigenvalue problems as units.
+//! The times that the figures of `docs/benchmarks.md` are compared by, with two eigenvalue problems as units.
+//!
+//! Run with `cargo bench --package equipod-benches --features divan --bench fk`.
 
 use divan::Bencher;
 use equipod::methods::bench::{Class, LengthsFrom, Problem, problem};

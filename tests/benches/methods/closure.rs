@@ -1,4 +1,4 @@
-//! `cargo bench --bench closure`: exact closure polynomials of random members of the topologies that have one.
+//! `cargo bench --package equipod-benches --features divan --bench closure`: exact closure polynomials of random members of the topologies that have one.
 
 use divan::Bencher;
 use equipod::methods::bench::{Class, LengthsFrom, Planar, Problem, problem};
