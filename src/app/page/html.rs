@@ -1,10 +1,10 @@
 //! The page as one text.
 
+use data_encoding::BASE64;
 use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::base64;
 use super::request::{Chosen, Opening, Request, Which};
 use super::session::Session;
 use crate::app::records::PoseRecord;
@@ -46,7 +46,7 @@ fn script() -> String {
 
 /// What a content security policy calls an inline script or style with exactly this text (W3C, Content Security Policy Level 3, section 2.3.1).
 fn source(text: &str) -> String {
-    format!("'sha256-{}'", base64::encode(&Sha256::digest(text.as_bytes())))
+    format!("'sha256-{}'", BASE64.encode(&Sha256::digest(text.as_bytes())))
 }
 
 /// The content security policy of the page, and with `styles` of a page around it, whose policy holds for frames in it too: the one script and the style
@@ -94,7 +94,7 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
     let data = serde_json::to_string(&data).unwrap_or_default();
     let title = escape(&session.design.name);
     let notices = core.map(|_| notices()).unwrap_or_default();
-    let core = core.map(base64::encode).unwrap_or_default();
+    let core = core.map(|bytes| BASE64.encode(bytes)).unwrap_or_default();
     let parts = [
         ("{{policy}}", policy(&[])),
         ("{{title}}", title),

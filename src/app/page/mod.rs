@@ -4,7 +4,6 @@
 //! browser that function runs as WebAssembly; where there is none, the page replays answers that were recorded when it was written.
 //! Text in, text out: nothing here reads or writes files.
 
-mod base64;
 mod begin;
 #[cfg(all(target_arch = "wasm32", feature = "page-core"))]
 mod exports;

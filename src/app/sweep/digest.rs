@@ -1,8 +1,8 @@
 //! SHA-256 of what is written or read, without holding it.
 
-use std::fmt::Write as _;
 use std::io::{Read, Result, Write};
 
+use data_encoding::HEXLOWER;
 use sha2::{Digest, Sha256};
 
 /// A writer that knows what went through it.
@@ -20,7 +20,7 @@ impl<W: Write> Digested<W> {
 
     /// The writer, the number of bytes and their SHA-256 in hexadecimal digits.
     pub(crate) fn finish(self) -> (W, u64, String) {
-        (self.inner, self.bytes, hexadecimal(self.hash))
+        (self.inner, self.bytes, HEXLOWER.encode(&self.hash.finalize()))
     }
 }
 
@@ -37,27 +37,13 @@ impl<W: Write> Write for Digested<W> {
     }
 }
 
-fn hexadecimal(hash: Sha256) -> String {
-    hash.finalize().iter().fold(String::new(), |mut text, byte| {
-        // writing to a string cannot fail
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
-}
-
 /// The number of bytes and their SHA-256 in hexadecimal digits.
 ///
 /// # Errors
 /// Those of the reader.
 pub(crate) fn digest_of(mut from: impl Read) -> Result<(u64, String)> {
     let mut sink = Digested::new(std::io::sink());
-    let mut room = vec![0; 1 << 16];
-    loop {
-        match from.read(&mut room)? {
-            0 => break,
-            n => sink.write_all(&room[..n])?,
-        }
-    }
+    std::io::copy(&mut from, &mut sink)?;
     let (_, bytes, sha256) = sink.finish();
     Ok((bytes, sha256))
 }
@@ -68,7 +54,8 @@ mod tests {
 
     #[test]
     fn the_digest_is_that_of_the_whole() {
-        let expected = crate::app::records::sha256(b"abcdef");
+        let expected = "bef57ec7f53a6d40beb640a780a639c83bc29ac8a9816f1fc6c5c6dcd93c4721".to_string();
+        assert_eq!(crate::app::records::sha256(b"abcdef"), expected);
         assert_eq!(digest_of(&b"abcdef"[..]).unwrap(), (6, expected.clone()));
         let mut out = Digested::new(Vec::new());
         out.write_all(b"abc").unwrap();
