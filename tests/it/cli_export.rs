@@ -76,7 +76,7 @@ fn what_is_written_and_left_out_is_told() {
     assert!(judged.starts_with("octahedral 12-6 meets all its requirements, proved"), "{judged}");
     assert_eq!(
         text,
-        r#"wrote DIR/base-plate.dxf
+        r"wrote DIR/base-plate.dxf
 wrote DIR/platform-plate.dxf
   dxf leaves out legs, and heights of joints out of the plane of the plate other than as text
 wrote DIR/genhexkins.hal
@@ -94,7 +94,7 @@ sizes
   rod diameter                             0.124708 design units  rule: 0.6 of the cylinder
   cylinder length from the base joint      8.077747 design units  rule: half the shortest leg at home
   mass of the platform with payload       6.6511e-6 kg            rule: 20 kg times the cube of the size in metres
-"#
+"
     );
 }
 

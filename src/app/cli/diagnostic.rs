@@ -2,22 +2,19 @@
 //!
 //! Colours only on a terminal and without `NO_COLOR`: `anstream` strips them elsewhere.
 
-use std::fmt::Write as _;
+use std::fmt::Display;
 
-use anstyle::{AnsiColor, Style};
+use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::failure::Failure;
 use super::streams::Errors;
 use files::design::{Violation, Warning};
 use num::names::changes_direction;
 
-const ERROR: Style = AnsiColor::Red.on_default().bold();
-const WARNING: Style = AnsiColor::Yellow.on_default().bold();
-const QUIET: Style = AnsiColor::Blue.on_default().bold();
-const BOLD: Style = Style::new().bold();
+const RENDERER: Renderer = Renderer::styled();
 
-/// A source line is cut after so many characters.
-const MAX_SHOWN: usize = 160;
+/// An excerpt shows a part of this beginning of its line, so that one long line with many faults is not read whole for each.
+const MAX_READ: usize = 2000;
 
 /// Shows a failure and all its violations.
 pub(crate) fn print_failure(failure: &Failure) {
@@ -43,57 +40,55 @@ fn render_failure(failure: &Failure) -> String {
     if let Some(design) = &failure.design {
         for violation in &design.violations {
             out.push_str(&render_violation(&design.path, &design.text, violation));
+            out.push('\n');
         }
     }
-    let _ = writeln!(
-        out,
-        "{ERROR}error[{}]{ERROR:#}{BOLD}: {}{BOLD:#}",
-        failure.code,
-        printable(&failure.message)
-    );
-    if let Some(help) = &failure.help {
-        let _ = writeln!(out, "  {QUIET}={QUIET:#} help: {}", printable(help));
-    }
-    out
+    out + &report(Level::ERROR, &failure.code, &failure.message, None, failure.help.as_deref())
 }
 
 fn render_violation(path: &str, text: &str, v: &Violation) -> String {
-    let mut out = String::new();
-    let _ = writeln!(out, "{ERROR}error[{}]{ERROR:#}{BOLD}: {}{BOLD:#}", v.code, printable(&v.message));
-    excerpt(&mut out, path, text, v.line, Some((v.column, v.width)));
-    let _ = writeln!(out, "  {QUIET}={QUIET:#} help: {}\n", printable(&v.help));
-    out
+    let excerpt = excerpt(path, text, v.line, Some((v.column, v.width)));
+    report(Level::ERROR, v.code, &v.message, Some(excerpt), Some(&v.help))
 }
 
 fn render_warning(path: &str, text: &str, w: &Warning) -> String {
-    let mut out = String::new();
-    let _ = writeln!(
-        out,
-        "{WARNING}warning[{}]{WARNING:#}{BOLD}: {}{BOLD:#}",
-        w.code(),
-        printable(&w.to_string())
-    );
-    excerpt(&mut out, path, text, w.line(), None);
-    let _ = writeln!(out, "  {QUIET}={QUIET:#} help: {}", printable(&w.advice()));
-    out
+    let excerpt = excerpt(path, text, w.line(), None);
+    report(Level::WARNING, w.code(), &w.to_string(), Some(excerpt), Some(&w.advice()))
 }
 
-/// `--> file:line:column`, the line, and carets below the place.
-fn excerpt(out: &mut String, path: &str, text: &str, line: usize, place: Option<(usize, usize)>) {
+fn report(
+    level: Level<'_>,
+    code: impl Display,
+    message: &str,
+    excerpt: Option<Snippet<'_, Annotation<'_>>>,
+    help: Option<&str>,
+) -> String {
+    let help = help.map(|text| Level::HELP.message(printable(text)));
+    let title = level.primary_title(printable(message)).id(code.to_string());
+    RENDERER.render(&[Group::with_title(title).elements(excerpt).elements(help)]) + "\n"
+}
+
+/// `--> file:line:column`, the line, and carets below the place: its column and width in characters.
+fn excerpt<'a>(
+    path: &str,
+    text: &str,
+    line: usize,
+    place: Option<(usize, usize)>,
+) -> Snippet<'a, Annotation<'a>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let column = place.map_or(String::new(), |(column, _)| format!(":{column}"));
+    let source = text.lines().nth(line - 1).unwrap_or_default();
+    let source: String = source.chars().take(MAX_READ).map(printable_char).collect();
     let path = printable(path);
-    let _ = writeln!(out, "  {QUIET}-->{QUIET:#} {path}:{line}{column}");
-    let Some(source) = text.lines().nth(line - 1).filter(|l| !l.trim().is_empty()) else { return };
-    let number = line.to_string();
-    let shown: String = source.chars().take(MAX_SHOWN).map(printable_char).collect();
-    let gutter = " ".repeat(number.len());
-    let _ = writeln!(out, "{QUIET}{gutter} |{QUIET:#}\n{QUIET}{number} |{QUIET:#} {shown}");
-    if let Some((column, width)) = place.filter(|(column, _)| *column <= MAX_SHOWN) {
-        let blank = " ".repeat(column - 1);
-        let carets = "^".repeat(width.min(MAX_SHOWN + 1 - column));
-        let _ = writeln!(out, "{QUIET}{gutter} |{QUIET:#} {blank}{ERROR}{carets}{ERROR:#}");
-    }
+    let byte = |column: usize| source.char_indices().nth(column - 1).map_or(source.len(), |(at, _)| at);
+    let (path, mark) = match place {
+        Some((column, width)) if column <= MAX_READ => {
+            (path, AnnotationKind::Primary.span(byte(column)..byte(column + width)))
+        }
+        // a line without carets is shown without its place
+        Some((column, _)) => (format!("{path}:{line}:{column}"), AnnotationKind::Visible.span(0..0)),
+        None => (format!("{path}:{line}"), AnnotationKind::Visible.span(0..0)),
+    };
+    Snippet::source(source).line_start(line).path(path).annotation(mark)
 }
 
 /// Control characters replaced one for one, so that a file cannot steer the terminal and columns stay.
@@ -147,13 +142,49 @@ mod tests {
         assert_eq!(
             shown,
             r#"error[design::unknown_key]: `unit` is not a key of a design
-  --> a.toml:2:2
+ --> a.toml:2:2
   |
 2 |  unit = "mm"
   |  ^^^^
+  |
   = help: did you mean `units`?
 "#
         );
+    }
+
+    fn plain(text: &str, line: usize, place: Option<(usize, usize)>) -> String {
+        let shown = report(Level::ERROR, "a::b", "c", Some(excerpt("a.toml", text, line, place)), None);
+        anstream::adapter::strip_str(&shown).to_string()
+    }
+
+    #[test]
+    fn carets_stand_below_what_follows_wide_characters() {
+        assert_eq!(
+            plain("name = \"六足\", unit = 5", 1, Some((14, 4))),
+            r#"error[a::b]: c
+ --> a.toml:1:14
+  |
+1 | name = "六足", unit = 5
+  |                ^^^^
+"#
+        );
+    }
+
+    #[test]
+    fn a_long_line_is_shown_about_its_place() {
+        let long = format!("{}unit = 5{}", "x = 1, ".repeat(100), ", y = 2".repeat(9999));
+        let shown = plain(&long, 1, Some((701, 4)));
+        assert!(
+            shown.contains("--> a.toml:1:701\n") && shown.contains("unit = 5") && shown.contains("^^^^"),
+            "{shown}"
+        );
+        for (line, place, head) in
+            [(1, Some((5000, 4)), "1:5000\n"), (1, None, "1\n"), (3, None, "3\n"), (3, Some((1, 1)), "3:1\n")]
+        {
+            let shown = plain(&format!("{long}\n\n"), line, place);
+            assert!(shown.contains(&format!("--> a.toml:{head}")), "{shown}");
+            assert!(shown.len() < 500, "{shown}");
+        }
     }
 
     #[test]

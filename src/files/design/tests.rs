@@ -149,7 +149,7 @@ fn optional_tables() {
     }
     assert_eq!(
         all,
-        r#"15:13 design::rotation: `quat_wxyz` of [home] has norm 1.4142135623730951, not 1 | divide the quaternion by its norm
+        r"15:13 design::rotation: `quat_wxyz` of [home] has norm 1.4142135623730951, not 1 | divide the quaternion by its norm
 16:1 design::rotation: [home] gives its rotation more than once | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
 15:12 design::rotation: `rotation` of [home] is not a rotation: R^T R differs from I by 0e0, det R = -1 | give all digits and a right-handed frame, or use quat_wxyz, which is normalised
 13:1 design::rotation: [home] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
@@ -166,7 +166,7 @@ fn optional_tables() {
 21:18 design::not_positive: `joint_diameter` is -0.5 | give a positive number
 20:1 design::unknown_key: `hardware` is not a key of [optimize] | known keys: min_joint_distance, min_abs_det, characteristic_length, variables, symmetry, objective, objectives, mode, slack, points, offset_bounds, stretch_bounds, height_bounds, fixed
 18:2 design::unknown_key: `optimise` is not a key of a design | did you mean `optimize`?
-"#
+"
     );
 }
 
@@ -207,6 +207,7 @@ fn texts_that_are_no_design() {
 1:37 design::wrong_type: `units` is null, not a string | write `units = "..."`
 
 1:15 design::syntax: Trailing commas are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+
 "#
     );
 }

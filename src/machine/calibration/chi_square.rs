@@ -1,55 +1,23 @@
 //! The chi-square distribution: what sums of squares of standard normal numbers do.
 
-/// Terms of a series or a continued fraction at most; the number grows with the root of the degrees of freedom.
-const TERMS: usize = 100_000;
+use statrs::function::gamma::checked_gamma_ur;
+
 /// Halvings of an interval of quantiles: more than a double has digits.
 const HALVINGS: usize = 200;
 
 /// The probability that the sum of the squares of `freedoms` independent standard normal numbers exceeds `value`: `Q(freedoms / 2, value / 2)`, the upper incomplete
-/// gamma function over the complete one.
-///
-/// By its power series below the mean and by Lentz's continued fraction above it (Abramowitz, Stegun 1964, 6.5.29 and 6.5.31). 1 where there are no
-/// degrees of freedom and the value is at most zero.
+/// gamma function over the complete one. 1 where there are no degrees of freedom and the value is at most zero.
 #[must_use]
 pub fn chi_square_exceeds(value: f64, freedoms: usize) -> f64 {
     if !(value > 0.0) {
         return 1.0;
     }
-    if freedoms == 0 {
-        return 0.0;
-    }
-    let (a, x) = (0.5 * freedoms as f64, 0.5 * value);
-    let front = (a * x.ln() - x - ln_gamma_of_half(freedoms)).exp();
-    if x < a + 1.0 {
-        let (mut term, mut sum) = (1.0 / a, 1.0 / a);
-        for n in 1..TERMS {
-            term *= x / (a + n as f64);
-            sum += term;
-            if term < sum * f64::EPSILON {
-                break;
-            }
-        }
-        return (1.0 - front * sum).clamp(0.0, 1.0);
-    }
-    let mut b = x + 1.0 - a;
-    let mut c = f64::INFINITY;
-    let mut d = 1.0 / b;
-    let mut h = d;
-    for n in 1..TERMS {
-        let n = n as f64;
-        let an = n * (a - n);
-        b += 2.0;
-        d = 1.0 / (an * d + b);
-        c = b + an / c;
-        h *= d * c;
-        if (d * c - 1.0).abs() < f64::EPSILON {
-            break;
-        }
-    }
-    (front * h).clamp(0.0, 1.0)
+    // the function refuses zero degrees of freedom and infinite values
+    checked_gamma_ur(0.5 * freedoms as f64, 0.5 * value)
+        .map_or(0.0, |probability| probability.clamp(0.0, 1.0))
 }
 
-/// The value that is exceeded with this probability, by bisection.
+/// The value that is exceeded with this probability, by bisection: `statrs` inverts `1 - exceeded`, which has lost digits of small probabilities.
 #[must_use]
 pub fn chi_square_quantile(exceeded: f64, freedoms: usize) -> f64 {
     let (mut low, mut high) = (0.0, freedoms as f64 + 1.0);
@@ -65,17 +33,6 @@ pub fn chi_square_quantile(exceeded: f64, freedoms: usize) -> f64 {
         }
     }
     0.5 * (low + high)
-}
-
-/// `ln Gamma(n / 2)` by `Gamma(x + 1) = x Gamma(x)` from `Gamma(1/2) = sqrt(pi)` or `Gamma(1) = 1`.
-fn ln_gamma_of_half(n: usize) -> f64 {
-    let (mut x, mut sum) = if n % 2 == 1 { (0.5, 0.5 * std::f64::consts::PI.ln()) } else { (1.0, 0.0) };
-    let end = 0.5 * n as f64;
-    while x < end - 0.25 {
-        sum += f64::ln(x);
-        x += 1.0;
-    }
-    sum
 }
 
 #[cfg(test)]

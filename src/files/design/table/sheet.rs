@@ -213,6 +213,7 @@ fn bracketed(text: &str) -> Option<String> {
 }
 
 /// Cells of all lines that are not blank. A cell in quotation marks may hold separators and ends of lines; two marks in it are one.
+// The crate `csv` reads a quotation mark without an end in silence, and it counts each blank of a run as a separator.
 fn records(text: &str, separator: char) -> Result<Vec<SheetRow>, InvalidSheet> {
     let mut rows = Vec::new();
     let mut row = SheetRow { line: 1, cells: Vec::new() };

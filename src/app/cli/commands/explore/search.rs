@@ -90,7 +90,7 @@ fn stage(progress: &mut ProgressLine, p: &OptimizeProgress) {
             progress.part("bounding", *boxes, boxes + open);
         }
         OptimizeProgress::Dimensions(p) | OptimizeProgress::Drive(_, p) | OptimizeProgress::Freedom(_, p) => {
-            part(progress, p)
+            part(progress, p);
         }
         OptimizeProgress::Judging => (),
     }
