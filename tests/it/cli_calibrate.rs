@@ -1,5 +1,6 @@
 //! `equipod calibrate` as a process: a table in, joints and offsets out, outcomes, refusals.
 
+use equipod::prelude::*;
 use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
@@ -254,14 +255,19 @@ fn what_cannot_be_said_is_an_outcome_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let rows = table();
     let out = folder.path().join("out.toml").to_str().unwrap().to_owned();
-    // one orientation
+    // one orientation, and the lengths that belong to it
+    let design = Design::load(DESIGN).unwrap();
     let level: Vec<Vec<String>> = rows
         .iter()
         .enumerate()
         .map(|(k, row)| {
-            let turn =
-                |c: usize| if k > 0 && (3..6).contains(&c) { "1.0".to_owned() } else { row[c].clone() };
-            (0..row.len()).map(turn).collect()
+            if k == 0 {
+                return row.clone();
+            }
+            let turned = [&row[..3], &["1.0", "1.0", "1.0"].map(str::to_owned)].concat();
+            let pose: Pose = turned.join(",").parse().unwrap();
+            let lengths = pose.lengths(design.manipulator()).unwrap().get();
+            turned.into_iter().chain(lengths.map(|l| l.to_string())).collect()
         })
         .collect();
     let file = write(&folder, "level.csv", &level);

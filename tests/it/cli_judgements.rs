@@ -163,7 +163,7 @@ fn no_command_calls_a_design_good_that_assess_refuses() {
         for words in commands(design, run) {
             let words: Vec<&str> = words.iter().map(String::as_str).chain(["--json"]).collect();
             let (answer, line) = (document(&equipod(&words)), words.join(" "));
-            let candidates = answer["candidates"].as_array().into_iter().flatten();
+            let candidates = answer["designs"].as_array().into_iter().flatten();
             let assessments = match words[0] {
                 "assess" => vec![&answer],
                 "equivalents" => candidates.map(|c| &c["assessment"]).collect(),

@@ -26,7 +26,9 @@ fn options(command: &str) -> BTreeSet<String> {
     let lines = help.lines().map(str::trim_start).filter(|l| l.starts_with('-'));
     let long = lines.filter_map(|l| l.split_whitespace().find_map(|w| w.strip_prefix("--")));
     let speech = ["help", "version", "json", "quiet"];
-    long.map(|w| w.trim_end_matches(',').to_owned()).filter(|w| !speech.contains(&w.as_str())).collect()
+    // a line of a sentence may begin with an option too
+    let option = |w: &str| w.trim_end_matches([',', '`', '.']).to_owned();
+    long.map(option).filter(|w| !speech.contains(&w.as_str())).collect()
 }
 
 /// The answer without the times and files that differ from run to run.

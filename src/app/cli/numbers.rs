@@ -29,6 +29,11 @@ pub(crate) fn significant(x: f64) -> String {
     }
 }
 
+/// The width of a column of names of drives: a name of more than forty characters pushes its row aside, and a row that a file makes wide costs nothing.
+pub(crate) fn width_of<'a>(names: impl Iterator<Item = &'a str>) -> usize {
+    names.map(|name| name.chars().count()).fold(5, usize::max).min(40)
+}
+
 /// Numbers with so many decimals, in brackets; what rounds to zero has no sign.
 pub(crate) fn listed(numbers: impl IntoIterator<Item = f64>, decimals: usize) -> String {
     format!("[{}]", numbers.into_iter().map(|x| fixed(x, decimals)).collect::<Vec<_>>().join(", "))
@@ -37,6 +42,16 @@ pub(crate) fn listed(numbers: impl IntoIterator<Item = f64>, decimals: usize) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_name_as_long_as_a_file_makes_no_column_as_wide() {
+        let long = "x".repeat(70_000);
+        assert_eq!(
+            [vec![], vec!["a", "abcdefg"], vec![&long[..]]].map(|n| width_of(n.into_iter())),
+            [5, 7, 40]
+        );
+        assert!(format!("{:<width$}", long, width = width_of([&long[..]].into_iter())).len() == 70_000);
+    }
 
     #[test]
     fn numbers_for_people_have_six_digits_that_count() {

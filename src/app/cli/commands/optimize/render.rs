@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::app::cli::numbers::significant as short;
+use crate::app::cli::numbers::{significant as short, width_of};
 use crate::app::cli::requirements;
 use crate::app::entrance::OptimizeStatus;
 use crate::app::records::{
@@ -176,7 +176,7 @@ fn front_text(out: &mut String, list: &[FrontMemberRecord]) {
 /// A line for each drive of the table.
 pub(in crate::app::cli::commands) fn drives_text(out: &mut String, d: &DriveSearchRecord) {
     let _ = writeln!(out, "\n{}:", d.message);
-    let width = d.drives.iter().map(|d| d.name.chars().count()).fold(5, usize::max);
+    let width = width_of(d.drives.iter().map(|d| d.name.as_str()));
     let price = d.currency.as_ref().map_or("price".to_owned(), |c| format!("price {c}"));
     let _ = writeln!(out, "  {:<width$} {:<11} {price:>12} {:>14}", "drive", "outcome", "objective");
     for drive in &d.drives {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::app::cli::numbers::significant as short;
+use crate::app::cli::numbers::{significant as short, width_of};
 use crate::app::cli::requirements;
 use crate::app::records::{DriveRecord, DrivesAnswer, MarginRecord, Number};
 
@@ -50,7 +50,7 @@ fn table(out: &mut String, answer: &DrivesAnswer) {
         format!("force {force}"),
         format!("speed {length}/s"),
     ];
-    let width = answer.drives.iter().map(|d| d.name.chars().count()).fold(5, usize::max);
+    let width = width_of(answer.drives.iter().map(|d| d.name.as_str()));
     let _ = write!(out, "{:<width$} {:<9}", "drive", "fits");
     for title in &titles {
         let _ = write!(out, " {title:>13}");
