@@ -496,8 +496,7 @@ impl DesignModel {
             };
             points[body.index()].iter().zip(doubles).map(one).collect()
         });
-        let doubles = Body::BOTH.map(|body| self.manipulator.joints(body));
-        let values = JointValues::new(exact, radius, doubles);
+        let values = JointValues::new(exact, radius);
         self.manipulator = self.manipulator.clone().with_values(values);
     }
 

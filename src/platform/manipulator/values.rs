@@ -1,6 +1,6 @@
 //! What the coordinates of joints are, where a double only comes near.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::Point3;
 
@@ -26,42 +26,48 @@ pub fn squares_of_ends(leg: &ExactEnds) -> Option<Surd> {
 }
 
 /// The joints behind the doubles of a [`Manipulator`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct JointValues {
     /// For base and platform the coordinates of every joint; `None` when one of them is known between bounds only.
     pub exact: Option<[Vec<SurdPoint>; 2]>,
     /// For base and platform how far, at most, a coordinate of a joint is from its double.
     pub radius: [Vec<f64>; 2],
-    /// For base and platform what the doubles leave of the coordinates of every joint, as the nearest doubles again; zeros where that is not known.
-    low: [Vec<[f64; 3]>; 2],
-    /// How far, at most, a coordinate is from both doubles together.
-    rest: [Vec<f64>; 2],
+    /// What the doubles leave, once it has been asked for.
+    left: OnceLock<[Vec<LeftOver>; 2]>,
+}
+
+/// What the doubles leave of the coordinates of a joint, as the nearest doubles again (zeros where that is not known), and how far, at most, a coordinate is from both
+/// doubles together.
+type LeftOver = ([f64; 3], f64);
+
+impl PartialEq for JointValues {
+    fn eq(&self, other: &Self) -> bool {
+        // the rest follows from these
+        self.exact == other.exact && self.radius == other.radius
+    }
 }
 
 impl JointValues {
-    /// The joints of which `doubles` are the nearest doubles, or the middles.
-    pub fn new(
-        exact: Option<[Vec<SurdPoint>; 2]>,
-        radius: [Vec<f64>; 2],
-        doubles: [&[Point3<f64>]; 2],
-    ) -> Self {
-        let mut values = Self {
-            low: radius.each_ref().map(|list| vec![[0.0; 3]; list.len()]),
-            rest: radius.clone(),
-            exact,
-            radius,
-        };
-        let Some(exact) = &values.exact else { return values };
-        for body in 0..2 {
-            for (joint, (point, double)) in exact[body].iter().zip(doubles[body]).enumerate() {
-                let parts: Option<Vec<(f64, f64)>> =
-                    point.iter().zip(double.iter()).map(|(x, d)| low_part(x, *d)).collect();
-                let Some(parts) = parts else { continue };
-                values.low[body][joint] = std::array::from_fn(|k| parts[k].0);
-                values.rest[body][joint] = parts.iter().map(|part| part.1).fold(0.0, f64::max);
-            }
-        }
-        values
+    /// Joints, and how far the doubles are from them.
+    pub fn new(exact: Option<[Vec<SurdPoint>; 2]>, radius: [Vec<f64>; 2]) -> Self {
+        Self { exact, radius, left: OnceLock::new() }
+    }
+
+    /// What `doubles`, of which the joints are the nearest doubles or the middles, leave of them.
+    fn left(&self, doubles: [&[Point3<f64>]; 2]) -> &[Vec<LeftOver>; 2] {
+        self.left.get_or_init(|| {
+            [0, 1].map(|body| {
+                let of = |joint: usize| {
+                    let point = &self.exact.as_ref()?[body][joint];
+                    let both = point.iter().zip(doubles[body][joint].iter());
+                    let parts: Vec<(f64, f64)> = both.map(|(x, d)| low_part(x, *d)).collect::<Option<_>>()?;
+                    let rest = parts.iter().map(|part| part.1).fold(0.0, f64::max);
+                    Some((std::array::from_fn(|k| parts[k].0), rest))
+                };
+                let radius = &self.radius[body];
+                (0..radius.len()).map(|joint| of(joint).unwrap_or(([0.0; 3], radius[joint]))).collect()
+            })
+        })
     }
 }
 
@@ -113,7 +119,7 @@ impl Manipulator {
             })
         };
         let pairs = ends.each_ref().map(|[a, b]| (joint(Body::Base, a), joint(Body::Platform, b)));
-        let values = JointValues::new(Some(exact), radius, [&points[0], &points[1]]);
+        let values = JointValues::new(Some(exact), radius);
         let [base, platform] = points;
         Ok(Self::try_new(base, platform, pairs)?.with_values(values))
     }
@@ -147,14 +153,9 @@ impl Manipulator {
             .unwrap_or_else(|_| unreachable!("the joints and pairs of a design, the other way round"));
         out.constructed = self.constructed;
         out.values = self.values.as_ref().map(|values| {
-            let mut turned = JointValues::clone(values);
-            turned.radius.swap(0, 1);
-            turned.low.swap(0, 1);
-            turned.rest.swap(0, 1);
-            if let Some(exact) = &mut turned.exact {
-                exact.swap(0, 1);
-            }
-            Arc::new(turned)
+            let [base, platform] = values.radius.clone();
+            let exact = values.exact.clone().map(|[base, platform]| [platform, base]);
+            Arc::new(JointValues::new(exact, [platform, base]))
         });
         out
     }
@@ -209,9 +210,8 @@ impl Manipulator {
     /// What the doubles leave of the coordinates of the end of leg `i` on `body`, and how far the coordinates are, at most, from both together.
     pub fn end_low(&self, leg: usize, body: Body) -> ([f64; 3], f64) {
         let joint = body.of(self.pairs()[leg]);
-        self.values
-            .as_ref()
-            .map_or(([0.0; 3], 0.0), |v| (v.low[body.index()][joint], v.rest[body.index()][joint]))
+        let doubles = [self.base_joints(), self.platform_joints()];
+        self.values.as_ref().map_or(([0.0; 3], 0.0), |v| v.left(doubles)[body.index()][joint])
     }
 
     /// The ends of leg `i` on base and platform, coordinate by coordinate: the doubles where these are the joints, else intervals that hold the joints.
@@ -244,8 +244,7 @@ impl Manipulator {
     /// The same doubles, of which nothing is known but that the joints are within a radius of them.
     pub fn enclosed_within(self, radius: f64) -> Self {
         let radius = [self.base_joints(), self.platform_joints()].map(|joints| vec![radius; joints.len()]);
-        let doubles = [self.base_joints().to_vec(), self.platform_joints().to_vec()];
-        self.with_values(JointValues::new(None, radius, [&doubles[0], &doubles[1]]))
+        self.with_values(JointValues::new(None, radius))
     }
 }
 
