@@ -297,10 +297,11 @@ impl Sweep {
         // one thread: the candidates of a shard have the others
         let threads = Threads::Count(std::num::NonZeroUsize::MIN);
         let mut options = OptimizeOptions::new().seed(self.seed).threads(threads).freedoms(false);
-        if let (Some(table), Some(_)) = (&self.base.drives, &c.design()?.drive_table) {
+        let design = c.design()?;
+        if let (Some(table), Some(_)) = (&self.base.drives, &design.drive_table) {
             options = options.drives(table);
         }
-        let report = c.design()?.optimize_with(options).map_err(|e| e.to_string())?;
+        let report = design.optimize_with(options).map_err(|e| e.to_string())?;
         let first = |c: &Checked| c.objectives.first().map(|(_, value)| *value);
         let value = match &report.evidence {
             OptimizeEvidence::Offsets(found) => found.report.solution().map(|s| s.recheck.objective),

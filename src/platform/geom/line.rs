@@ -1,6 +1,7 @@
 //! The line that points lie nearly on.
 
-use nalgebra::{Matrix3, Point3, SymmetricEigen, Unit, Vector3};
+use nalgebra::{Matrix3, Point3, Unit, Vector3};
+use num::small::symmetric_eigen3;
 
 /// A line and how far points are from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,8 +29,8 @@ impl BestLine {
         // over the size, so that squares neither overflow nor vanish
         let spread: Matrix3<f64> =
             points.iter().map(|p| (p.coords - centroid) / size).map(|v| v * v.transpose()).sum();
-        let eigen = SymmetricEigen::new(spread);
-        let direction = Unit::new_normalize(eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned());
+        let (values, vectors) = symmetric_eigen3(&spread);
+        let direction = Unit::new_normalize(vectors.column(values.imax()).into_owned());
         let along = |p: &Point3<f64>| (p.coords - centroid).dot(&direction);
         let off = |p: &Point3<f64>| (p.coords - centroid - direction.into_inner() * along(p)).norm();
         Some(Self {

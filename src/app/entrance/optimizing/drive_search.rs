@@ -27,7 +27,7 @@ pub enum DriveRanking {
 pub struct DrivenPlatform {
     /// The design with the drive.
     pub design: Design,
-    /// What was found.
+    /// The result of the search with it.
     pub found: FoundPlatform,
 }
 

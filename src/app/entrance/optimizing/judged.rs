@@ -25,7 +25,7 @@ const POINTS: usize = 5000;
 /// Samples of the comparison with the design.
 const SAMPLES: usize = 3;
 
-/// What became of a search for offsets, with the check that does not use its code.
+/// The outcome of a search for offsets, with the check that does not use its code.
 pub(crate) fn offset_status(report: &OffsetReport, checked: Option<&Checked>) -> OptimizeStatus {
     let met = checked.map(Checked::met);
     match report.outcome {
@@ -38,7 +38,7 @@ pub(crate) fn offset_status(report: &OffsetReport, checked: Option<&Checked>) ->
     }
 }
 
-/// What became of a search for a platform under requirements, with the check that does not use its code.
+/// The outcome of a search under requirements, with the check that does not use its code.
 pub(crate) fn dimensional_status(report: &DimensionalReport, checked: Option<&Checked>) -> OptimizeStatus {
     match (&report.outcome, checked) {
         _ if report.interrupted => OptimizeStatus::Interrupted,
@@ -57,7 +57,7 @@ fn missed(met: Option<bool>) -> OptimizeStatus {
     if met == Some(false) { OptimizeStatus::Violated } else { OptimizeStatus::Undecided }
 }
 
-/// What is known of the requirements with their reserves; `Some(true)` where there are none.
+/// Whether the requirements are met with their reserves; `Some(true)` where there are none.
 pub(crate) fn met_or_nothing_required(assessed: Option<&AssessReport>) -> Option<bool> {
     assessed.map_or(Some(true), AssessReport::met_with_reserve)
 }

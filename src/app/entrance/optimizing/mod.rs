@@ -236,7 +236,8 @@ impl<'a> OptimizeOptions<'a> {
         self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |look| look(progress))
     }
 
-    fn search(&self) -> ShapeSearchOptions {
+    /// The options of a search under requirements.
+    pub(crate) fn search(&self) -> ShapeSearchOptions {
         let threads = self.threads.count(MOST_THREADS);
         ShapeSearchOptions { seed: self.seed, threads, until: self.until, ..ShapeSearchOptions::default() }
     }
@@ -293,7 +294,7 @@ impl std::fmt::Display for OptimizeStatus {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct OptimizeReport {
-    /// What became of it.
+    /// The outcome in a word.
     pub status: OptimizeStatus,
     /// The design that the search began with: the one asked about, with the drive chosen, or with the variables that were chosen for it.
     pub asked: Design,
@@ -305,11 +306,11 @@ pub struct OptimizeReport {
     pub freedoms: Option<Vec<OpenedFreedom>>,
     /// Other local optima that meet the requirements at the poses that the search held, best first; `None` where they were not asked for.
     pub candidates: Option<Vec<Checked>>,
-    /// What was found.
+    /// The platforms, with the evidence for them.
     pub evidence: OptimizeEvidence,
 }
 
-/// What an [`OptimizeReport`] found, with the evidence for it.
+/// The platforms of an [`OptimizeReport`], with the evidence for them.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum OptimizeEvidence {
@@ -321,11 +322,11 @@ pub enum OptimizeEvidence {
     Front(Box<FoundFront>),
 }
 
-/// What a search for offsets found, judged by code that the search does not use.
+/// The result of a search for offsets, judged by code that the search does not use.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FoundOffsets {
-    /// What was searched for.
+    /// The problem of the search.
     pub problem: OffsetProblem,
     /// The search.
     pub report: OffsetReport,
@@ -358,6 +359,12 @@ impl std::fmt::Display for OptimizeReport {
 }
 
 impl OptimizeReport {
+    /// The report of a search alone.
+    fn new(asked: Design, status: OptimizeStatus, evidence: OptimizeEvidence) -> Self {
+        let (drives, freedoms, candidates) = (None, None, None);
+        Self { status, asked, chooses_sizes: false, drives, freedoms, candidates, evidence }
+    }
+
     /// The platform found, judged; `None` where there is none, and for a front.
     #[must_use]
     pub fn checked(&self) -> Option<&Checked> {
@@ -518,13 +525,5 @@ impl Design {
         })?;
         let status = found.status();
         Ok(OptimizeReport::new(self, status, OptimizeEvidence::Front(Box::new(found))))
-    }
-}
-
-impl OptimizeReport {
-    /// What a search found, and nothing besides.
-    fn new(asked: Design, status: OptimizeStatus, evidence: OptimizeEvidence) -> Self {
-        let (drives, freedoms, candidates) = (None, None, None);
-        Self { status, asked, chooses_sizes: false, drives, freedoms, candidates, evidence }
     }
 }

@@ -42,7 +42,7 @@ pub(super) fn keeps_symmetry_of_start(
     Some(kept)
 }
 
-/// What a search under requirements found, judged by code that the search does not use.
+/// The result of a search under requirements, judged by code that the search does not use.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FoundPlatform {
@@ -72,7 +72,7 @@ impl FoundPlatform {
         Ok(Self { checked: found, nearest, problem, report, symmetry })
     }
 
-    /// What became of it.
+    /// The outcome in a word.
     #[must_use]
     pub fn status(&self) -> OptimizeStatus {
         dimensional_status(&self.report, self.checked.as_ref())
@@ -160,7 +160,7 @@ impl FoundFront {
         Ok(Self { problem, report, members, symmetry })
     }
 
-    /// What became of it.
+    /// The outcome in a word.
     #[must_use]
     pub fn status(&self) -> OptimizeStatus {
         match self.report.failure.as_deref().map(|r| &r.outcome) {

@@ -34,8 +34,8 @@ use crate::app::equivalents::Original;
 use crate::app::records::{
     AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
     ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
-    FreedomWord, LengthsOrigin, OnHolesRecord, PoseTotalsRecord, PriceRecord, ProvenanceRecord, RoundAnswer,
-    VariantWord, VerdictWord, VerifyAnswer,
+    FreedomWord, LengthsOrigin, OnHolesRecord, OptimizeAnswer, OptimizedRecord, PoseTotalsRecord,
+    PriceRecord, ProvenanceRecord, RoundAnswer, VariantWord, VerdictWord, VerifyAnswer,
 };
 use ::files::design::DriveTable;
 use ::files::export::{ExportFormat, PartLine};
@@ -89,13 +89,13 @@ struct Poses {
 #[derive(Debug)]
 struct Results {
     design: Design,
-    /// The same with the reserve that the search kept.
-    held: Design,
     /// What became of the default reserve; `None` where the design states one.
     reserve: Option<DefaultReserve>,
     octahedral: Octahedral,
     family: Family,
     search: Search,
+    /// The answer of `optimize`.
+    answer: OptimizeAnswer,
     /// The platform on the holes that the design states; `None` where it states none, or no platform was found.
     holes: Option<Result<DesignOnHoles, NoRounding>>,
     /// What `assess` says of the platform found, on its holes where the design states them.
@@ -173,7 +173,7 @@ impl Results {
 
     /// The freedoms with which the requirements were met, as the end of a sentence; empty where there are none.
     fn what_resolves_it(&self) -> String {
-        let opened = self.search.answer().freedoms.into_iter().flatten();
+        let opened = self.answer.freedoms.iter().flatten();
         let resolved =
             opened.filter(|f| f.outcome == FreedomWord::Resolved).map(|f| format!("; {}", f.message));
         resolved.collect()
@@ -355,10 +355,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         interrupt: &interrupt,
     };
     let Careful { found, holes, reserve } = searched_carefully(&asked, careful.as_ref(), &mut progress)?;
-    let held = careful.as_ref().filter(|_| reserve == Some(DefaultReserve::Kept)).unwrap_or(&design).clone();
     let mut found = found.with_lengths_of(&design);
-    found.open_freedoms(&asked, &mut progress, &mut folder)?;
-    found.write(provenance.clone(), &mut folder)?;
+    let answer = found.answer(&asked, &mut progress, &mut folder)?;
+    folder.keep(folder::OPTIMIZE, document(&answer, provenance.clone(), &[])?);
     if let Some(new) = found.optimised() {
         folder.keep(folder::OPTIMISED, new.to_toml());
     }
@@ -388,8 +387,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         assessment = new
             .zip(on.assessed.as_ref())
             .map(|(d, a)| AssessAnswer::new(d, a).with_role(DesignRoleWord::OnHoles));
-        let answer = round_record(on, assessment.clone());
-        folder.keep(folder::ROUND, document(answer, context.provenance(), &[])?);
+        let rounding = round_record(on, assessment.clone());
+        folder.keep(folder::ROUND, document(rounding, context.provenance(), &[])?);
         if let Some(new) = new {
             folder.keep(folder::ROUNDED, new.to_toml());
             if let Some(found) = &assessment {
@@ -403,11 +402,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     progress.stage(5, "report");
     let results = Results {
         design,
-        held,
         reserve,
         octahedral,
         family,
         search: found,
+        answer,
         holes,
         assessment,
         machine: built,
@@ -607,7 +606,6 @@ fn fk_record(poses: &Poses) -> FkRunRecord {
 /// What `--json` writes to standard output.
 fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
     let c = r.family.counts();
-    let answer = r.search.answer();
     ExploreOctahedralAnswer {
         verdict: r.verdict(),
         explanation: r.explanation(),
@@ -615,14 +613,14 @@ fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
         name: r.design.name.clone(),
         paths: folder.paths().collect(),
         family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
-        optimize: r.search.key_figures(),
+        optimize: OptimizedRecord::new(&r.answer),
         price: r.price(),
         reserve: r.reserve.map(|r| DefaultReserveRecord::new(RESERVE_PERCENT, r == DefaultReserve::Kept)),
         verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
         holes: r.holes.as_ref().map(OnHolesRecord::from),
-        symmetry: answer.symmetry,
-        drive_search: answer.drive_search,
-        freedoms: answer.freedoms,
+        symmetry: r.answer.symmetry.clone(),
+        drive_search: r.answer.drive_search.clone(),
+        freedoms: r.answer.freedoms.clone(),
         fk: PoseTotalsRecord::new(r.poses.from, &r.poses.solutions),
     }
 }

@@ -213,7 +213,7 @@ fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
 /// What was chosen under the requirements.
 fn platform(out: &mut String, r: &Results, found: &FoundPlatform) {
     let _ = writeln!(out, "## The best platform under the requirements\n");
-    let answer = r.search.answer();
+    let answer = &r.answer;
     if let Some(s) = &answer.symmetry {
         let _ = writeln!(out, "{}.\n", sentence(&s.message));
     }
@@ -333,7 +333,7 @@ fn solution(out: &mut String, r: &Results, found: &FoundOffsets, s: &OffsetSolut
         );
     }
     let (c, m) = (&s.recheck, &s.recheck.margins);
-    let [distance, det] = offset_reserves(&r.held, &p.octahedral);
+    let [distance, det] = offset_reserves(&r.search.found.asked, &p.octahedral);
     let _ = writeln!(
         out,
         "\nWorst inverse condition number {:.9} (pose {} of {}); {}.\n\n| quantity | value | margin |\n|---|---|---|\n\

@@ -7,28 +7,23 @@ use crate::app::cli::commands::optimize;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
-use crate::app::cli::output::document;
 use crate::app::cli::progress::ProgressLine;
 use crate::app::entrance::optimizing::{EXTENSION, SearchKind, dimensional_problem};
 use crate::app::entrance::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
 use crate::app::entrance::{
     Checked, FoundOffsets, OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport,
 };
-use crate::app::records::{
-    AssessAnswer, DesignRoleWord, OptimizeAnswer, OptimizeFiles, OptimizedRecord, ProvenanceRecord,
-};
-use ::optimize::dimensional::{Progress, ShapeSearchOptions, Stage, Triangles};
+use crate::app::records::{AssessAnswer, DesignRoleWord, OptimizeAnswer, OptimizeFiles};
+use ::optimize::dimensional::{Progress, Stage, Triangles};
 use ::optimize::offsets::OffsetProgress;
-use fk::Threads;
 use machine::manufacture::NoRounding;
 use machine::requirements::StartSymmetry;
 use verify::Verdict;
 
-/// What was found, with the files of the platforms that freedoms led to.
+/// The report of the search, and what the stages of `explore` ask of it.
 #[derive(Debug)]
 pub(super) struct Search {
     pub(super) found: OptimizeReport,
-    files: OptimizeFiles,
 }
 
 /// A design whose answer is no single platform.
@@ -59,7 +54,7 @@ pub(super) fn refuse_options(design: &Design, with_drives: bool, context: &Conte
 /// Searches as `optimize` does; whether freedoms are opened is decided later.
 pub(super) fn search(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<Search, Failure> {
     let found = asked.design.optimize_with(options(asked, progress).freedoms(false));
-    Ok(Search { found: found.map_err(optimize::failed)?, files: OptimizeFiles::default() })
+    Ok(Search { found: found.map_err(optimize::failed)? })
 }
 
 fn options<'a>(asked: &'a Asked<'_>, progress: &'a mut ProgressLine) -> OptimizeOptions<'a> {
@@ -107,21 +102,22 @@ fn part(progress: &mut ProgressLine, p: &Progress) {
 }
 
 impl Search {
-    /// Where nothing was found: the searches with one more freedom each, their platforms written into the folder.
-    pub(super) fn open_freedoms(
+    /// The answer of `optimize`. Where nothing was found the search is made with one more freedom each, whose platforms are kept in the folder.
+    pub(super) fn answer(
         &mut self,
         asked: &Asked<'_>,
         progress: &mut ProgressLine,
         folder: &mut Folder,
-    ) -> Result<(), Failure> {
+    ) -> Result<OptimizeAnswer, Failure> {
         self.found.open_freedoms(&mut options(asked, progress)).map_err(optimize::failed)?;
+        let mut files = OptimizeFiles::default();
         for opened in self.found.freedoms.iter().flatten() {
             if let Some(design) = opened.design() {
                 let path = folder.keep(&optimize::opened_file(opened.freedom), design.to_toml());
-                self.files.freedoms.push((opened.freedom, path));
+                files.freedoms.push((opened.freedom, path));
             }
         }
-        Ok(())
+        Ok(OptimizeAnswer::new(&self.found, &files))
     }
 
     /// Whether the answer has a symmetry that the design has and does not ask for.
@@ -135,11 +131,6 @@ impl Search {
             found.symmetry = Some(StartSymmetry::GivenUp);
         }
         self
-    }
-
-    /// The answer of `optimize`.
-    pub(super) fn answer(&self) -> OptimizeAnswer {
-        OptimizeAnswer::new(&self.found, &self.files)
     }
 
     /// The platform found, with the leg lengths of the pose at which the design has its own.
@@ -191,12 +182,7 @@ impl Search {
             }
             OptimizeEvidence::Offsets(_) | OptimizeEvidence::Front(_) => None,
         };
-        let options = ShapeSearchOptions {
-            seed: asked.context.seed(),
-            threads: Threads::All.count(usize::MAX),
-            until: interrupt.until(),
-            ..ShapeSearchOptions::default()
-        };
+        let options = options(asked, progress).search();
         let found = on_stated_holes(wanted, &grids, first, &options, &mut |p| {
             part(progress, &p);
             interrupt.flow()
@@ -239,17 +225,5 @@ impl Search {
             }
             OptimizeEvidence::Front(_) => None,
         }
-    }
-
-    /// The key figures.
-    pub(super) fn key_figures(&self) -> Option<OptimizedRecord> {
-        OptimizedRecord::new(&self.answer())
-    }
-
-    /// Writes the answer of `optimize`.
-    pub(super) fn write(&self, provenance: ProvenanceRecord, folder: &mut Folder) -> Result<(), Failure> {
-        let text = document(self.answer(), provenance, &[])?;
-        folder.keep(super::folder::OPTIMIZE, text);
-        Ok(())
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn write(path: &Path, found: &OptimizeReport) -> Result<(), Failure> 
     files::write_text(path, &text)
 }
 
-/// What was optimised, and the steps of the run.
+/// The quantity that was optimised, and the steps of the run.
 fn steps(found: &OptimizeReport) -> Option<(&'static str, Vec<Row>)> {
     match &found.evidence {
         OptimizeEvidence::Offsets(f) => {
