@@ -114,10 +114,10 @@
 
 mod app;
 
+#[cfg(feature = "page")]
+pub use ::records;
 #[cfg(feature = "cli")]
 pub use app::cli;
-#[cfg(feature = "page")]
-pub use app::records;
 pub use nalgebra;
 pub use num_complex;
 
@@ -127,7 +127,7 @@ pub use prelude::*;
 /// Everything on the front page, for `use equipod::prelude::*`.
 pub mod prelude {
     #[doc(inline)]
-    pub use crate::app::entrance::{Batch, Error, Kinematics, Solver, Tracker};
+    pub use ::ask::{Batch, Error, Kinematics, Solver, Tracker};
     #[doc(inline)]
     pub use ::fk::{
         Completeness, FkOptions, FkRoot, FkSolutions, Method, NearOutcome, PoseCounting, Reality,
@@ -147,15 +147,13 @@ pub mod prelude {
 
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use crate::app::entrance::{
-        AssessReport, CheckReport, SingularHome, VerifyOptions, leg_map, verify, verify_with,
-    };
+    pub use ::ask::equivalents::Equivalents;
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use crate::app::equivalents::Equivalents;
+    pub use ::ask::{AssessReport, CheckReport, SingularHome, VerifyOptions, leg_map, verify, verify_with};
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use crate::app::{Design, presets::PRESETS};
+    pub use ::ask::{Design, presets::PRESETS};
     #[cfg(feature = "files")]
     #[doc(inline)]
     pub use ::files::design::{Format, Violation, Warning};
@@ -171,7 +169,7 @@ pub mod prelude {
 
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[doc(inline)]
-    pub use crate::app::entrance::{
+    pub use ::ask::{
         Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, EasedDemand,
         FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, OpenedFreedom, OptimizeEvidence,
         OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, SearchedDrive,
@@ -189,7 +187,7 @@ pub mod methods {
     /// Problems drawn from a class, solved, validated with arithmetic of their own, counted and timed.
     #[cfg(feature = "lab")]
     pub mod bench {
-        pub use crate::app::bench::*;
+        pub use ::ask::bench::*;
     }
     /// Joint centres and leg offsets of a machine from measured poses and lengths.
     #[cfg(feature = "synthesis")]
@@ -199,9 +197,9 @@ pub mod methods {
     /// Design files: text in, values out, and back to text.
     #[cfg(feature = "files")]
     pub mod design {
-        pub use crate::app::Design;
-        pub use crate::app::design::{parse, parse_ideal, parse_with_cranks};
-        pub use crate::app::presets::{PRESETS, Preset, PresetClass};
+        pub use ::ask::Design;
+        pub use ::ask::design::{parse, parse_ideal, parse_with_cranks};
+        pub use ::ask::presets::{PRESETS, Preset, PresetClass};
         pub use ::files::design::*;
     }
     /// The best platform that meets its requirements: offsets, triangles, height, joint axes.

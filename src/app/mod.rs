@@ -8,29 +8,9 @@
 //!
 //! A door reads its arguments, asks one question of `entrance`, and shows the record of the answer as text, JSON, HTML or arrays.
 
-#[cfg(feature = "lab")]
-pub(crate) mod bench;
-#[cfg(feature = "capi")]
-mod capi;
 #[cfg(feature = "cli")]
 pub mod cli;
-#[cfg(feature = "files")]
-pub(crate) mod design;
-pub(crate) mod entrance;
-#[cfg(feature = "files")]
-pub(crate) mod equivalents;
 #[cfg(feature = "page")]
 pub(crate) mod page;
-#[cfg(feature = "files")]
-pub(crate) mod presets;
-#[cfg(feature = "python")]
-mod python;
-#[cfg(feature = "page")]
-pub mod records;
 #[cfg(feature = "page")]
 pub(crate) mod report;
-#[cfg(feature = "sweep")]
-pub(crate) mod sweep;
-
-#[cfg(feature = "files")]
-pub use design::Design;

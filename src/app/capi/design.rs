@@ -6,9 +6,9 @@ use nalgebra::Point3;
 
 use super::failure::{CallFault, EqpError, EqpStatus, give, items, places, read, take_back, told, write};
 use super::pose::EqpPose;
-use crate::app::Design;
-use crate::app::design::parse;
-use crate::app::entrance::Error;
+use ask::Design;
+use ask::Error;
+use ask::design::parse;
 use files::design::Format;
 use machine::requirements::Requirements;
 use platform::manipulator::{Leg, Manipulator, jacobian};

@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::app::entrance::Error;
+use ask::Error;
 use files::design::Code;
 
 /// What became of a call.

@@ -3,7 +3,7 @@
 use super::design::EqpDesign;
 use super::failure::{CallFault, EqpError, EqpStatus, read, told, write};
 use super::pose::EqpPose;
-use crate::app::entrance::Error;
+use ask::Error;
 use machine::reach::{NearestPoseOptions, Reach, Travel};
 use platform::geom::Pose;
 

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Matrix4};
 
 use super::failure::{CallFault, EqpError, EqpStatus, read, told, write};
-use crate::app::entrance::Error;
+use ask::Error;
 use platform::geom::{Angles, Pose};
 
 /// A pose: a platform point `x` is at `R x + p` in the base frame.

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use super::design::EqpDesign;
 use super::failure::{CallFault, EqpError, EqpStatus, give, items, places, read, take_back, told, write};
-use crate::app::entrance::Solver;
+use ask::Solver;
 use fk::{Completeness, FkOptions, FkRoot, FkSolutions, Reality, Threads};
 
 /// A design prepared for many lengths. It does not change: threads may share it.

@@ -3,7 +3,7 @@
 use super::design::EqpDesign;
 use super::failure::{EqpError, EqpStatus, give, read, take_back, told, write};
 use super::pose::EqpPose;
-use crate::app::entrance::Tracker;
+use ask::Tracker;
 use fk::NearOutcome;
 
 /// Follows the pose of a machine. It belongs to one thread at a time; a step takes a few microseconds and allocates nothing.

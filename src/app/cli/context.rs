@@ -10,12 +10,12 @@ use super::diagnostic;
 use super::failure::Failure;
 use super::files;
 use super::rows;
-use crate::app::Design;
-use crate::app::design::{DesignOrViolations, parse, parse_ideal, parse_with_cranks};
-use crate::app::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 use ::files::design::{Format, Warning};
+use ask::Design;
+use ask::design::{DesignOrViolations, parse, parse_ideal, parse_with_cranks};
 use machine::coupled::CoupledLegs;
 use machine::rotary::RotaryPlatform;
+use records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 
 /// Options every command takes, before or after its name.
 #[derive(Debug, clap::Args)]

@@ -130,7 +130,7 @@ pub(crate) fn harmless(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::design::parse;
+    use ask::design::parse;
     use files::design::Format;
 
     #[test]

@@ -1,8 +1,8 @@
 //! Why a command has no answer.
 
 use super::exit::Exit;
-use crate::app::records::{FailureRecord, ViolationRecord};
 use files::design::Violation;
+use records::{FailureRecord, ViolationRecord};
 
 /// A refusal or failure: what `"error"` holds in JSON and standard error shows.
 #[derive(Debug, Clone)]

@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use crate::app::Design;
+use ask::Design;
 use files::plot::SliceAxis;
 use platform::geom::Pose;
 

@@ -11,7 +11,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::files;
 use super::streams;
-use crate::app::records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord};
+use records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord};
 
 /// What a command found: the record that `--json` prints, and the text that people read without it.
 #[derive(Debug)]

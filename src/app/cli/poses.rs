@@ -1,7 +1,7 @@
 //! Poses from the command line.
 
 use super::failure::Failure;
-use crate::app::Design;
+use ask::Design;
 use files::design::Workspace;
 use machine::requirements::PoseSpace;
 use platform::geom::{InvalidPose, Pose};

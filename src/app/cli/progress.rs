@@ -5,7 +5,7 @@ use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
 use super::streams::{self, Errors, Stop};
-use crate::app::entrance::optimizing::ends_of;
+use ask::optimizing::ends_of;
 
 /// On a terminal one line that changes; elsewhere a line every ten seconds, so that short runs write none.
 #[derive(Debug)]

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::exit::Exit;
-use crate::app::records::{AssessAnswer, MarginRecord, PoseQuaternionRecord, RegularityWord};
 use machine::requirements::MarginVerdict;
+use records::{AssessAnswer, MarginRecord, PoseQuaternionRecord, RegularityWord};
 
 /// Width of a column of numbers in the table.
 const COLUMN: usize = 14;

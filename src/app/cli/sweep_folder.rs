@@ -15,15 +15,15 @@ use super::context::{Context, format_of};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::files::{self, OutputPath};
-use crate::app::entrance::whole::{WholeFile, part_of};
-use crate::app::records::{
+use ::files::design::{Format, Violation};
+use ask::whole::{WholeFile, part_of};
+use records::{
     DamagedPartRecord, SCHEMA_VERSION, SweepFolderRecord, SweepManifestRecord, SweepStatusAnswer,
     SweepTextRecord, sha256,
 };
-use crate::app::sweep::part::{PartError, PartReader, PartWriter};
-use crate::app::sweep::plan::{self, BaseName, BasePlan, PlanFiles, PlanText};
-use crate::app::sweep::{Digested, RowChunk, Sweep, SweepCell, digest_of};
-use ::files::design::{Format, Violation};
+use sweep::part::{PartError, PartReader, PartWriter};
+use sweep::plan::{self, BaseName, BasePlan, PlanFiles, PlanText};
+use sweep::{Digested, RowChunk, Sweep, SweepCell, digest_of};
 
 /// The file that says what the folder is of.
 const SWEEP: &str = "sweep.json";

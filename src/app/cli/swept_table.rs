@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::sweep_folder::{PartLook, ShardState, SweepFolder, open_table};
-use crate::app::sweep::part::PartReader;
-use crate::app::sweep::plan::KeepCondition;
-use crate::app::sweep::{SweepCell, SweepColumn};
+use sweep::part::PartReader;
+use sweep::plan::KeepCondition;
+use sweep::{SweepCell, SweepColumn};
 
 /// `--better`: which values of a column are the better ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]

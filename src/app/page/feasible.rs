@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::plane::square;
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
-use crate::app::Design;
+use ask::Design;
 use machine::requirements::{AssessOptions, Requirements, Terms, ViolationSearch};
 use platform::geom::Pose;
 

@@ -7,9 +7,9 @@ use sha2::{Digest, Sha256};
 
 use super::request::{Chosen, Opening, Request, Which};
 use super::session::Session;
-use crate::app::records::PoseRecord;
 use files::plot::escape;
 use platform::geom::Pose;
+use records::PoseRecord;
 
 /// The core compiled to WebAssembly, compressed by gzip; `tests/page/README.md` says how it is made and compared with its sources.
 #[cfg(not(target_arch = "wasm32"))]

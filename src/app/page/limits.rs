@@ -1,10 +1,10 @@
 //! What a platform has to satisfy over its whole workspace: the answer of `assess`.
 
 use super::request::Refusal;
-use crate::app::Design;
-use crate::app::entrance::Error;
-use crate::app::records::AssessAnswer;
+use ask::Design;
+use ask::Error;
 use machine::requirements::AssessOptions;
+use records::AssessAnswer;
 
 /// What [`Design::assess`] finds with these numbers; a design that requires nothing is refused as there.
 pub(super) fn record(

@@ -5,8 +5,6 @@
 //! Text in, text out: nothing here reads or writes files.
 
 mod begin;
-#[cfg(all(target_arch = "wasm32", feature = "page-core"))]
-mod exports;
 mod feasible;
 mod html;
 #[cfg(not(target_arch = "wasm32"))]

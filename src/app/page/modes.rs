@@ -5,12 +5,12 @@ use serde::Serialize;
 use super::request::Refusal;
 use super::scene::sign;
 use super::session::Session;
-use crate::app::Design;
-use crate::app::records::PoseRecord;
+use ask::Design;
 use fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
 use machine::rotary::RotaryPlatform;
 use platform::geom::{ComplexPose, Pose, turn_between};
 use platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
+use records::PoseRecord;
 use verify::match_poses;
 
 /// All poses of two platforms.

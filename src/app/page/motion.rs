@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::request::Refusal;
-use crate::app::records::PoseRecord;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
+use records::PoseRecord;
 use synthesis::singularity::{CurveEnd, MotionCurve, MotionOptions, self_motion};
 
 /// Most poses of an animation.

@@ -4,11 +4,11 @@ use serde::Serialize;
 
 use super::request::Chosen;
 use super::session::{Equivalent, Session};
-use crate::app::Design;
-use crate::app::equivalents::Original;
-use crate::app::records::PoseRecord;
+use ask::Design;
+use ask::equivalents::Original;
 use machine::requirements::Hardware;
 use platform::manipulator::Body;
+use records::PoseRecord;
 use synthesis::singularity::SingularityVerdict;
 use synthesis::{Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body};
 

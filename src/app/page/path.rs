@@ -5,8 +5,8 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 
 use super::session::Session;
-use crate::app::records::PoseRecord;
 use platform::geom::Pose;
+use records::PoseRecord;
 
 /// Steps between two poses of a trajectory.
 const STEPS: usize = 24;

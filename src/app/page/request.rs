@@ -5,11 +5,11 @@ use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
 use super::{begin, feasible, limits, modes, motion, opening, path, plane, scene, surface, worst};
-use crate::app::design::parse_ideal;
-use crate::app::records::PoseRecord;
+use ask::design::parse_ideal;
 use files::design::Format;
 use machine::requirements::AssessOptions;
 use platform::geom::{Angles, Pose};
+use records::PoseRecord;
 use synthesis::Pattern;
 
 /// Which platform of the page.
@@ -227,7 +227,7 @@ impl Session {
         }
     }
 
-    fn platform(&self, which: Which, equivalent: Option<Equivalent>) -> Result<crate::app::Design, Refusal> {
+    fn platform(&self, which: Which, equivalent: Option<Equivalent>) -> Result<ask::Design, Refusal> {
         match (which, equivalent) {
             (Which::First, _) => Ok(self.first().clone()),
             (Which::Second, Some(e)) => Ok(self.second(&e)?.0),

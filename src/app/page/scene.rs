@@ -7,12 +7,12 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
-use crate::app::Design;
-use crate::app::records::{CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
+use ask::Design;
 use machine::requirements::{Margin, Term, TermKind, Terms};
 use machine::rotary::RotaryPlatform;
 use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
+use records::{CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
 use synthesis::AffineLegMap;
 
 /// Below this a singular value is not told from zero.

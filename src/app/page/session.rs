@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 
-use crate::app::Design;
-use crate::app::equivalents::Original;
+use ask::Design;
+use ask::equivalents::Original;
 use machine::rotary::RotaryPlatform;
 use optimize::offsets::OffsetProblem;
 use platform::geom::Pose;

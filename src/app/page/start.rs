@@ -1,7 +1,7 @@
 //! The offsets a page begins with when nothing else is asked.
 
 use super::session::{InvalidStart, Session};
-use crate::app::equivalents::Original;
+use ask::equivalents::Original;
 use machine::requirements::{Requirements, Standing, Terms};
 use platform::manipulator::{Body, inverse_condition, jacobian};
 use synthesis::{Offset, Pattern, sliding_body};

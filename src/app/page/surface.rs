@@ -7,7 +7,7 @@ use super::opening::reach;
 use super::request::Refusal;
 use super::scene::sign;
 use super::session::Equivalent;
-use crate::app::Design;
+use ask::Design;
 use files::plot::{TriangleSurface, ValueBox};
 use platform::geom::Pose;
 use platform::manipulator::jacobian;

@@ -3,13 +3,13 @@
 use serde_json::{Value, json};
 
 use super::{Session, page};
-use crate::app::Design;
-use crate::app::design::parse;
-use crate::app::presets::PRESETS;
-use crate::app::records::AssessAnswer;
+use ask::Design;
+use ask::design::parse;
+use ask::presets::PRESETS;
 use files::design::Format;
 use machine::requirements::{AssessOptions, assess};
 use platform::geom::{Angles, Pose};
+use records::AssessAnswer;
 use synthesis::{LegMapTolerances, leg_map};
 
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
@@ -478,7 +478,7 @@ fn det_a_vanishes_on_the_surface_over_three_offsets_and_changes_its_sign_across_
 fn the_surface_of_singular_positions_is_where_the_sign_of_det_j_changes() {
     let session = session(OCTAHEDRAL);
     let home = session.design().home_or_default();
-    let request = |pose: &Pose| json!({"op": "locus", "pose": crate::app::records::PoseRecord::from(pose), "which": "first", "points": 13});
+    let request = |pose: &Pose| json!({"op": "locus", "pose": records::PoseRecord::from(pose), "which": "first", "points": 13});
     let (m, l) = (session.design().manipulator(), session.design().characteristic_length());
     let mut seen = 0;
     for yaw in [0.0, 40.0, 70.0, 85.0] {
@@ -515,7 +515,7 @@ fn the_surface_of_singular_positions_is_where_the_sign_of_det_j_changes() {
 
 #[test]
 fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths() {
-    let preset = crate::app::presets::PRESETS.iter().find(|p| p.name == "reachy-mini").unwrap();
+    let preset = ask::presets::PRESETS.iter().find(|p| p.name == "reachy-mini").unwrap();
     let session = Session::open(&json!({"design": preset.text, "start": null}).to_string()).unwrap();
     let open = ask(&session, &json!({"op": "open"}));
     assert_eq!(

@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
-use crate::app::Design;
-use crate::app::records::PoseRecord;
+use ask::Design;
 use platform::geom::Pose;
 use platform::manipulator::{Manipulator, inverse_condition, jacobian};
+use records::PoseRecord;
 
 /// The worst conditioning of the platforms.
 #[derive(Debug, Serialize)]

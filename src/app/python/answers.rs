@@ -9,10 +9,10 @@ use serde::Serialize;
 
 use super::design::{NativeDesign, OF_LEG_MAPS, threads_of};
 use super::failure::{interrupted, raised};
-use crate::app::Design;
-use crate::app::entrance::{self, VerifyOptions, sample_plan};
-use crate::app::presets::PRESETS;
-use crate::app::records::{Document, FramesRecord, MapAnswer, ProvenanceRecord, VerifyAnswer};
+use ask::Design;
+use ask::presets::PRESETS;
+use ask::{VerifyOptions, sample_plan};
+use records::{Document, FramesRecord, MapAnswer, ProvenanceRecord, VerifyAnswer};
 use synthesis::LegCorrespondence;
 
 /// The document of an answer about designs, as the command line prints it.
@@ -37,7 +37,7 @@ pub(super) fn leg_map<'py>(
 ) -> PyResult<(Option<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)>, String)> {
     [from_, to].into_iter().try_for_each(|design| design.only_of_legs(py, OF_LEG_MAPS))?;
     let (a, b) = (from_.inner(), to.inner());
-    let found = py.detach(|| entrance::leg_map(a, b)).map_err(|e| raised(py, e))?;
+    let found = py.detach(|| ask::leg_map(a, b)).map_err(|e| raised(py, e))?;
     let map = found.map().map(|map| {
         let a = ndarray::Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]);
         let c = ndarray::Array1::from_iter(map.c.iter().copied());
@@ -65,7 +65,7 @@ pub(super) fn verify(
     let found = py.detach(|| {
         let look = |_: &_| if interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
         let options = VerifyOptions::new().samples(samples).seed(seed).threads(threads).on_sample(look);
-        entrance::verify_with(a, b, options)
+        ask::verify_with(a, b, options)
     });
     let found = found.map_err(|e| raised(py, e))?;
     let answer = VerifyAnswer::new(&found, &sample_plan(a, samples, seed), FramesRecord::default());

@@ -8,7 +8,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use super::failure::{raised, refused};
-use crate::app::entrance::Error;
+use ask::Error;
 use platform::geom::{ComplexPose, InvalidPose, Pose};
 
 /// Why a computation at many poses ended: the matrix of one of them, or what was computed of it.

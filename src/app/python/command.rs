@@ -9,7 +9,7 @@ use std::time::Duration;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
-use crate::app::cli::{self, Stop};
+use equipod::cli::{self, Stop};
 
 /// How often the calling thread looks for signals.
 const SIGNALS: Duration = Duration::from_millis(50);

@@ -13,17 +13,17 @@ use super::arrays::{as_it_stands, at_poses, lengths_in, matrices, pose_entries, 
 use super::failure::{interrupted, interruptible, raised, refused, refused_for_cranks};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};
 use super::tracker::{Followed, NativeTracker};
-use crate::app::Design;
-use crate::app::design::parse_ideal;
-use crate::app::entrance::{Error, Solver, solve_angles};
-use crate::app::presets::PRESETS;
-use crate::app::records::{AssessAnswer, CheckAnswer};
+use ask::Design;
+use ask::design::parse_ideal;
+use ask::presets::PRESETS;
+use ask::{Error, Solver, solve_angles};
 use files::design::Format;
 use fk::{FkOptions, Method, Threads};
 use machine::requirements::{AssessOptions, Terms};
 use machine::rotary::{InvalidRotary, RotaryPlatform, RotaryTracker};
 use num::Cancel;
 use platform::manipulator::{Body, Manipulator, NoSuchBody, jacobian_of_legs};
+use records::{AssessAnswer, CheckAnswer};
 use synthesis::InstantiateError;
 use synthesis::singularity::SingularityVerdict;
 

@@ -8,7 +8,7 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::app::entrance::Error;
+use ask::Error;
 use files::design::Code;
 
 /// What is wrong with one place of a design.

@@ -11,11 +11,11 @@ use pyo3::prelude::*;
 use super::answers::document;
 use super::arrays::complex_matrices;
 use super::failure::raised;
-use crate::app::Design;
-use crate::app::entrance::Error;
-use crate::app::records::{FkOneAnswer, SolvedRecord};
+use ask::Design;
+use ask::Error;
 use fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
 use machine::rotary::RotaryPlatform;
+use records::{FkOneAnswer, SolvedRecord};
 
 /// 1 for a real pose, 0 for one that is not, -1 where it is not decided.
 fn reality(root: &FkRoot) -> i8 {

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use super::arrays::{as_it_stands, lengths_in, matrices};
 use super::failure::{interrupted, raised};
-use crate::app::entrance::{self, Error};
+use ask::Error;
 use fk::NearOutcome;
 use machine::rotary::RotaryTracker;
 use platform::geom::Pose;
@@ -23,7 +23,7 @@ pub(super) struct NativeTracker(pub(super) Followed);
 #[derive(Clone)]
 pub(super) enum Followed {
     /// Six lengths.
-    Legs(Box<entrance::Tracker>),
+    Legs(Box<ask::Tracker>),
     /// Six angles, radians.
     Cranks(Box<RotaryTracker>),
 }

@@ -7,7 +7,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::Number;
-use crate::app::bench::{
+use ask::bench::{
     BenchReport, Class, ErrorStatistics, LengthsFrom, NoiseLevel, Plan, ReferenceTimes, Spread, TimeSplit,
     WrongAnswer, problem,
 };

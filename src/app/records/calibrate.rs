@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord, PoseRecord};
-use crate::app::Design;
-use crate::app::entrance::calibrating::{carried, unknown_names};
+use ask::Design;
+use ask::calibrating::{carried, unknown_names};
 use machine::calibration::{
     Calibration, CalibrationStatus, CarriedFrames, FrameMotion, LegModel, Loss, LossUnit, MeasurementNoise,
     NoiseSource, Observability, Outlier, PoseDeviation, ResidualSpread, StartName, UnobservableChange,
@@ -450,7 +450,7 @@ pub struct NextPoseRecord {
 impl CalibrationRecord {
     /// What was found from measurements on these lines, carried to the frames of the design where `frames` say how.
     #[must_use]
-    pub(crate) fn new(
+    pub fn new(
         design: &Design,
         found: &Calibration,
         (loss, of): (Loss, LossUnit),

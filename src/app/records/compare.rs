@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::nearest::short;
 use super::{AssessAnswer, JudgedPosesRecord, LightestDriveRecord, Number};
-use crate::app::Design;
-use crate::app::entrance::DesignFigures;
+use ask::Design;
+use ask::DesignFigures;
 use files::design::JudgedForces;
 
 /// The answer of `compare`.
@@ -120,12 +120,7 @@ pub struct CrankFiguresRecord {
 impl FiguresRecord {
     /// The figures of a design.
     #[must_use]
-    pub(crate) fn new(
-        design: &Design,
-        path: String,
-        found: &DesignFigures,
-        characteristic_length: f64,
-    ) -> Self {
+    pub fn new(design: &Design, path: String, found: &DesignFigures, characteristic_length: f64) -> Self {
         let number = |x: Option<f64>| x.map(Number);
         let [shortest, longest] = found.lengths;
         let turns = found.cranks.is_some();
@@ -181,18 +176,18 @@ impl FiguresRecord {
 
 /// A column of the table: a figure of every design.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct FigureColumn {
+pub struct FigureColumn {
     /// What it is.
-    pub(crate) title: String,
+    pub title: String,
     /// Its unit; empty for numbers without one.
-    pub(crate) unit: String,
+    pub unit: String,
     /// By design; `None` where a design has none.
-    pub(crate) cells: Vec<Option<FigureCell>>,
+    pub cells: Vec<Option<FigureCell>>,
 }
 
 /// A cell of the table.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum FigureCell {
+pub enum FigureCell {
     /// A number; `true`: it violates a limit.
     Number(f64, bool),
     /// A word.
@@ -201,7 +196,7 @@ pub(crate) enum FigureCell {
 
 impl CompareAnswer {
     /// The table: a column for every figure that some design has.
-    pub(crate) fn columns(&self) -> Vec<FigureColumn> {
+    pub fn columns(&self) -> Vec<FigureColumn> {
         let (length, force) = (self.length_unit.as_str(), self.force_unit.as_str());
         let speed = format!("{length}/s");
         let stiffness = format!("{force}/{length}");
@@ -263,7 +258,7 @@ impl CompareAnswer {
     }
 
     /// A sentence for every design: its verdict with the poses judged.
-    pub(crate) fn verdicts(&self) -> Vec<String> {
+    pub fn verdicts(&self) -> Vec<String> {
         let sentence = |d: &FiguresRecord| match &d.assessment {
             Some(a) => format!("{} {}", d.name, a.explanation),
             None if d.judged.stated => format!("{} requires nothing", d.name),
@@ -273,7 +268,7 @@ impl CompareAnswer {
     }
 
     /// The length by which every conditioning is computed, in a sentence.
-    pub(crate) fn yardstick(&self) -> String {
+    pub fn yardstick(&self) -> String {
         let (length, unit) = (short(self.characteristic_length), &self.length_unit);
         format!(
             "Every conditioning is by one characteristic length, {length} {unit}, that of the first design."
@@ -281,7 +276,7 @@ impl CompareAnswer {
     }
 
     /// The assumptions about masses, a line for each sentence, with the names of the designs where it does not hold for all.
-    pub(crate) fn assumptions(&self) -> Vec<String> {
+    pub fn assumptions(&self) -> Vec<String> {
         let mut sentences: Vec<&String> = Vec::new();
         for sentence in self.designs.iter().flat_map(|d| &d.assumptions) {
             if !sentences.contains(&sentence) {

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::app::Design;
+use ask::Design;
 use files::design::SCHEMA;
 
 /// A design as it stands in a design file in JSON.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{AssessAnswer, DesignRecord, MotionRunRecord, Number};
-use crate::app::entrance::driving::{DriveFit, LightestDrive};
+use ask::driving::{DriveFit, LightestDrive};
 
 /// The answer of `build drives`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -69,7 +69,7 @@ pub struct DriveRecord {
 impl DriveRecord {
     /// What was found of a drive; `motions` are the names of the motions.
     #[must_use]
-    pub(crate) fn new(fit: &DriveFit, motions: &[String]) -> Self {
+    pub fn new(fit: &DriveFit, motions: &[String]) -> Self {
         let (drive, design) = (&fit.drive, &fit.design);
         let (least, greatest) = drive.lengths.range();
         let along = motions.iter().zip(&fit.motions);
@@ -110,7 +110,7 @@ pub struct LightestDriveRecord {
 impl LightestDriveRecord {
     /// What was found.
     #[must_use]
-    pub(crate) fn new(found: &LightestDrive<'_>, mass_unit: &str) -> Self {
+    pub fn new(found: &LightestDrive<'_>, mass_unit: &str) -> Self {
         let undecided: Vec<String> = found.undecided.iter().map(|d| d.name.clone()).collect();
         let message = match (found.drive, found.rest) {
             (_, Some(false)) => {

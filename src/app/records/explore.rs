@@ -8,8 +8,8 @@ use super::{
     OptimalityWord, OptimizeAnswer, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord, VariableRecord,
     VariantWord, VerdictWord,
 };
-use crate::app::entrance::rounding::{DesignOnHoles, RoundingWay};
-use crate::app::entrance::{OptimizeStatus, Separation};
+use ask::rounding::{DesignOnHoles, RoundingWay};
+use ask::{OptimizeStatus, Separation};
 use fk::FkSolutions;
 use machine::manufacture::{NoRounding, RoundedJoint};
 use verify::Verification;
@@ -215,7 +215,7 @@ pub struct PriceRecord {
 impl PriceRecord {
     /// Of figures in a unit of length.
     #[must_use]
-    pub(crate) fn new(s: &Separation, unit: &str) -> Self {
+    pub fn new(s: &Separation, unit: &str) -> Self {
         let pair = |[a, b]: [f64; 2]| format!("{} -> {}", digits(a), digits(b));
         let times = |[a, b]: [f64; 2]| digits(b / a);
         let [base, platform] = s.radius;

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::map::matrix;
 use super::{Number, leg_number};
-use crate::app::Design;
-use crate::app::equivalents::Original;
+use ask::Design;
+use ask::equivalents::Original;
 use platform::manipulator::Body;
 use synthesis::{
     AffineLegMap, Family, FamilyCounts, FamilyMember, HexagonPoint, InstantiateError, JointLabel, Pattern,
@@ -36,7 +36,7 @@ pub struct FamilyAnswer {
 impl FamilyAnswer {
     /// The answer about a design that is made from this octahedral platform or is it, with these members of its class.
     #[must_use]
-    pub(crate) fn new(name: &str, original: &Original, family: &Family, members: &[&FamilyMember]) -> Self {
+    pub fn new(name: &str, original: &Original, family: &Family, members: &[&FamilyMember]) -> Self {
         let o = &original.octahedral;
         Self {
             name: name.into(),

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     DriveLengthsRecord, Number, PoseRecord, PoseUncertaintyRecord, RotaryIkRecord, RotaryIkRowsAnswer,
 };
-use crate::app::Design;
+use ask::Design;
 use machine::coupled::{CoupledLegs, DriveState};
 use machine::manufacture::MachineUncertainty;
 use machine::requirements::{JointAngles, TermKind, Terms};
@@ -124,7 +124,7 @@ impl JointAnglesRecord {
 impl IkRecord {
     /// What is known at a pose with these distances of joints; `terms` are the requirements of the design.
     #[must_use]
-    pub(crate) fn new(design: &Design, terms: &Terms<'_>, pose: &Pose, distances: [f64; 6]) -> Self {
+    pub fn new(design: &Design, terms: &Terms<'_>, pose: &Pose, distances: [f64; 6]) -> Self {
         let m = design.manipulator();
         let limits = design.hardware.leg_length.map(|limits| limits.range());
         let outside: Vec<usize> = match limits {
@@ -158,19 +158,14 @@ impl IkRecord {
 
     /// With the covariance of the pose that the calibrated machine computes here.
     #[must_use]
-    pub(crate) fn with_uncertainty(
-        mut self,
-        design: &Design,
-        known: &MachineUncertainty,
-        pose: &Pose,
-    ) -> Self {
+    pub fn with_uncertainty(mut self, design: &Design, known: &MachineUncertainty, pose: &Pose) -> Self {
         self.uncertainty = PoseUncertaintyRecord::at(design, known, pose);
         self
     }
 
     /// The same where joints are not ideal, with the legs at the pose.
     #[must_use]
-    pub(crate) fn with_drives(
+    pub fn with_drives(
         mut self,
         design: &Design,
         terms: &Terms<'_>,

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord};
-use crate::app::Design;
-use crate::app::entrance::{FreeSize, FreeTurn, WorkspaceSize};
+use ask::Design;
+use ask::{FreeSize, FreeTurn, WorkspaceSize};
 use machine::reach::{FreeRange, NearestPose, PoseAxis, Reach, StraightWay, Travel};
 use machine::requirements::{Limit, TermKind};
 use platform::geom::Pose;
@@ -111,7 +111,7 @@ pub struct RequiredSizeRecord {
 impl WorkspaceSizeRecord {
     /// The record of what was found.
     #[must_use]
-    pub(crate) fn new(design: &Design, found: &WorkspaceSize) -> Self {
+    pub fn new(design: &Design, found: &WorkspaceSize) -> Self {
         let limit = |l: &(Limit, f64)| LimitRecord::new(design, l.0, l.1);
         let size = |s: &FreeSize| FreeSizeRecord {
             proved: s.proved,
@@ -243,7 +243,7 @@ pub struct NearestAllowedRecord {
 impl LimitRecord {
     /// A limit with its margin.
     #[must_use]
-    pub(crate) fn new(design: &Design, limit: Limit, margin: f64) -> Self {
+    pub fn new(design: &Design, limit: Limit, margin: f64) -> Self {
         match limit {
             Limit::Term(term) => Self {
                 name: Some(term.kind),
@@ -275,7 +275,7 @@ impl LimitRecord {
 impl FreeRangeRecord {
     /// What was found of an axis from a pose.
     #[must_use]
-    pub(crate) fn new(design: &Design, reach: &Reach<'_>, pose: &Pose, found: &FreeRange) -> Self {
+    pub fn new(design: &Design, reach: &Reach<'_>, pose: &Pose, found: &FreeRange) -> Self {
         let angles = pose.angles().degrees();
         let p = &pose.position;
         let value = match found.axis {
@@ -304,7 +304,7 @@ impl FreeRangeRecord {
 impl StraightWayRecord {
     /// What was found of the straight way between two poses.
     #[must_use]
-    pub(crate) fn new(design: &Design, reach: &Reach<'_>, from: &Pose, to: &Pose) -> Self {
+    pub fn new(design: &Design, reach: &Reach<'_>, from: &Pose, to: &Pose) -> Self {
         let found = reach.along(&StraightWay::between(from, to), 1.0);
         Self {
             to: to.into(),
@@ -318,7 +318,7 @@ impl StraightWayRecord {
 impl NearestAllowedRecord {
     /// What was found near a pose.
     #[must_use]
-    pub(crate) fn new(design: &Design, reach: &Reach<'_>, found: &NearestPose) -> Self {
+    pub fn new(design: &Design, reach: &Reach<'_>, found: &NearestPose) -> Self {
         let limit = |l: &Limit| LimitRecord::at(design, reach, *l, &found.pose);
         Self {
             pose: (&found.pose).into(),

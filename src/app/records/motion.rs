@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{MarginRecord, Number, PoseQuaternionRecord};
-use crate::app::Design;
-use crate::app::entrance::{MotionReport, StiffnessReport, TimedMargin};
+use ask::Design;
+use ask::{MotionReport, StiffnessReport, TimedMargin};
 use machine::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vibration};
 use synthesis::singularity::SingularEvidence;
 
@@ -58,7 +58,7 @@ pub struct NaturalMotionRecord {
 impl StiffnessRecord {
     /// What was found at a pose.
     #[must_use]
-    pub(crate) fn new(found: &StiffnessReport) -> Self {
+    pub fn new(found: &StiffnessReport) -> Self {
         let natural = found.natural.as_ref().map(|all| {
             let record = |v: &Vibration| NaturalMotionRecord {
                 frequency_hz: Number(v.frequency),
@@ -158,7 +158,7 @@ impl From<SingularEvidence> for SingularEvidenceWord {
 impl MotionRunRecord {
     /// What was found along a motion.
     #[must_use]
-    pub(crate) fn new(design: &Design, motion: String, found: &MotionReport) -> Self {
+    pub fn new(design: &Design, motion: String, found: &MotionReport) -> Self {
         let requirements: Vec<_> =
             found.margins.iter().map(|margin| TimedMarginRecord::new(design, margin)).collect();
         let ends = found.instants.first().zip(found.instants.last());

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{DesignRecord, Number, PoseQuaternionRecord, SourceWord};
-use crate::app::Design;
-use crate::app::equivalents::NearestDesigns;
+use ask::Design;
+use ask::equivalents::NearestDesigns;
 use platform::geom::Pose;
 use synthesis::{LengthDeviation, NearestOptions, length_deviation};
 
@@ -91,7 +91,7 @@ impl NearestRecord {
 impl NearestAnswer {
     /// What was found for a design.
     #[must_use]
-    pub(crate) fn new(design: &Design, options: &NearestOptions, near: Option<&NearestDesigns>) -> Self {
+    pub fn new(design: &Design, options: &NearestOptions, near: Option<&NearestDesigns>) -> Self {
         let poses = design.workspace_or_default().sample(&design.home_or_default());
         let nearest = near.and_then(|near| {
             let (own, beside) = (design.manipulator().legs(), near.beside.manipulator().legs());

@@ -57,7 +57,7 @@ pub struct PoseQuaternionRecord {
 
 impl PoseQuaternionRecord {
     /// `x,y,z,qw,qx,qy,qz` with four decimals, for people.
-    pub(crate) fn short(&self) -> String {
+    pub fn short(&self) -> String {
         let values = self.position.iter().chain(&self.quaternion);
         values.map(|x| fixed(x.0, 4)).collect::<Vec<_>>().join(",")
     }

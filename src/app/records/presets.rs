@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::app::Design;
-use crate::app::presets::{Preset, PresetClass};
+use ask::Design;
+use ask::presets::{Preset, PresetClass};
 
 /// The answer of `design presets`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::app::Design;
+use ask::Design;
 
 /// What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a machine in it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -74,7 +74,7 @@ pub fn sha256(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::design::parse;
+    use ask::design::parse;
     use files::design::Format;
 
     #[test]

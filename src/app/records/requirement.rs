@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{LightestDriveRecord, Number, PoseQuaternionRecord};
-use crate::app::Design;
-use crate::app::entrance::{AssessReport, JudgedPoses};
+use ask::Design;
+use ask::{AssessReport, JudgedPoses};
 use files::design::JudgedForces;
 use machine::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
 use synthesis::singularity::Regularity;
@@ -152,7 +152,7 @@ impl AssessAnswer {
     }
 
     /// The same with a conditioning by another length, that of all designs of a comparison.
-    pub(crate) fn beside(design: &Design, found: &AssessReport, characteristic_length: f64) -> Self {
+    pub fn beside(design: &Design, found: &AssessReport, characteristic_length: f64) -> Self {
         let proof = &found.proof;
         Self {
             name: design.name.clone(),
@@ -178,7 +178,7 @@ impl AssessAnswer {
     }
 
     /// The same inside an answer that lists the assumptions itself.
-    pub(crate) fn without_assumptions(self) -> Self {
+    pub fn without_assumptions(self) -> Self {
         Self { assumptions: Vec::new(), ..self }
     }
 }
@@ -216,7 +216,7 @@ impl DesignRoleWord {
     }
 
     /// The heading for the word in a document.
-    pub(crate) fn heading_of(word: &str) -> Option<&'static str> {
+    pub fn heading_of(word: &str) -> Option<&'static str> {
         serde_json::from_value(word.into()).ok().map(Self::heading)
     }
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseMarginRecord, PoseRecord};
-use crate::app::Design;
+use ask::Design;
 use machine::requirements::Terms;
 use machine::rotary::{CrankAngles, Elbow, RotaryPlatform};
 use platform::geom::Pose;

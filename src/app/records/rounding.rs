@@ -7,8 +7,8 @@ use super::tolerances::joint_name;
 use super::{
     AssessAnswer, DesignRecord, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord, VerdictWord,
 };
-use crate::app::Design;
-use crate::app::entrance::rounding::RoundingWay;
+use ask::Design;
+use ask::rounding::RoundingWay;
 use machine::manufacture::{ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint};
 use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern, TermKind};
 use platform::manipulator::Body;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::uncertainty::{CorrelationsWord, in_degrees};
 use super::{AssessAnswer, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
-use crate::app::Design;
+use ask::Design;
 use machine::manufacture::{
     ErrorAtPose, ErrorKind, ErrorParts, Joint, JointBudget, LimitedAllowance, MachineErrors, PoseCovariance,
     Trials,
@@ -76,13 +76,13 @@ pub struct DeviationRecord {
 
 /// What the calibration leaves open at a pose.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PoseDeviations {
+pub struct PoseDeviations {
     /// The pose.
-    pub(crate) pose: Pose,
+    pub pose: Pose,
     /// With the correlations of the design.
-    pub(crate) kept: PoseCovariance,
+    pub kept: PoseCovariance,
     /// With the same standard deviations, each for itself.
-    pub(crate) independent: PoseCovariance,
+    pub independent: PoseCovariance,
 }
 
 impl DeviationRecord {
@@ -103,7 +103,7 @@ impl DeviationRecord {
 impl CalibratedPosesRecord {
     /// Of the poses looked at; `None` without one.
     #[must_use]
-    pub(crate) fn new(design: &Design, poses: &[PoseDeviations]) -> Option<Self> {
+    pub fn new(design: &Design, poses: &[PoseDeviations]) -> Option<Self> {
         Some(Self {
             correlations: CorrelationsWord::of(design),
             poses: poses.len(),

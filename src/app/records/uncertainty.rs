@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Number;
-use crate::app::Design;
+use ask::Design;
 use machine::manufacture::{MachineUncertainty, PoseCovariance};
 use platform::geom::Pose;
 
@@ -44,7 +44,7 @@ pub struct PoseUncertaintyRecord {
 impl PoseUncertaintyRecord {
     /// At a pose; `None` at a singular one.
     #[must_use]
-    pub(crate) fn at(design: &Design, known: &MachineUncertainty, pose: &Pose) -> Option<Self> {
+    pub fn at(design: &Design, known: &MachineUncertainty, pose: &Pose) -> Option<Self> {
         let found = known.pose_covariance(design.manipulator(), pose, &Point3::origin())?;
         Some(Self {
             correlations: CorrelationsWord::of(design),

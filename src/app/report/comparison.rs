@@ -6,8 +6,8 @@ use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 
 use super::facts::digits;
 use crate::app::page::strict_policy;
-use crate::app::records::{CompareAnswer, FigureCell};
 use files::plot::escape;
+use records::{CompareAnswer, FigureCell};
 
 const STYLE: &str = concat!(include_str!("style.css"), include_str!("comparison.css"));
 const SCRIPT: &str = include_str!("comparison.js");

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::facts::digits;
-use crate::app::Design;
+use ask::Design;
 use files::plot::escape;
 
 /// Legs with their joints and home lengths, and the file as it is.

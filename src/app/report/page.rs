@@ -7,12 +7,12 @@ use serde_json::{Map, Value};
 
 use super::kind::{ResultVerdict, heading, verdict};
 use super::{Report, ReportFile, comparison, facts, inputs, parts, requirements};
-use crate::app::Design;
-use crate::app::design::parse;
 use crate::app::page::policy;
-use crate::app::records::{DesignRoleWord, sha256};
+use ask::Design;
+use ask::design::parse;
 use files::design::Format;
 use files::plot::escape;
+use records::{DesignRoleWord, sha256};
 
 const STYLE: &str = concat!(include_str!("style.css"), include_str!("comparison.css"));
 

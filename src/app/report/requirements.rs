@@ -7,8 +7,8 @@ use serde_json::{Map, Value};
 use super::facts::{digits, words};
 use super::kind::ResultVerdict;
 use super::page::badge;
-use crate::app::records::DesignRoleWord;
 use files::plot::escape;
+use records::DesignRoleWord;
 
 /// The table of a result of `assess`, or of one that carries such an assessment; `link` leads to its file.
 pub(super) fn section(link: &str, fields: &Map<String, Value>) -> Option<String> {

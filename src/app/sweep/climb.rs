@@ -507,7 +507,7 @@ pub(super) fn climb(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::design::parse;
+    use ask::design::parse;
     use files::design::Format;
 
     fn octahedral() -> (Manipulator, SquaredLegLengths) {

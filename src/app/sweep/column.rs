@@ -1,11 +1,11 @@
 //! Columns of the table of a sweep, and what their cells hold.
 
 /// The first column: the numbers of the candidates.
-pub(crate) const CANDIDATE: &str = "candidate";
+pub const CANDIDATE: &str = "candidate";
 
 /// What the cells of a column hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ColumnKind {
+pub enum ColumnKind {
     /// Doubles.
     Number,
     /// Integers of 64 bits.
@@ -17,10 +17,10 @@ pub(crate) enum ColumnKind {
 }
 
 impl ColumnKind {
-    pub(crate) const ALL: [Self; 4] = [Self::Number, Self::Integer, Self::Truth, Self::Text];
+    pub const ALL: [Self; 4] = [Self::Number, Self::Integer, Self::Truth, Self::Text];
 
     /// The word in plans.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Number => "number",
             Self::Integer => "integer",
@@ -32,29 +32,29 @@ impl ColumnKind {
 
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct SweepColumn {
-    pub(crate) name: String,
-    pub(crate) kind: ColumnKind,
+pub struct SweepColumn {
+    pub name: String,
+    pub kind: ColumnKind,
     /// The unit; `None` for pure numbers and for what has none.
-    pub(crate) unit: Option<String>,
+    pub unit: Option<String>,
     /// What it is, in words.
-    pub(crate) meaning: String,
+    pub meaning: String,
 }
 
 impl SweepColumn {
-    pub(crate) fn new(name: &str, kind: ColumnKind, unit: Option<&str>, meaning: &str) -> Self {
+    pub fn new(name: &str, kind: ColumnKind, unit: Option<&str>, meaning: &str) -> Self {
         Self { name: name.into(), kind, unit: unit.map(Into::into), meaning: meaning.into() }
     }
 
     /// A column of doubles.
-    pub(crate) fn number(name: &str, unit: Option<&str>, meaning: &str) -> Self {
+    pub fn number(name: &str, unit: Option<&str>, meaning: &str) -> Self {
         Self::new(name, ColumnKind::Number, unit, meaning)
     }
 }
 
 /// What stands in a cell.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum SweepCell {
+pub enum SweepCell {
     /// Nothing: not decided, not computed, no such thing.
     Empty,
     Number(f64),
@@ -65,27 +65,27 @@ pub(crate) enum SweepCell {
 
 impl SweepCell {
     /// A number of things.
-    pub(crate) fn count(n: usize) -> Self {
+    pub fn count(n: usize) -> Self {
         i64::try_from(n).map_or(Self::Empty, Self::Integer)
     }
 
     /// A number, empty where there is none.
-    pub(crate) fn number(x: Option<f64>) -> Self {
+    pub fn number(x: Option<f64>) -> Self {
         x.map_or(Self::Empty, Self::Number)
     }
 
     /// A truth value, empty where it is undecided.
-    pub(crate) fn truth(x: Option<bool>) -> Self {
+    pub fn truth(x: Option<bool>) -> Self {
         x.map_or(Self::Empty, Self::Truth)
     }
 
     /// A text, empty where there is none.
-    pub(crate) fn text(x: Option<&str>) -> Self {
+    pub fn text(x: Option<&str>) -> Self {
         x.map_or(Self::Empty, |x| Self::Text(x.into()))
     }
 
     /// The value as a double, for comparisons and pictures.
-    pub(crate) fn as_number(&self) -> Option<f64> {
+    pub fn as_number(&self) -> Option<f64> {
         match self {
             Self::Number(x) => Some(*x),
             Self::Integer(n) => Some(*n as f64),
@@ -95,7 +95,7 @@ impl SweepCell {
     }
 
     /// Whether two cells hold the same bits: numbers that are none are the same as themselves.
-    pub(crate) fn is_same(&self, other: &Self) -> bool {
+    pub fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
             (a, b) => a == b,

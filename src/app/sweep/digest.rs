@@ -7,19 +7,19 @@ use sha2::{Digest, Sha256};
 
 /// A writer that knows what went through it.
 #[derive(Debug)]
-pub(crate) struct Digested<W> {
+pub struct Digested<W> {
     inner: W,
     hash: Sha256,
     bytes: u64,
 }
 
 impl<W: Write> Digested<W> {
-    pub(crate) fn new(inner: W) -> Self {
+    pub fn new(inner: W) -> Self {
         Self { inner, hash: Sha256::new(), bytes: 0 }
     }
 
     /// The writer, the number of bytes and their SHA-256 in hexadecimal digits.
-    pub(crate) fn finish(self) -> (W, u64, String) {
+    pub fn finish(self) -> (W, u64, String) {
         (self.inner, self.bytes, HEXLOWER.encode(&self.hash.finalize()))
     }
 }
@@ -41,7 +41,7 @@ impl<W: Write> Write for Digested<W> {
 ///
 /// # Errors
 /// Those of the reader.
-pub(crate) fn digest_of(mut from: impl Read) -> Result<(u64, String)> {
+pub fn digest_of(mut from: impl Read) -> Result<(u64, String)> {
     let mut sink = Digested::new(std::io::sink());
     std::io::copy(&mut from, &mut sink)?;
     let (_, bytes, sha256) = sink.finish();
@@ -55,7 +55,7 @@ mod tests {
     #[test]
     fn the_digest_is_that_of_the_whole() {
         let expected = "bef57ec7f53a6d40beb640a780a639c83bc29ac8a9816f1fc6c5c6dcd93c4721".to_string();
-        assert_eq!(crate::app::records::sha256(b"abcdef"), expected);
+        assert_eq!(records::sha256(b"abcdef"), expected);
         assert_eq!(digest_of(&b"abcdef"[..]).unwrap(), (6, expected.clone()));
         let mut out = Digested::new(Vec::new());
         out.write_all(b"abc").unwrap();

@@ -12,13 +12,13 @@ use super::climb::climb;
 use super::column::{ColumnKind, SweepCell, SweepColumn};
 use super::measure::{least_axis_distance, length_range, worst_conditioning};
 use super::plan::{AnswerField, AnswerName, AxisValues, BasePlan, FreeQuantity, SweepPlan, SweepTask};
-use crate::app::entrance::{BOX_CELLS, CheckReport, Checked, OptimizeEvidence, OptimizeOptions, Solver};
-use crate::app::records::{AssessAnswer, CheckAnswer, SolvedRecord};
+use ask::{BOX_CELLS, CheckReport, Checked, OptimizeEvidence, OptimizeOptions, Solver};
 use files::design::Drive;
 use fk::{FkOptions, FkRoot, Threads};
 use machine::manufacture::{PoseSearch, joint_allowance};
 use machine::requirements::{TermKind, Terms};
 use platform::manipulator::{Body, inverse_condition, jacobian};
+use records::{AssessAnswer, CheckAnswer, SolvedRecord};
 use synthesis::Pattern;
 use synthesis::singularity::regular_box;
 
@@ -34,11 +34,11 @@ pub(super) struct KnownPattern {
 
 /// A plan made ready: candidate `k` has one row, whoever asks for it.
 #[derive(Debug)]
-pub(crate) struct Sweep {
-    pub(crate) plan: SweepPlan,
-    pub(crate) base: BasePlan,
-    pub(crate) seed: u64,
-    pub(crate) columns: Vec<SweepColumn>,
+pub struct Sweep {
+    pub plan: SweepPlan,
+    pub base: BasePlan,
+    pub seed: u64,
+    pub columns: Vec<SweepColumn>,
     /// What is the same for all candidates, unless the text of the base design changes.
     pub(super) ground: Option<Ground>,
     /// Forward kinematics prepared, where the platform is the same for all.
@@ -54,7 +54,7 @@ pub(crate) struct Sweep {
 impl Sweep {
     /// # Errors
     /// Why the base design has no candidates at all.
-    pub(crate) fn new(plan: SweepPlan, base: BasePlan, seed: u64) -> Result<Self, String> {
+    pub fn new(plan: SweepPlan, base: BasePlan, seed: u64) -> Result<Self, String> {
         let words = plan.blocks.iter().flat_map(|b| &b.axes).filter(|a| a.quantity == FreeQuantity::Pattern);
         let words =
             words.filter_map(|a| if let AxisValues::Words(list) = &a.values { Some(list) } else { None });
@@ -86,7 +86,7 @@ impl Sweep {
     }
 
     /// The number of candidates.
-    pub(crate) fn count(&self) -> u64 {
+    pub fn count(&self) -> u64 {
         self.plan.count()
     }
 
@@ -96,7 +96,7 @@ impl Sweep {
     }
 
     /// The row of candidate `k`; `None` where the plan does not keep it. What cannot be computed is a row with its error.
-    pub(crate) fn row(&self, k: u64) -> Option<Vec<SweepCell>> {
+    pub fn row(&self, k: u64) -> Option<Vec<SweepCell>> {
         let mut row = Vec::with_capacity(self.columns.len());
         self.row_onto(k, &mut row).then_some(row)
     }
@@ -142,7 +142,7 @@ impl Sweep {
     ///
     /// # Errors
     /// Why there is none.
-    pub(crate) fn design_text(&self, k: u64) -> Result<String, String> {
+    pub fn design_text(&self, k: u64) -> Result<String, String> {
         let values = self.plan.values(self.seed, k);
         SweepCandidate::new(self, &values)?.text()
     }

@@ -98,7 +98,7 @@ pub(super) fn length_range(legs: &[Leg; 6], poses: &[Pose]) -> Option<[f64; 2]> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::design::parse;
+    use ask::design::parse;
     use files::design::Format;
     use platform::manipulator::jacobian;
 

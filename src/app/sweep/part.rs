@@ -36,7 +36,7 @@ const COLUMNS_KEY: &str = "equipod.columns";
 
 /// Why a part cannot be written or read.
 #[derive(Debug, Error)]
-pub(crate) enum PartError {
+pub enum PartError {
     /// Parquet, or the file below it.
     #[error("{0}")]
     Parquet(#[from] ParquetError),
@@ -47,7 +47,7 @@ pub(crate) enum PartError {
 
 impl PartError {
     /// What the system said, where it was that.
-    pub(crate) fn system(&self) -> Option<&std::io::Error> {
+    pub fn system(&self) -> Option<&std::io::Error> {
         match self {
             Self::Parquet(ParquetError::External(inner)) => inner.downcast_ref(),
             _ => None,
@@ -191,7 +191,7 @@ struct PartHead<W> {
 }
 
 /// Writes rows; what it writes depends on columns, notes and rows alone.
-pub(crate) struct PartWriter<W: Write + Send> {
+pub struct PartWriter<W: Write + Send> {
     /// Until the first rows are written.
     head: Option<PartHead<W>>,
     /// From then on.
@@ -207,7 +207,7 @@ impl<W: Write + Send> PartWriter<W> {
     ///
     /// # Errors
     /// Those of the file.
-    pub(crate) fn new(
+    pub fn new(
         to: W,
         columns: &[SweepColumn],
         notes: &[(String, String)],
@@ -240,7 +240,7 @@ impl<W: Write + Send> PartWriter<W> {
     ///
     /// # Errors
     /// Those of the file; a row that the columns do not fit.
-    pub(crate) fn push(&mut self, row: &mut [SweepCell]) -> Result<(), PartError> {
+    pub fn push(&mut self, row: &mut [SweepCell]) -> Result<(), PartError> {
         if row.len() != self.columns.len() {
             let message = format!("a row has {} cells for {} columns", row.len(), self.columns.len());
             return Err(PartError::Foreign(message));
@@ -310,7 +310,7 @@ impl<W: Write + Send> PartWriter<W> {
     ///
     /// # Errors
     /// Those of the file.
-    pub(crate) fn finish(mut self) -> Result<W, PartError> {
+    pub fn finish(mut self) -> Result<W, PartError> {
         self.write_group()?;
         // there may be no rows at all
         self.begin()?;
@@ -327,9 +327,9 @@ fn other_type(column: &SweepColumn) -> PartError {
 }
 
 /// A part that is read, one group of rows after the other.
-pub(crate) struct PartReader {
+pub struct PartReader {
     reader: Box<dyn FileReader>,
-    pub(crate) columns: Vec<SweepColumn>,
+    pub columns: Vec<SweepColumn>,
 }
 
 impl PartReader {
@@ -337,7 +337,7 @@ impl PartReader {
     ///
     /// # Errors
     /// A file that is not Parquet, or no part of a sweep.
-    pub(crate) fn new(from: impl ChunkReader + 'static) -> Result<Self, PartError> {
+    pub fn new(from: impl ChunkReader + 'static) -> Result<Self, PartError> {
         let reader: Box<dyn FileReader> = Box::new(SerializedFileReader::new(from)?);
         let foreign =
             || PartError::Foreign("this is no table of a sweep: it does not say what its columns are".into());
@@ -350,12 +350,12 @@ impl PartReader {
     }
 
     /// What the metadata has under a key.
-    pub(crate) fn note(&self, key: &str) -> Option<String> {
+    pub fn note(&self, key: &str) -> Option<String> {
         note_of(self.reader.as_ref(), key)
     }
 
     /// Groups of rows.
-    pub(crate) fn groups(&self) -> usize {
+    pub fn groups(&self) -> usize {
         self.reader.num_row_groups()
     }
 
@@ -363,7 +363,7 @@ impl PartReader {
     ///
     /// # Errors
     /// A file that is torn or altered.
-    pub(crate) fn group(&self, group: usize, wanted: &[usize]) -> Result<Vec<SweepRow>, PartError> {
+    pub fn group(&self, group: usize, wanted: &[usize]) -> Result<Vec<SweepRow>, PartError> {
         let group = self.reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
         let mut out = vec![Vec::with_capacity(wanted.len()); rows];

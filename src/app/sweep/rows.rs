@@ -11,7 +11,7 @@ use num::Cancel;
 use num::stream::Stream;
 
 /// A row as the columns of its sweep have it.
-pub(crate) type SweepRow = Vec<SweepCell>;
+pub type SweepRow = Vec<SweepCell>;
 
 /// Candidates that a thread takes at a time, at most: many are done in some microseconds each.
 const AT_ONCE: u64 = 32;
@@ -34,16 +34,16 @@ fn next_at_once(n: u64, took: Duration) -> u64 {
 /// What came of some candidates that follow one another: the rows that are kept, in one piece, which takes less time than rows that
 /// are allocated and freed one by one.
 #[derive(Debug, PartialEq)]
-pub(crate) struct RowChunk {
+pub struct RowChunk {
     /// How many candidates they are, kept or not.
-    pub(crate) candidates: u64,
+    pub candidates: u64,
     cells: Vec<SweepCell>,
     columns: usize,
 }
 
 impl RowChunk {
     /// The rows that are kept.
-    pub(crate) fn rows(&mut self) -> impl Iterator<Item = &mut [SweepCell]> {
+    pub fn rows(&mut self) -> impl Iterator<Item = &mut [SweepCell]> {
         self.cells.chunks_exact_mut(self.columns)
     }
 }
@@ -51,7 +51,7 @@ impl RowChunk {
 impl Sweep {
     /// What came of the candidates of a range, in their order. Results do not depend on the number of threads, and
     /// what waits to be taken is limited, so that memory does not grow with the range. Ends early when it is cancelled.
-    pub(crate) fn rows(
+    pub fn rows(
         self: &Arc<Self>,
         range: Range<u64>,
         threads: usize,
@@ -81,7 +81,7 @@ impl Sweep {
 }
 
 /// The candidates of shard `shard` of `shards`: the ranges of all shards are as equal as they can be, and follow one another.
-pub(crate) fn shard_range(count: u64, shard: u64, shards: u64) -> Range<u64> {
+pub fn shard_range(count: u64, shard: u64, shards: u64) -> Range<u64> {
     let at = |s: u64| (u128::from(count) * u128::from(s) / u128::from(shards)) as u64;
     at(shard)..at(shard + 1)
 }

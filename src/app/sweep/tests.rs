@@ -6,7 +6,7 @@ use nalgebra::Point3;
 
 use super::plan::{BasePlan, PlanText, read};
 use super::{Sweep, SweepCell, SweepRow};
-use crate::app::design::parse;
+use ask::design::parse;
 use files::design::Format;
 use machine::manufacture::{ErrorBound, PoseSearch, joint_allowance};
 use num::Cancel;

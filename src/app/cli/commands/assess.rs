@@ -9,9 +9,9 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::cli::progress::ProgressLine;
 use crate::app::cli::requirements;
-use crate::app::entrance::Error;
-use crate::app::records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
+use ask::Error;
 use machine::requirements::AssessOptions;
+use records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]

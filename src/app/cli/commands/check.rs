@@ -7,8 +7,8 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
-use crate::app::entrance::CheckReport;
-use crate::app::records::{
+use ask::CheckReport;
+use records::{
     AssemblyRecord, CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number,
 };
 

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use super::build::drives;
 use super::build::tolerances::numbers;
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -14,15 +13,16 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::numbers::significant;
 use crate::app::cli::output::Answer;
 use crate::app::cli::table::{csv_line, number};
-use crate::app::entrance::{FigureOptions, PlatformMotion};
-use crate::app::records::{AccuracyRecord, CompareAnswer, FigureCell, FiguresRecord};
 use crate::app::report::{Comparison, comparison_page};
 use ::files::export::LengthUnit;
 use ::files::plot::thumbnail;
+use ask::Design;
+use ask::{FigureOptions, PlatformMotion};
 use machine::dynamics::Manoeuvre;
 use machine::manufacture::ErrorBound;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
+use records::{AccuracyRecord, CompareAnswer, FigureCell, FiguresRecord};
 
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 
 use super::build::tolerances;
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -14,9 +13,10 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::numbers::significant;
 use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
-use crate::app::entrance::exporting::octahedral_of_controllers;
-use crate::app::records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord, Number};
 use ::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
+use ask::Design;
+use ask::exporting::octahedral_of_controllers;
+use records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord, Number};
 
 /// Arguments of `export`.
 #[derive(Debug, clap::Args)]

@@ -9,12 +9,12 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers::significant as short;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use crate::app::entrance::RAYS;
-use crate::app::records::{
+use ask::RAYS;
+use machine::reach::NearestPoseOptions;
+use records::{
     FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, PoseQuaternionRecord,
     StraightWayRecord, WorkspaceSizeRecord,
 };
-use machine::reach::NearestPoseOptions;
 
 /// Arguments of `limits`.
 #[derive(Debug, clap::Args)]

@@ -6,7 +6,6 @@ use serde_json::Value;
 
 use super::compare::{Asked, compare};
 use super::explore::folder::FIRST;
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -14,11 +13,12 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
 use crate::app::cli::streams::output_is_terminal;
-use crate::app::design::parse;
 use crate::app::page::{CORE, Session, page as view};
-use crate::app::records::{AssessAnswer, ReportAnswer};
 use crate::app::report::{Comparison, Report, ReportFile, html};
 use ::files::design::Format;
+use ask::Design;
+use ask::design::parse;
+use records::{AssessAnswer, ReportAnswer};
 use synthesis::Pattern;
 
 /// The page in its folder.

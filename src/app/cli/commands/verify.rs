@@ -8,9 +8,9 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
-use crate::app::entrance::{SAMPLES, sample_plan};
-use crate::app::records::{SampleRecord, VerifyAnswer};
+use ask::{SAMPLES, sample_plan};
 use fk::FkOptions;
+use records::{SampleRecord, VerifyAnswer};
 use synthesis::Relation;
 use verify::{Verdict, VerifyError, verify_mapped};
 

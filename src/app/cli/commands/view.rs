@@ -9,7 +9,7 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
 use crate::app::page::{CORE, Session, page};
-use crate::app::records::{AssessAnswer, ViewAnswer};
+use records::{AssessAnswer, ViewAnswer};
 
 /// Arguments of `view`.
 #[derive(Debug, clap::Args)]

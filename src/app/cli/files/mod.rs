@@ -17,11 +17,11 @@ use serde::de::DeserializeOwned;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::streams;
-use crate::app::Design;
-use crate::app::design::parse_with_cranks;
-use crate::app::entrance::whole::WholeFile;
-use crate::app::records::{FileSourceRecord, sha256};
+use ask::Design;
+use ask::design::parse_with_cranks;
+use ask::whole::WholeFile;
 use files::design::Format;
+use records::{FileSourceRecord, sha256};
 
 /// Nothing this program reads is larger; a design has some kilobytes.
 const MAX_BYTES: u64 = 4 << 20;

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use serde_json::{Map, Value};
 
 use super::cell;
-use crate::app::records;
 use files::design::SCHEMA;
+use records;
 
 /// What every answer has, which the manual says once.
 const IN_ALL: [&str; 3] = ["schema_version", "provenance", "warnings"];

@@ -14,7 +14,7 @@ use super::failure::Failure;
 use super::files;
 use super::guide;
 use super::output::Answer;
-use crate::app::records::{ReferenceAnswer, schema_names};
+use records::{ReferenceAnswer, schema_names};
 
 /// Arguments of `reference`.
 #[derive(Debug, clap::Args)]

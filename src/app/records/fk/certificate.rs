@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::app::records::{ComplexRecord, Number};
+use crate::{ComplexRecord, Number};
 use fk::solve::certify::octahedral::OctahedralCertificate;
 use fk::solve::certify::{
     CentrePrecision, Certificate, ClusterCertificate, PoseEnclosure, ProvedReality, RootCertificate,

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::app::Design;
-use crate::app::records::Number;
+use crate::Number;
+use ask::Design;
 use fk::distance::SingularFactor;
 use fk::{Closure, NoClosure};
 use num::poly::{Dyadic, RealRoot};
@@ -67,7 +67,7 @@ pub struct TrilaterationStepRecord {
 }
 
 impl TrilaterationStepRecord {
-    pub(in crate::app::records) fn new(step: &Step, name: impl Fn(JointIndex) -> String) -> Self {
+    pub(crate) fn new(step: &Step, name: impl Fn(JointIndex) -> String) -> Self {
         Self { from: step.from.map(&name), place: name(step.place), rigid: step.rigid }
     }
 }

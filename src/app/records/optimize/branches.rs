@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::platform::ZONES;
-use crate::app::records::Number;
+use crate::Number;
 use optimize::offsets::{BranchReport, BranchVerdict, Conflict, GlobalBound, OffsetReport};
 
 /// What became of the branches.

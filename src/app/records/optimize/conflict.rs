@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{BranchRecord, BranchWord};
-use crate::app::Design;
-use crate::app::records::Number;
+use crate::Number;
+use ask::Design;
 use machine::requirements::{Objective, TermKind};
 use optimize::dimensional::{ConstraintConflict, Demand, Give};
 use optimize::offsets::Conflict;

@@ -4,10 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{ConflictRecord, SymmetryRecord};
-use crate::app::entrance::{
-    DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, OptimizeStatus, SearchedDrive,
-};
-use crate::app::records::{MarginRecord, Number};
+use crate::{MarginRecord, Number};
+use ask::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, OptimizeStatus, SearchedDrive};
 use machine::requirements::TermKind;
 use optimize::dimensional::DimensionalOutcome;
 

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::app::Design;
-use crate::app::entrance::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
-use crate::app::records::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
+use crate::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
+use ask::Design;
+use ask::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
 
 /// A freedom that the design does not have, and what came of the search with it.
@@ -46,7 +46,7 @@ pub enum FreedomWord {
 impl FreedomRecord {
     /// What came of a freedom of a design.
     #[must_use]
-    pub(crate) fn new(design: &Design, opened: &OpenedFreedom, output: Option<&str>) -> Self {
+    pub fn new(design: &Design, opened: &OpenedFreedom, output: Option<&str>) -> Self {
         let (outcome, found) = match &opened.outcome {
             FreedomOutcome::Resolved(c) => (FreedomWord::Resolved, Some(c)),
             FreedomOutcome::Undecided(c) => (FreedomWord::Undecided, Some(c)),

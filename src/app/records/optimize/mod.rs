@@ -26,12 +26,12 @@ pub use self::platform::{
 };
 pub use self::riding::{RiddenBoundRecord, RiddenWord, RidingRecord};
 pub use self::symmetry::{SymmetryRecord, SymmetryWord};
-use crate::app::Design;
-use crate::app::entrance::{
+use crate::{DesignRecord, Number, SourceWord};
+use ask::Design;
+use ask::{
     Checked, ConflictFreedom, FoundFront, FoundOffsets, FoundPlatform, OpenedFreedom, OptimizeEvidence,
     OptimizeReport, OptimizeStatus,
 };
-use crate::app::records::{DesignRecord, Number, SourceWord};
 use optimize::dimensional::{DimensionalOutcome, DimensionalProblem, DimensionalSolution, ParetoPoint};
 use optimize::offsets::{OffsetOutcome, OffsetProblem};
 

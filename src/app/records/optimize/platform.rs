@@ -5,14 +5,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::riding::{DetMargin, RidingRecord};
-use crate::app::Design;
-use crate::app::entrance::Checked;
-use crate::app::entrance::optimizing::offset_reserves;
-use crate::app::records::map::matrix;
-use crate::app::records::{
+use crate::map::matrix;
+use crate::{
     AssessAnswer, DesignRecord, DesignRoleWord, MarginRecord, Number, PoseQuaternionRecord, PoseRecord,
     VerdictWord, leg_number,
 };
+use ask::Checked;
+use ask::Design;
+use ask::optimizing::offset_reserves;
 use machine::requirements::Objective;
 use optimize::dimensional::{ChosenVariable, DimensionalSolution, HistoryStep};
 use optimize::offsets::{Branch, OffsetHistoryStep, OffsetProblem, OffsetSolution};

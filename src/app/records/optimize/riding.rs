@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::VariableRecord;
-use crate::app::Design;
-use crate::app::entrance::Checked;
-use crate::app::records::nearest::short;
-use crate::app::records::{MarginRecord, Number};
+use crate::nearest::short;
+use crate::{MarginRecord, Number};
+use ask::Checked;
+use ask::Design;
 use platform::manipulator::Body;
 
 /// Part of a limit below which nothing is left of it.

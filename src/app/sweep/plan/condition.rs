@@ -1,10 +1,10 @@
 //! What has to hold for a row to be kept: a column, a comparison, a value.
 
-use crate::app::sweep::column::{ColumnKind, SweepCell, SweepColumn};
+use crate::column::{ColumnKind, SweepCell, SweepColumn};
 
 /// A comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum KeepComparison {
+pub enum KeepComparison {
     Less,
     AtMost,
     Equal,
@@ -25,9 +25,9 @@ const SIGNS: [(&str, KeepComparison); 6] = [
 
 /// `conditioning >= 0.1`: a row is kept when all of them hold. An empty cell satisfies none.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct KeepCondition {
+pub struct KeepCondition {
     /// Number of the column.
-    pub(crate) column: usize,
+    pub column: usize,
     comparison: KeepComparison,
     value: SweepCell,
 }
@@ -40,7 +40,7 @@ impl KeepCondition {
     ///
     /// # Errors
     /// That there is no comparison, and what to do.
-    pub(crate) fn parts(text: &str) -> Result<(&str, KeepComparison, &str), (String, String)> {
+    pub fn parts(text: &str) -> Result<(&str, KeepComparison, &str), (String, String)> {
         let place = SIGNS.iter().filter_map(|sign| Some((text.find(sign.0)?, sign)));
         // of signs at one place the longer one, which stands first
         let Some((at, (sign, comparison))) = place.min_by_key(|(at, _)| *at) else {
@@ -53,7 +53,7 @@ impl KeepCondition {
     ///
     /// # Errors
     /// What is wrong with it, and what to do.
-    pub(crate) fn read(text: &str, columns: &[SweepColumn]) -> Result<Self, (String, String)> {
+    pub fn read(text: &str, columns: &[SweepColumn]) -> Result<Self, (String, String)> {
         let (name, comparison, value) = Self::parts(text)?;
         let Some(column) = columns.iter().position(|c| c.name == name) else {
             let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
@@ -82,7 +82,7 @@ impl KeepCondition {
     }
 
     /// Whether a row satisfies it, its cells up to this column known.
-    pub(crate) fn holds(&self, row: &[SweepCell]) -> bool {
+    pub fn holds(&self, row: &[SweepCell]) -> bool {
         let cell = &row[self.column];
         match (cell, &self.value) {
             (SweepCell::Empty, _) => false,

@@ -11,11 +11,11 @@ use files::design::Format;
 use machine::manufacture::ErrorBound;
 use platform::geom::Pose;
 
-pub(crate) use condition::KeepCondition;
-pub(crate) use place::BasePlan;
-pub(in crate::app::sweep) use read::pose_of;
-pub(crate) use read::{files_named, read};
-pub(crate) use values::{AxisValues, PlanAxis, PlanBlock, Spreading};
+pub use condition::KeepCondition;
+pub use place::BasePlan;
+pub(crate) use read::pose_of;
+pub use read::{files_named, read};
+pub use values::{AxisValues, PlanAxis, PlanBlock, Spreading};
 
 use super::column::{CANDIDATE, ColumnKind, SweepColumn};
 
@@ -24,28 +24,28 @@ const MOST_CANDIDATES: u64 = 1 << 53;
 
 /// What a plan says, checked against its base design.
 #[derive(Debug, Clone)]
-pub(crate) struct SweepPlan {
-    pub(crate) name: String,
-    pub(crate) description: Option<String>,
+pub struct SweepPlan {
+    pub name: String,
+    pub description: Option<String>,
     /// What varies; the candidates are all combinations of the candidates of the blocks.
-    pub(crate) blocks: Vec<PlanBlock>,
+    pub blocks: Vec<PlanBlock>,
     /// The poses over which figures are the worst ones.
-    pub(crate) poses: PoseChoice,
+    pub poses: PoseChoice,
     /// How requirements are assessed.
-    pub(crate) assess: AssessEffort,
+    pub assess: AssessEffort,
     /// The accuracy for which joints are toleranced.
-    pub(crate) accuracy: Option<ErrorBound>,
+    pub accuracy: Option<ErrorBound>,
     /// Steps of searches, at most.
-    pub(crate) steps: usize,
+    pub steps: usize,
     /// What is computed, in this order.
-    pub(crate) tasks: Vec<SweepTask>,
+    pub tasks: Vec<SweepTask>,
     /// What has to hold for a row to be kept.
-    pub(crate) keep: Vec<KeepCondition>,
+    pub keep: Vec<KeepCondition>,
 }
 
 /// Where the base design of a plan is.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum BaseName {
+pub enum BaseName {
     /// A file, relative to the plan.
     File(String),
     /// A preset of the program: name, text.
@@ -54,22 +54,22 @@ pub(crate) enum BaseName {
 
 /// The files that a plan names.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct PlanFiles {
-    pub(crate) base: BaseName,
+pub struct PlanFiles {
+    pub base: BaseName,
     /// A table of drives, relative to the plan.
-    pub(crate) drives: Option<String>,
+    pub drives: Option<String>,
 }
 
 /// The text of a plan, in its notation.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PlanText<'a> {
-    pub(crate) text: &'a str,
-    pub(crate) format: Format,
+pub struct PlanText<'a> {
+    pub text: &'a str,
+    pub format: Format,
 }
 
 /// The poses over which figures are the worst ones.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum PoseChoice {
+pub enum PoseChoice {
     /// Home and the grid, the single poses and the trajectory of the workspace of the candidate.
     Workspace,
     /// Home alone.
@@ -82,10 +82,10 @@ pub(crate) enum PoseChoice {
 
 /// How densely requirements are looked at, and how hard they are bounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct AssessEffort {
-    pub(crate) points: usize,
-    pub(crate) searches: usize,
-    pub(crate) cells: usize,
+pub struct AssessEffort {
+    pub points: usize,
+    pub searches: usize,
+    pub cells: usize,
 }
 
 impl Default for AssessEffort {
@@ -96,7 +96,7 @@ impl Default for AssessEffort {
 
 /// What a free quantity changes.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum FreeQuantity {
+pub enum FreeQuantity {
     /// The pattern of the equivalent platform.
     Pattern,
     /// The drive in all legs, from the table of the plan.
@@ -112,11 +112,11 @@ pub(crate) enum FreeQuantity {
 }
 
 /// Names of the coordinates of a pose.
-pub(crate) const POSE_COORDINATES: [&str; 6] = ["x", "y", "z", "roll_deg", "pitch_deg", "yaw_deg"];
+pub const POSE_COORDINATES: [&str; 6] = ["x", "y", "z", "roll_deg", "pitch_deg", "yaw_deg"];
 
 /// Something that is computed for each candidate.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum SweepTask {
+pub enum SweepTask {
     /// `det A` of the leg map from the base design.
     DetA,
     /// The least inverse condition number over the poses.
@@ -159,28 +159,28 @@ pub(crate) enum SweepTask {
 
 /// A field of the answer of a command, as a column of its own.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct AnswerField {
-    pub(crate) column: String,
-    pub(crate) answer: AnswerName,
+pub struct AnswerField {
+    pub column: String,
+    pub answer: AnswerName,
     /// The keys on the way to it; elements of lists by their number from 1.
-    pub(crate) path: Vec<String>,
-    pub(crate) kind: ColumnKind,
-    pub(crate) unit: Option<String>,
+    pub path: Vec<String>,
+    pub kind: ColumnKind,
+    pub unit: Option<String>,
 }
 
 /// The commands whose answers have columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum AnswerName {
+pub enum AnswerName {
     Assess,
     Check,
     Fk,
 }
 
 impl AnswerName {
-    pub(crate) const ALL: [Self; 3] = [Self::Assess, Self::Check, Self::Fk];
+    pub const ALL: [Self; 3] = [Self::Assess, Self::Check, Self::Fk];
 
     /// The command.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Assess => "assess",
             Self::Check => "check",
@@ -190,7 +190,7 @@ impl AnswerName {
 }
 
 /// The words for what is computed, with what they stand for.
-pub(crate) const TASK_WORDS: [(&str, SweepTask); 18] = [
+pub const TASK_WORDS: [(&str, SweepTask); 18] = [
     ("det_a", SweepTask::DetA),
     ("conditioning", SweepTask::Conditioning),
     ("home_conditioning", SweepTask::HomeConditioning),
@@ -213,7 +213,7 @@ pub(crate) const TASK_WORDS: [(&str, SweepTask); 18] = [
 
 impl SweepTask {
     /// Whether it is about the lengths of the candidate.
-    pub(crate) fn needs_lengths(&self) -> bool {
+    pub fn needs_lengths(&self) -> bool {
         match self {
             Self::Lengths | Self::Poses | Self::Solutions | Self::Climb => true,
             Self::Field(field) => field.answer == AnswerName::Fk,
@@ -222,7 +222,7 @@ impl SweepTask {
     }
 
     /// The columns it fills, for a base design.
-    pub(crate) fn columns(&self, base: &BasePlan) -> Vec<SweepColumn> {
+    pub fn columns(&self, base: &BasePlan) -> Vec<SweepColumn> {
         let units = base.design.units.as_str();
         let number = SweepColumn::number;
         match self {
@@ -414,29 +414,29 @@ impl SweepTask {
 
 impl SweepPlan {
     /// The number of candidates.
-    pub(crate) fn count(&self) -> u64 {
+    pub fn count(&self) -> u64 {
         self.blocks.iter().map(|b| b.count).product()
     }
 
     /// Whether lengths or a pose vary from candidate to candidate while the platform stays the same.
-    pub(crate) fn platform_is_fixed(&self) -> bool {
+    pub fn platform_is_fixed(&self) -> bool {
         !self
             .quantities()
             .any(|q| matches!(q, FreeQuantity::Pattern | FreeQuantity::Offset(_) | FreeQuantity::Number(_)))
     }
 
     /// Whether the text of the base design changes.
-    pub(crate) fn text_is_fixed(&self) -> bool {
+    pub fn text_is_fixed(&self) -> bool {
         !self.quantities().any(|q| matches!(q, FreeQuantity::Number(_)))
     }
 
     /// Everything that varies.
-    pub(crate) fn quantities(&self) -> impl Iterator<Item = &FreeQuantity> {
+    pub fn quantities(&self) -> impl Iterator<Item = &FreeQuantity> {
         self.blocks.iter().flat_map(|b| b.axes.iter().map(|a| &a.quantity))
     }
 
     /// All columns of the table: the number of the candidate, what varies, what is computed, the error.
-    pub(crate) fn columns(&self, base: &BasePlan) -> Vec<SweepColumn> {
+    pub fn columns(&self, base: &BasePlan) -> Vec<SweepColumn> {
         let mut columns =
             vec![SweepColumn::new(CANDIDATE, ColumnKind::Integer, None, "number of the candidate, from 0")];
         columns.extend(self.blocks.iter().flat_map(|b| b.axes.iter().map(|a| a.column.clone())));

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::PlanText;
-use crate::app::Design;
-use crate::app::design::parse;
+use ask::Design;
+use ask::design::parse;
 use files::design::spanned::{Findings, Node, Value, find, nearest_help, read, shown};
 use files::design::{Drive, DriveTable, Format, InvalidDriveTable, InvalidSeries, SeriesKind, Violation};
 use machine::requirements::{TermKind, Terms};
@@ -16,12 +16,12 @@ pub(super) const TRAJECTORY: &str = "workspace.trajectory";
 
 /// A base design and the text it is read from, into which candidates write their numbers.
 #[derive(Debug, Clone)]
-pub(crate) struct BasePlan {
-    pub(crate) text: String,
-    pub(crate) format: Format,
-    pub(crate) design: Design,
+pub struct BasePlan {
+    pub text: String,
+    pub format: Format,
+    pub design: Design,
     /// The drives that candidates may have.
-    pub(crate) drives: Option<DriveTable>,
+    pub drives: Option<DriveTable>,
     root: Node,
 }
 
@@ -30,7 +30,7 @@ impl BasePlan {
     ///
     /// # Errors
     /// All violations of the design.
-    pub(crate) fn new(plan: PlanText<'_>) -> Result<Self, Vec<Violation>> {
+    pub fn new(plan: PlanText<'_>) -> Result<Self, Vec<Violation>> {
         let text = plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text).to_owned();
         let (design, _) = parse(&text, plan.format).map_err(refused_as_base)?;
         let mut report = Findings::new(&text);
@@ -42,7 +42,7 @@ impl BasePlan {
     ///
     /// # Errors
     /// A text that is no table of drives; two drives with one name, since plans choose them by it.
-    pub(crate) fn with_drives(mut self, table: &[u8]) -> Result<Self, InvalidDriveTable> {
+    pub fn with_drives(mut self, table: &[u8]) -> Result<Self, InvalidDriveTable> {
         let table = DriveTable::read(table, &self.design.drive_units())?;
         let mut seen = BTreeSet::new();
         if let Some(twice) = table.drives.iter().find(|d| !seen.insert(d.name.as_str())) {
@@ -57,7 +57,7 @@ impl BasePlan {
     ///
     /// # Errors
     /// A text that is no table of poses.
-    pub(crate) fn with_poses(mut self, table: &[u8]) -> Result<Self, InvalidSeries> {
+    pub fn with_poses(mut self, table: &[u8]) -> Result<Self, InvalidSeries> {
         let read = SeriesKind::Poses
             .read(table, |line| line.parse::<Pose>().map_err(|e: InvalidPose| e.to_string()))?;
         if let Some(own) = &self.design.workspace.trajectory
@@ -82,7 +82,7 @@ impl BasePlan {
     ///
     /// # Errors
     /// All violations of the text.
-    pub(crate) fn candidate(&self, text: &str) -> Result<Design, Vec<Violation>> {
+    pub fn candidate(&self, text: &str) -> Result<Design, Vec<Violation>> {
         let (mut design, _) = parse(text, self.format)?;
         if let (Some(own), Some(read)) = (&self.design.workspace.trajectory, &mut design.workspace.trajectory)
         {
@@ -92,7 +92,7 @@ impl BasePlan {
     }
 
     /// The drive with a name.
-    pub(crate) fn drive(&self, name: &str) -> Option<&Drive> {
+    pub fn drive(&self, name: &str) -> Option<&Drive> {
         self.drives.as_ref()?.drives.iter().find(|d| d.name == name)
     }
 
@@ -100,7 +100,7 @@ impl BasePlan {
     ///
     /// # Errors
     /// What is not there, and what is.
-    pub(crate) fn place(&self, path: &str) -> Result<Range<usize>, (String, String)> {
+    pub fn place(&self, path: &str) -> Result<Range<usize>, (String, String)> {
         let mut node = &self.root;
         let mut walked = String::new();
         for step in path.split('.') {
@@ -147,7 +147,7 @@ impl BasePlan {
     }
 
     /// The text with other values at these places, as they are written in a design file.
-    pub(crate) fn with_values(&self, values: &[(Range<usize>, String)]) -> String {
+    pub fn with_values(&self, values: &[(Range<usize>, String)]) -> String {
         let mut sorted: Vec<&(Range<usize>, String)> = values.iter().collect();
         sorted.sort_by_key(|(span, _)| span.start);
         let mut out = String::with_capacity(self.text.len() + 32 * values.len());
@@ -162,7 +162,7 @@ impl BasePlan {
     }
 
     /// The kinds of requirements that the design has, or has with some drive.
-    pub(crate) fn required_kinds(&self) -> Vec<TermKind> {
+    pub fn required_kinds(&self) -> Vec<TermKind> {
         let drives = self.drives.iter().flat_map(|table| &table.drives);
         let designs = std::iter::once(self.design.clone()).chain(drives.map(|d| self.design.with_drive(d)));
         let kinds: BTreeSet<TermKind> = designs.flat_map(|design| kinds_of(&design)).collect();

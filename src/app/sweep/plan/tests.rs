@@ -1,7 +1,7 @@
 //! Plans that are read, plans that are refused, and what their candidates are.
 
 use super::*;
-use crate::app::sweep::column::SweepCell;
+use crate::column::SweepCell;
 use files::design::Violation;
 
 const DESIGN: &str = include_str!("../../../../designs/rbt-octahedral.toml");

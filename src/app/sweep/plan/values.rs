@@ -1,21 +1,21 @@
 //! What the free quantities of candidate `k` are.
 
 use super::{FreeQuantity, SweepPlan};
-use crate::app::sweep::column::{SweepCell, SweepColumn};
-use crate::app::sweep::sample::{PointPlace, PointSpread};
+use crate::column::{SweepCell, SweepColumn};
+use crate::sample::{PointPlace, PointSpread};
 
 /// Quantities that vary together.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PlanBlock {
-    pub(crate) spreading: Spreading,
+pub struct PlanBlock {
+    pub spreading: Spreading,
     /// Candidates of the block.
-    pub(crate) count: u64,
-    pub(crate) axes: Vec<PlanAxis>,
+    pub count: u64,
+    pub axes: Vec<PlanAxis>,
 }
 
 /// How the candidates of a block follow one another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Spreading {
+pub enum Spreading {
     /// All combinations, the last axis fastest.
     Grid,
     /// Candidate `j` has element `j` of each list.
@@ -26,15 +26,15 @@ pub(crate) enum Spreading {
 
 /// A free quantity with its values.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PlanAxis {
-    pub(crate) quantity: FreeQuantity,
-    pub(crate) column: SweepColumn,
-    pub(crate) values: AxisValues,
+pub struct PlanAxis {
+    pub quantity: FreeQuantity,
+    pub column: SweepColumn,
+    pub values: AxisValues,
 }
 
 /// The values of a quantity.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum AxisValues {
+pub enum AxisValues {
     /// From one number to another, with steps of the same size or, on a logarithmic scale, of the same ratio; `count` values on a grid.
     Range { from: f64, to: f64, logarithmic: bool, count: u64 },
     /// These numbers.
@@ -45,7 +45,7 @@ pub(crate) enum AxisValues {
 
 impl AxisValues {
     /// How many values a grid or a list takes from it.
-    pub(crate) fn len(&self) -> u64 {
+    pub fn len(&self) -> u64 {
         match self {
             Self::Range { count, .. } => *count,
             Self::Numbers(list) => list.len() as u64,
@@ -124,14 +124,14 @@ impl SweepPlan {
     }
 
     /// Whether candidate `k` is the first of those that differ only in offsets from number `used` on, as far as blocks tell: of points that mix them with other quantities all are.
-    pub(crate) fn has_first_of_unused(&self, k: u64, used: usize) -> bool {
+    pub fn has_first_of_unused(&self, k: u64, used: usize) -> bool {
         self.blocks.iter().zip(self.of_blocks(k)).all(|(block, j)| block.has_first_of_unused(used, j))
     }
 
     /// The values of the free quantities of candidate `k`, in the order of their columns: candidate `j` of each block, of which the last one is the fastest.
     ///
     /// They depend on the plan, the seed and `k` alone.
-    pub(crate) fn values(&self, seed: u64, k: u64) -> Vec<SweepCell> {
+    pub fn values(&self, seed: u64, k: u64) -> Vec<SweepCell> {
         let mut out = Vec::new();
         for (b, (block, j)) in self.blocks.iter().zip(self.of_blocks(k)).enumerate() {
             block.values((seed, b), j, &mut out);

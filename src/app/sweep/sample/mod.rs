@@ -12,7 +12,7 @@ pub(super) const MOST: u64 = 1 << 48;
 
 /// How the points of a block are spread over the unit cube.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PointSpread {
+pub enum PointSpread {
     /// Independent uniform numbers.
     Uniform,
     /// A Latin hypercube: each coordinate has one point in each of as many equal intervals as there are points.

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use super::{BELOW_ONE, hashed};
 
 /// Dimensions that a block may have.
-pub(in crate::app::sweep) const DIMENSIONS: usize = 64;
+pub(crate) const DIMENSIONS: usize = 64;
 
 /// Binary digits of a coordinate before scrambling: 2^32 points differ.
 const DIGITS: usize = 32;

@@ -5,14 +5,14 @@ mod render;
 
 use clap::ValueEnum;
 
-use crate::app::bench::{BenchReport, Class, LengthsFrom, Plan, reference_times, run as run_plan};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::OutputPath;
 use crate::app::cli::output::Answer;
-use crate::app::records::{BenchAnswer, BenchClassRecord};
+use ask::bench::{BenchReport, Class, LengthsFrom, Plan, reference_times, run as run_plan};
 use fk::{self, Homotopy, Method};
+use records::{BenchAnswer, BenchClassRecord};
 
 /// Arguments of `bench`.
 #[derive(Debug, clap::Args)]

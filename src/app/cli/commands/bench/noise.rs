@@ -4,14 +4,14 @@ use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 
 use super::Args;
-use crate::app::bench::{Class, NOISE_LEVELS, NoisePlan, noise};
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::output::Answer;
-use crate::app::records::{BenchAnswer, NoiseAnswer, NoiseLevelRecord, NoiseRowRecord, SpreadRecord};
 use ::files::plot::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
+use ask::bench::{Class, NOISE_LEVELS, NoisePlan, noise};
 use fk::{ForwardKinematics, Threads};
+use records::{BenchAnswer, NoiseAnswer, NoiseLevelRecord, NoiseRowRecord, SpreadRecord};
 
 /// Levels the published figure shows, other than zero.
 const PUBLISHED: (f64, f64) = (1e-4, 8e-4);

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::app::bench::ReferenceTimes;
-use crate::app::records::{BenchClassRecord, Histogram};
+use ask::bench::ReferenceTimes;
+use records::{BenchClassRecord, Histogram};
 
 /// Most failures listed for people; JSON has them all.
 const LISTED: usize = 20;

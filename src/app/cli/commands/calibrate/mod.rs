@@ -6,24 +6,24 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::rows::{self, TableName};
-use crate::app::entrance::Error;
-use crate::app::records::{
-    CalibrateAnswer, CalibrateOutcome, CalibrationRecord, ComputedPosesRecord, NextPoseRecord, Number,
-    ResidualsRecord,
-};
 use ::files::design::SeriesKind;
+use ask::Design;
+use ask::Error;
 use machine::calibration::{
     CalibrateOptions, Calibration, CalibrationError, CalibrationStatus, CarriedFrames, HeldParts, Loss,
     LossUnit, Measurement, MeasurementNoise, NextPose, StartChoice, Unknowns, next_poses, planning_root,
 };
 use platform::geom::{InvalidPose, Pose};
+use records::{
+    CalibrateAnswer, CalibrateOutcome, CalibrationRecord, ComputedPosesRecord, NextPoseRecord, Number,
+    ResidualsRecord,
+};
 
 /// Arguments of `calibrate`.
 #[derive(Debug, clap::Args)]

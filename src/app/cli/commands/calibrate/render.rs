@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 
 use crate::app::cli::numbers::significant;
-use crate::app::records::{
-    CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationRecord, Number, ResidualsRecord,
-};
 use machine::calibration::{NoiseSource, StartName};
 use num::shown::fixed;
+use records::{
+    CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationRecord, Number, ResidualsRecord,
+};
 
 /// Unobservable changes that are written out.
 const CHANGES: usize = 12;

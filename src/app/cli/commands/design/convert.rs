@@ -7,8 +7,8 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::records::ConvertAnswer;
 use ::files::design::{Format, RigSheet, SheetDialect};
+use records::ConvertAnswer;
 
 /// Arguments of `design convert`.
 #[derive(Debug, clap::Args)]

@@ -2,15 +2,15 @@
 
 use std::fmt::Write as _;
 
-use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::design::parse_with_cranks;
-use crate::app::presets::{PRESETS, Preset};
-use crate::app::records::{PresetAnswer, PresetFile, PresetRecord, PresetsAnswer};
 use ::files::design::Format;
+use ask::Design;
+use ask::design::parse_with_cranks;
+use ask::presets::{PRESETS, Preset};
+use records::{PresetAnswer, PresetFile, PresetRecord, PresetsAnswer};
 
 /// Arguments of `design presets`.
 #[derive(Debug, clap::Args)]

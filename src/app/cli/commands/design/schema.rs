@@ -6,8 +6,8 @@ use serde_json::Value;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
-use crate::app::records::{self, SchemaAnswer};
 use files::design::SCHEMA;
+use records::{self, SchemaAnswer};
 
 /// Arguments of `design schema`.
 #[derive(Debug, clap::Args)]

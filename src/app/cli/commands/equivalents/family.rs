@@ -3,17 +3,17 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::app::Design;
 use crate::app::cli::commands::{GENERAL, NEAREST};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::entrance::leg_map;
-use crate::app::equivalents::{Original, Origins};
-use crate::app::records::{FamilyAnswer, InstanceRecord, PatternPlace, PatternRecord};
+use ask::Design;
+use ask::equivalents::{Original, Origins};
+use ask::leg_map;
 use platform::manipulator::{Body, Octahedral};
+use records::{FamilyAnswer, InstanceRecord, PatternPlace, PatternRecord};
 use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
 /// Arguments of `equivalents family`.

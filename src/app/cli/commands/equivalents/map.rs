@@ -8,8 +8,8 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
-use crate::app::records::{CorrespondenceRecord, MapAnswer, MapRecord};
 use num::shown::fixed;
+use records::{CorrespondenceRecord, MapAnswer, MapRecord};
 use synthesis::{LegCorrespondence, Relation};
 
 /// Arguments of `equivalents map`.

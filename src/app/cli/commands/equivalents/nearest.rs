@@ -3,16 +3,16 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::app::Design;
 use crate::app::cli::commands::optimize::check_extension;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::equivalents::NearestDesigns;
-use crate::app::records::NearestAnswer;
+use ask::Design;
+use ask::equivalents::NearestDesigns;
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
+use records::NearestAnswer;
 use synthesis::NearestOptions;
 
 /// How far a joint of the design may stand beyond a corner of the triangles sought, in lengths of the side, where nothing is said: what exists is recognised, nothing is chosen.
@@ -91,7 +91,7 @@ fn text(units: &str, r: &NearestAnswer) -> String {
         n.largest_length_deviation.0,
         n.deviating_pose.short(),
         n.poses,
-        if n.workspace_from == crate::app::records::SourceWord::Design { "design's" } else { "default" }
+        if n.workspace_from == records::SourceWord::Design { "design's" } else { "default" }
     );
     if !n.settled {
         text.push_str("the fit has not settled: there are nearer platforms\n");

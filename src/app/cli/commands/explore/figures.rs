@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use super::Poses;
 use super::search::Search;
-use crate::app::Design;
-use crate::app::records::LengthsOrigin;
+use ask::Design;
 use files::plot::{ModesFigure, OffsetPlane, PlaneAxis, PlanePoint, assembly_modes, determinant_plane};
 use fk::Reality;
 use platform::manipulator::Octahedral;
+use records::LengthsOrigin;
 use synthesis::edge_lengths;
 
 /// Edges or offsets that agree this well are equal for a picture.

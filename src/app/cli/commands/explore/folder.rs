@@ -9,11 +9,11 @@ use crate::app::cli::commands::optimize;
 use crate::app::cli::commands::report;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
-use crate::app::entrance::ConflictFreedom;
-use crate::app::entrance::whole::{WholeFile, part_of};
-use crate::app::records::sha256;
 use crate::app::report::ReportFile;
 use ::files::export::ExportedFile;
+use ask::ConflictFreedom;
+use ask::whole::{WholeFile, part_of};
+use records::sha256;
 
 /// Files of a finished run, in the order they appear.
 pub(super) const ORIGINAL: &str = "original.toml";

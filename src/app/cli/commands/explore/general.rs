@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 
 use super::folder::{self, Folder};
 use super::{Args, Verified, fk_record, original, report, solve, text, verification};
-use crate::app::Design;
 use crate::app::cli::commands::equivalents::r#move::found::{Found, platforms};
 use crate::app::cli::commands::equivalents::r#move::wishes::WishArgs;
 use crate::app::cli::commands::equivalents::nearest;
@@ -15,14 +14,15 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::{Answer, document};
 use crate::app::cli::progress::ProgressLine;
-use crate::app::equivalents::NearestDesigns;
-use crate::app::records::{
+use ask::Design;
+use ask::equivalents::NearestDesigns;
+use fk::{FkOptions, PoseCounting};
+use records::{
     AssessAnswer, ComparedRecord, ComponentRecord, ComponentsAnswer, DesignRoleWord, ExploreAnswer,
     ExploreGeneralAnswer, ExploreVerdict, FamiliesFoundRecord, MovesFoundRecord, NearestAnswer,
     NearestErrorRecord, Number, PoseTotalsRecord, ProvenanceRecord, SearchWord, StageRecord, StageWord,
     VerdictWord,
 };
-use fk::{FkOptions, PoseCounting};
 use synthesis::components::{ComponentOptions, Components, components};
 
 /// What is worked with in all stages.

@@ -16,7 +16,6 @@ use super::build::round::render::RoundReport;
 use super::equivalents::r#move as relocation;
 use super::report::page;
 use super::{export, fk as fk_command, optimize, verify as verify_command};
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -26,24 +25,25 @@ use crate::app::cli::poses;
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::app::cli::requirements;
 use crate::app::cli::streams::output_is_terminal;
-use crate::app::entrance::exporting::octahedral_of_controllers;
-use crate::app::entrance::optimizing::{EXTENSION, RESERVE_PERCENT, with_default_reserve};
-use crate::app::entrance::rounding::DesignOnHoles;
-use crate::app::entrance::{OptimizeEvidence, SAMPLES, sample_plan};
-use crate::app::equivalents::Original;
-use crate::app::records::{
-    AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
-    ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
-    FreedomWord, LengthsOrigin, OnHolesRecord, OptimizeAnswer, OptimizedRecord, PoseTotalsRecord,
-    PriceRecord, ProvenanceRecord, RoundAnswer, VariantWord, VerdictWord, VerifyAnswer,
-};
 use ::files::design::DriveTable;
 use ::files::export::{ExportFormat, PartLine};
+use ask::Design;
+use ask::equivalents::Original;
+use ask::exporting::octahedral_of_controllers;
+use ask::optimizing::{EXTENSION, RESERVE_PERCENT, with_default_reserve};
+use ask::rounding::DesignOnHoles;
+use ask::{OptimizeEvidence, SAMPLES, sample_plan};
 use fk::{self, FkOptions, FkSolutions, PoseCounting};
 use machine::manufacture::NoRounding;
 use machine::requirements::KeptSymmetry;
 use platform::geom::SamplePlan;
 use platform::manipulator::{LegLengths, Octahedral};
+use records::{
+    AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
+    ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
+    FreedomWord, LengthsOrigin, OnHolesRecord, OptimizeAnswer, OptimizedRecord, PoseTotalsRecord,
+    PriceRecord, ProvenanceRecord, RoundAnswer, VariantWord, VerdictWord, VerifyAnswer,
+};
 use synthesis::{Family, FamilyMember};
 use verify::{Verification, verify};
 

@@ -5,14 +5,14 @@ use std::fmt::Write as _;
 use super::{Machine, Results, Verified, folder};
 use crate::app::cli::commands::optimize::opened_file;
 use crate::app::cli::requirements as table;
-use crate::app::entrance::optimizing::offset_reserves;
-use crate::app::entrance::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
-use crate::app::entrance::{FoundOffsets, FoundPlatform, OptimizeEvidence};
-use crate::app::records::{AssessAnswer, DriveSearchRecord, FreedomRecord, LengthsOrigin, Number};
+use ask::optimizing::offset_reserves;
+use ask::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
+use ask::{FoundOffsets, FoundPlatform, OptimizeEvidence};
 use files::export::PART_COLUMNS;
 use fk::{Completeness, FkSolutions};
 use optimize::offsets::OffsetSolution;
 use platform::manipulator::LegIndex;
+use records::{AssessAnswer, DriveSearchRecord, FreedomRecord, LengthsOrigin, Number};
 use synthesis::AffineLegMap;
 use verify::SAME_POSE;
 

@@ -2,22 +2,20 @@
 
 use super::Asked;
 use super::folder::Folder;
-use crate::app::Design;
 use crate::app::cli::commands::optimize;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::progress::ProgressLine;
-use crate::app::entrance::optimizing::{EXTENSION, SearchKind, dimensional_problem};
-use crate::app::entrance::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
-use crate::app::entrance::{
-    Checked, FoundOffsets, OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport,
-};
-use crate::app::records::{AssessAnswer, DesignRoleWord, OptimizeAnswer, OptimizeFiles};
 use ::optimize::dimensional::{Progress, Stage, Triangles};
 use ::optimize::offsets::OffsetProgress;
+use ask::Design;
+use ask::optimizing::{EXTENSION, SearchKind, dimensional_problem};
+use ask::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
+use ask::{Checked, FoundOffsets, OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport};
 use machine::manufacture::NoRounding;
 use machine::requirements::StartSymmetry;
+use records::{AssessAnswer, DesignRoleWord, OptimizeAnswer, OptimizeFiles};
 use verify::Verdict;
 
 /// The report of the search, and what the stages of `explore` ask of it.
@@ -87,7 +85,8 @@ fn stage(progress: &mut ProgressLine, p: &OptimizeProgress) {
         OptimizeProgress::Dimensions(p) | OptimizeProgress::Drive(_, p) | OptimizeProgress::Freedom(_, p) => {
             part(progress, p);
         }
-        OptimizeProgress::Judging => (),
+        // what is not counted has no line
+        _ => (),
     }
 }
 

@@ -7,7 +7,6 @@ use std::path::Path;
 
 use super::near::{self, Machine};
 use super::{Args, Table, exit_of, failure_of, render, threads};
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -15,14 +14,13 @@ use crate::app::cli::numbers;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use crate::app::cli::rows::{self, TableName};
-use crate::app::records::{
-    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
-};
+use ask::Design;
 use files::design::{SeriesKind, SeriesRow, TimeSeries};
 use fk::{self, FkOptions, FkSolutions};
 use machine::rotary::{RotaryFkError, RotaryPlatform, RotaryTracker};
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
+use records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord};
 
 /// Six angles in degrees.
 type AnglesDeg = [f64; 6];

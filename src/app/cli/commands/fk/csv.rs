@@ -1,8 +1,8 @@
 //! Poses as a table that other programs read without options: one pose a row, units in the names of the columns.
 
-use crate::app::Design;
 use crate::app::cli::table::{column_unit, csv_line, number};
-use crate::app::records::{CompletenessWord, FkAnswer, FkOneAnswer, FkRowOutcome, SideWord, SolutionRecord};
+use ask::Design;
+use records::{CompletenessWord, FkAnswer, FkOneAnswer, FkRowOutcome, SideWord, SolutionRecord};
 
 /// Cells of a pose between its number and the completeness.
 const BESIDE_COMPLETENESS: usize = 14;

@@ -3,16 +3,16 @@
 use super::Table;
 use super::lengths::{Given, ShownLengths};
 use super::near::{self, Followed, Machine, Proof};
-use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
-use crate::app::records::{DriveSolutionRecord, NearWord};
+use ask::Design;
 use fk::Reality;
 use machine::coupled::{CoupledLegs, CoupledOutcome, CoupledStatus, CoupledTracker};
 use platform::geom::Pose;
 use platform::manipulator::LegLengths;
+use records::{DriveSolutionRecord, NearWord};
 
 /// Refuses what takes the lengths of drives for distances of joints.
 pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::rows::{self, TableName};
+use ask::Design;
 use files::design::{SeriesKind, SeriesRow, TimeSeries};
 use platform::manipulator::LegLengths;
 

@@ -17,12 +17,12 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use crate::app::records::{
-    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
-};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use platform::geom::Pose;
 use platform::manipulator::{LegLengths, Manipulator};
+use records::{
+    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
+};
 
 use self::csv::Table;
 use self::lengths::Given;

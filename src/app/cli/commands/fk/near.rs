@@ -4,19 +4,19 @@ use std::fmt::Write as _;
 
 use super::lengths::{Given, ShownLengths};
 use super::{Table, render};
-use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use crate::app::records::{
-    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord, PoseUncertaintyRecord,
-    SolvedRecord,
-};
+use ask::Design;
 use fk::solve::certify::{Certifier, ProvedReality, RootCertificate};
 use fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet};
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{LegLengths, Manipulator, inverse_condition, jacobian};
+use records::{
+    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord, PoseUncertaintyRecord,
+    SolvedRecord,
+};
 
 /// What is followed: joints and legs, from where real poses are measured, and the length that turns angles into lengths.
 pub(super) struct Machine<'a> {

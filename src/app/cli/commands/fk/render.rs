@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 
 use crate::app::cli::numbers::listed;
-use crate::app::records::{
+use fk::Method;
+use platform::geom::{ComplexPose, Pose};
+use records::{
     ClosureRecord, CompletenessWord, FkRowOutcome, FkRowRecord, SolutionRecord, SolutionSetRecord,
     SolvedRecord,
 };
-use fk::Method;
-use platform::geom::{ComplexPose, Pose};
 
 /// What people read.
 pub(super) fn text(name: &str, s: &SolvedRecord) -> String {

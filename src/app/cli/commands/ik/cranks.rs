@@ -1,13 +1,13 @@
 //! The angles of cranks at given poses, where the legs are rods on cranks.
 
-use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::output::Answer;
 use crate::app::cli::table::{column_unit, csv_line, number};
-use crate::app::records::{IkAnswer, RotaryIkRecord, RotaryIkRowsAnswer};
+use ask::Design;
 use files::design::TimeSeries;
 use machine::rotary::RotaryPlatform;
 use platform::geom::Pose;
+use records::{IkAnswer, RotaryIkRecord, RotaryIkRowsAnswer};
 
 /// Exit 1 where a rod does not reach at one of the poses.
 pub(super) fn run(

@@ -4,18 +4,18 @@ mod cranks;
 
 use std::path::PathBuf;
 
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::cli::table::{column_unit, csv_line, number};
 use crate::app::cli::{poses, rows};
-use crate::app::records::{IkAnswer, IkRecord, IkRowsAnswer, Number};
+use ask::Design;
 use files::design::{SeriesRow, TimeSeries};
 use machine::requirements::Terms;
 use platform::geom::Pose;
 use platform::manipulator::LegLengths;
+use records::{IkAnswer, IkRecord, IkRowsAnswer, Number};
 
 /// Arguments of `ik`.
 #[derive(Debug, clap::Args)]

@@ -4,19 +4,19 @@ mod render;
 
 use std::path::{Path, PathBuf};
 
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::{poses, rows};
-use crate::app::entrance::{MotionMasses, MotionReport, PlatformMotion};
-use crate::app::records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
 use ::files::export::LengthUnit;
+use ask::Design;
+use ask::{MotionMasses, MotionReport, PlatformMotion};
 use machine::dynamics::{InvalidManoeuvre, Manoeuvre, PathEnds, PosePath};
 use machine::requirements::Load;
 use platform::geom::Pose;
+use records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
 
 /// Arguments of `motion`.
 #[derive(Debug, clap::Args)]

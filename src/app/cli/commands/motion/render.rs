@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use crate::app::Design;
 use crate::app::cli::numbers::significant as short;
 use crate::app::cli::poses;
 use crate::app::cli::table::{column_unit, csv_line, number};
-use crate::app::entrance::MotionReport;
-use crate::app::records::{
+use ask::Design;
+use ask::MotionReport;
+use records::{
     CrankMotionRecord, ExtremeRecord, MotionAnswer, MotionRegularity, MotionRunRecord, StiffnessRecord,
     TimedMarginRecord,
 };

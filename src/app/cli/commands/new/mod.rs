@@ -1,28 +1,28 @@
 //! `equipod new`: a design from a few sizes, from corners, from a table of points, from a sheet of parameters or from a model.
 
-mod ask;
+mod prompts;
 
 use std::fmt::Write as _;
 use std::io::{stderr, stdin};
 use std::path::PathBuf;
 
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::streams;
-use crate::app::design::parse_with_cranks;
-use crate::app::records::{NewAnswer, PresetFile};
 use ::files::design::{
     Format, HexapodSizes, InvalidPointTable, PointTable, RigSheet, SheetDialect, octahedral_toml,
     with_lengths,
 };
+use ask::Design;
+use ask::design::parse_with_cranks;
 use platform::geom::{Angles, Pose};
+use records::{NewAnswer, PresetFile};
 use synthesis::singularity::Architecture;
 
-use self::ask::Asked;
+use self::prompts::Asked;
 
 /// Arguments of `new`.
 #[derive(Debug, clap::Args)]
@@ -119,7 +119,7 @@ fn asked() -> Result<Asked, Failure> {
         let message = "nothing says what the new design is, and there is no terminal to ask on";
         return Err(Failure::refused("new::nothing_given", message).with_help(WAYS));
     }
-    ask::ask(&mut stdin().lock(), &mut stderr().lock()).ok_or_else(|| {
+    prompts::ask(&mut stdin().lock(), &mut stderr().lock()).ok_or_else(|| {
         Failure::refused("new::nothing_given", "the questions were not answered").with_help(WAYS)
     })
 }

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
-use crate::app::entrance::{OptimizeEvidence, OptimizeReport};
 use ::files::plot::{SearchStep, StepsFigure, steps_chart};
+use ask::{OptimizeEvidence, OptimizeReport};
 use optimize::dimensional::HistoryStep;
 use optimize::offsets::OffsetHistoryStep;
 

@@ -8,7 +8,6 @@ pub(super) use self::render::drives_text;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use crate::app::Design;
 use crate::app::cli::commands::build::drives;
 use crate::app::cli::commands::verify::failure_of;
 use crate::app::cli::commands::{GENERAL, NEAREST};
@@ -18,13 +17,12 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
-use crate::app::entrance::optimizing::{EXTENSION, SearchKind, dimensional_problem, hopeless_home};
-use crate::app::entrance::{
-    ConflictFreedom, Error, OptimizeEvidence, OptimizeOptions, OptimizeReport, OptimizeStatus,
-};
-use crate::app::records::{OptimizeAnswer, OptimizeFiles};
+use ask::Design;
+use ask::optimizing::{EXTENSION, SearchKind, dimensional_problem, hopeless_home};
+use ask::{ConflictFreedom, Error, OptimizeEvidence, OptimizeOptions, OptimizeReport, OptimizeStatus};
 use fk::Threads;
 use optimize::dimensional::InvalidProblem;
+use records::{OptimizeAnswer, OptimizeFiles};
 
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]

@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use crate::app::cli::numbers::{significant as short, width_of};
 use crate::app::cli::requirements;
-use crate::app::entrance::OptimizeStatus;
-use crate::app::records::{
+use ask::OptimizeStatus;
+use optimize::offsets::Zone;
+use records::{
     ConflictReasonRecord, ConflictRecord, DesignRecord, DriveSearchRecord, FoundPlatformRecord,
     FrontMemberRecord, MarginRecord, NearestPlatformRecord, Number, OptimalityWord, OptimizeAnswer,
     OptimumRecord, VariableRecord,
 };
-use optimize::offsets::Zone;
 use synthesis::sliding_body;
 
 /// For people. Writing to a string cannot fail, so the results of `write!` are dropped.
@@ -316,12 +316,12 @@ fn conflict_text(out: &mut String, c: &ConflictRecord) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::design::parse;
-    use crate::app::entrance::OptimizeOptions;
-    use crate::app::records::OptimizeFiles;
+    use ask::OptimizeOptions;
+    use ask::design::parse;
     use files::design::Format;
     use machine::requirements::{Objective, TermKind};
     use optimize::dimensional::{ConstraintConflict, Demand, Give};
+    use records::OptimizeFiles;
 
     #[test]
     fn nobody_has_to_give_by_zero() {

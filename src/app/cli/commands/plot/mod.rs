@@ -19,8 +19,8 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::freedoms::Freedoms;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use crate::app::records::{FigureWord, PictureRecord, PlotAnswer};
 use ::files::plot::singular_slice;
+use records::{FigureWord, PictureRecord, PlotAnswer};
 
 /// Arguments of `plot`.
 #[derive(Debug, clap::Args)]

@@ -5,7 +5,7 @@ use clap_complete::Shell;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::guide;
 use crate::app::cli::output::Answer;
-use crate::app::records::CompletionsAnswer;
+use records::CompletionsAnswer;
 
 /// Arguments of `shell completions`.
 #[derive(Debug, clap::Args)]

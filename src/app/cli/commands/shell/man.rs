@@ -9,7 +9,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::guide;
 use crate::app::cli::output::Answer;
-use crate::app::records::ManAnswer;
+use records::ManAnswer;
 
 /// Arguments of `shell man`.
 #[derive(Debug, clap::Args)]

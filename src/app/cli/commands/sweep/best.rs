@@ -11,8 +11,8 @@ use crate::app::cli::numbers::significant;
 use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
 use crate::app::cli::swept_table::{Better, SweptTable};
-use crate::app::records::{SweepBestAnswer, SweepBestRecord};
-use crate::app::sweep::SweepCell;
+use records::{SweepBestAnswer, SweepBestRecord};
+use sweep::SweepCell;
 
 /// The page in the folder.
 const PAGE: &str = "report.html";

@@ -7,7 +7,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
-use crate::app::records::{SweepDesignAnswer, SweepDesignFile};
+use records::{SweepDesignAnswer, SweepDesignFile};
 
 /// Arguments of `sweep design`.
 #[derive(Debug, clap::Args)]

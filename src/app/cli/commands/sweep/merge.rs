@@ -9,9 +9,9 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::{
     PartLook, ShardState, SweepFolder, outside, part_failed, ranges, write_whole,
 };
-use crate::app::records::SweepMergeAnswer;
-use crate::app::sweep::Digested;
-use crate::app::sweep::part::{PartError, PartWriter};
+use records::SweepMergeAnswer;
+use sweep::Digested;
+use sweep::part::{PartError, PartWriter};
 
 /// Arguments of `sweep merge`.
 #[derive(Debug, clap::Args)]

@@ -18,10 +18,10 @@ use crate::app::cli::progress::{Interrupt, ProgressLine};
 use crate::app::cli::sweep_folder::{
     MOST_SHARDS, PartLook, ShardState, SweepFolder, SweepTexts, default_shards,
 };
-use crate::app::records::{SweepColumnRecord, SweepEstimateAnswer, SweepRunAnswer};
-use crate::app::sweep::{Sweep, shard_range};
 use fk::Threads;
 use num::{Cancel, Purpose};
+use records::{SweepColumnRecord, SweepEstimateAnswer, SweepRunAnswer};
+use sweep::{Sweep, shard_range};
 
 /// Arguments of `sweep run`.
 #[derive(Debug, clap::Args)]
@@ -199,9 +199,8 @@ impl CandidateSample {
             let k = ((n as f64 + rng.unit()) / SAMPLE.0.min(count) as f64 * count as f64) as u64;
             let row = sweep.row(k.min(count - 1));
             sample.computed += 1;
-            sample.failed += usize::from(
-                row.as_ref().is_some_and(|r| r[r.len() - 1] != crate::app::sweep::SweepCell::Empty),
-            );
+            sample.failed +=
+                usize::from(row.as_ref().is_some_and(|r| r[r.len() - 1] != sweep::SweepCell::Empty));
             sample.kept += usize::from(row.is_some());
             sample.time = began.elapsed();
             if sample.time > SAMPLE.1 {

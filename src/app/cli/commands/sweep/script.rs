@@ -11,7 +11,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::{MOST_SHARDS, SweepTexts};
-use crate::app::records::{SweepDesignFile, SweepScriptAnswer};
+use records::{SweepDesignFile, SweepScriptAnswer};
 
 use super::run::CandidateSample;
 

@@ -7,7 +7,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
-use crate::app::records::SweepStatusAnswer;
+use records::SweepStatusAnswer;
 
 /// Arguments of `sweep status`.
 #[derive(Debug, clap::Args)]

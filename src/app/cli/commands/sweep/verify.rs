@@ -11,9 +11,9 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
-use crate::app::records::SweepVerifyAnswer;
-use crate::app::sweep::{Sweep, SweepCell, SweepRow, shard_range};
 use num::Purpose;
+use records::SweepVerifyAnswer;
+use sweep::{Sweep, SweepCell, SweepRow, shard_range};
 
 /// Arguments of `sweep verify`.
 #[derive(Debug, clap::Args)]
@@ -76,7 +76,7 @@ fn sample(sweep: &Sweep, n: u64, seed: u64) -> Vec<u64> {
 /// The rows of these candidates in the part of a shard.
 fn rows(folder: &SweepFolder, shard: u64, wanted: &[u64]) -> Result<BTreeMap<u64, SweepRow>, Failure> {
     let reader = folder.reader(shard)?;
-    let damaged = |e: crate::app::sweep::part::PartError| {
+    let damaged = |e: sweep::part::PartError| {
         Failure::refused("sweep::damaged", format!("{}: {e}", folder.part(shard).display()))
     };
     let columns: Vec<usize> = (0..reader.columns.len()).collect();

@@ -1,8 +1,8 @@
 //! Blocks of quantities that vary, and how many candidates they have.
 
 use super::{Reader, missing};
-use crate::app::sweep::plan::{AxisValues, MOST_CANDIDATES, PlanAxis, PlanBlock, Spreading};
-use crate::app::sweep::sample::{DIMENSIONS, MOST, PointSpread};
+use crate::plan::{AxisValues, MOST_CANDIDATES, PlanAxis, PlanBlock, Spreading};
+use crate::sample::{DIMENSIONS, MOST, PointSpread};
 use files::design::Code;
 use files::design::spanned::{Entry, Node, Span, Value, check_keys, find, nearest_help, shown, table, text};
 

@@ -1,9 +1,9 @@
 //! What the parts of a plan need of each other and of the base design.
 
 use super::Reader;
-use crate::app::equivalents::Original;
-use crate::app::sweep::column::SweepColumn;
-use crate::app::sweep::plan::{AnswerField, AnswerName, AxisValues, FreeQuantity, SweepPlan, SweepTask};
+use crate::column::SweepColumn;
+use crate::plan::{AnswerField, AnswerName, AxisValues, FreeQuantity, SweepPlan, SweepTask};
+use ask::equivalents::Original;
 use files::design::Code;
 use files::design::spanned::{Span, shown};
 use synthesis::Pattern;

@@ -7,7 +7,7 @@ mod settings;
 mod tasks;
 
 use super::{BaseName, BasePlan, PlanFiles, PlanText, PoseChoice, SweepPlan};
-use crate::app::presets::PRESETS;
+use ask::presets::PRESETS;
 use files::design::spanned::{
     Entry, Findings, Node, Span, Value, check_keys, find, nearest_help, number, read as read_tree, shown,
     text,
@@ -66,7 +66,7 @@ fn tree(plan: PlanText<'_>, report: &mut Findings<'_>) -> Option<Node> {
 ///
 /// # Errors
 /// The violations of the plan, where it names no design.
-pub(crate) fn files_named(plan: PlanText<'_>) -> Result<PlanFiles, Vec<Violation>> {
+pub fn files_named(plan: PlanText<'_>) -> Result<PlanFiles, Vec<Violation>> {
     let mut report = Findings::new(plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text));
     let root = tree(plan, &mut report);
     let found = root.as_ref().and_then(|root| {
@@ -130,7 +130,7 @@ fn missing(report: &mut Findings<'_>, root: &Node, key: &str, help: &str) {
 ///
 /// # Errors
 /// All violations, in the order of the text.
-pub(crate) fn read(plan: PlanText<'_>, base_plan: &BasePlan) -> Result<SweepPlan, Vec<Violation>> {
+pub fn read(plan: PlanText<'_>, base_plan: &BasePlan) -> Result<SweepPlan, Vec<Violation>> {
     let mut report = Findings::new(plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text));
     let root = tree(plan, &mut report);
     let found = root.and_then(|root| Reader { report: &mut report, base: base_plan }.plan(&root));
@@ -239,6 +239,6 @@ impl Reader<'_, '_> {
 }
 
 /// The pose of six coordinates, angles in degrees.
-pub(in crate::app::sweep) fn pose_of([x, y, z, roll, pitch, yaw]: [f64; 6]) -> Pose {
+pub(crate) fn pose_of([x, y, z, roll, pitch, yaw]: [f64; 6]) -> Pose {
     Pose::new([x, y, z], platform::geom::Angles::from_degrees([roll, pitch, yaw]))
 }

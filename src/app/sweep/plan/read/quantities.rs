@@ -1,10 +1,10 @@
 //! Quantities that vary: their names, their values.
 
 use super::Reader;
-use crate::app::sweep::column::{ColumnKind, SweepColumn};
-use crate::app::sweep::plan::place::TRAJECTORY;
-use crate::app::sweep::plan::{AxisValues, FreeQuantity, POSE_COORDINATES, PlanAxis};
-use crate::app::sweep::sample::MOST;
+use crate::column::{ColumnKind, SweepColumn};
+use crate::plan::place::TRAJECTORY;
+use crate::plan::{AxisValues, FreeQuantity, POSE_COORDINATES, PlanAxis};
+use crate::sample::MOST;
 use files::design::Code;
 use files::design::spanned::{Entry, Node, Value, check_keys, find, nearest_help, number, shown, text};
 use synthesis::{Family, Pattern};

@@ -1,7 +1,7 @@
 //! Settings of a plan: poses, effort, accuracy.
 
 use super::{Reader, pose_of};
-use crate::app::sweep::plan::{AssessEffort, PoseChoice};
+use crate::plan::{AssessEffort, PoseChoice};
 use files::design::Code;
 use files::design::spanned::{Entry, Node, Value, check_keys, find, number, shown, table};
 use machine::manufacture::ErrorBound;

@@ -1,8 +1,8 @@
 //! What is computed, and what is kept.
 
 use super::{Reader, missing};
-use crate::app::sweep::column::{ColumnKind, SweepColumn};
-use crate::app::sweep::plan::{AnswerField, AnswerName, KeepCondition, SweepTask, TASK_WORDS};
+use crate::column::{ColumnKind, SweepColumn};
+use crate::plan::{AnswerField, AnswerName, KeepCondition, SweepTask, TASK_WORDS};
 use files::design::Code;
 use files::design::spanned::{Entry, Node, Value, check_keys, find, nearest_help, shown, text};
 impl Reader<'_, '_> {

@@ -4,16 +4,16 @@ mod render;
 
 use std::path::{Path, PathBuf};
 
-use crate::app::Design;
 use crate::app::cli::commands::motion;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
-use crate::app::entrance::PlatformMotion;
-use crate::app::records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 use ::files::design::{Drive, DriveTable, JudgedForces};
+use ask::Design;
+use ask::PlatformMotion;
+use records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 
 /// Arguments of `build drives`.
 #[derive(Debug, clap::Args)]

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::app::cli::numbers::{significant as short, width_of};
 use crate::app::cli::requirements;
-use crate::app::records::{DriveRecord, DrivesAnswer, MarginRecord, Number};
+use records::{DriveRecord, DrivesAnswer, MarginRecord, Number};
 
 /// The sentence, a line for each drive, and the requirements with the drive chosen.
 pub(super) fn text(answer: &DrivesAnswer) -> String {

@@ -7,18 +7,18 @@ use std::path::PathBuf;
 use nalgebra::Point3;
 
 use super::tolerances::numbers;
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
-use crate::app::entrance::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
-use crate::app::records::{AssessAnswer, DesignRoleWord, VariantWord};
+use ask::Design;
+use ask::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use machine::manufacture::{NoRounding, Rounding};
 use machine::requirements::{Grid, HoleCircles, HolePattern};
 use platform::manipulator::{Body, Manipulator};
+use records::{AssessAnswer, DesignRoleWord, VariantWord};
 use verify::{Verdict, Verification};
 
 /// Arguments of `build round`.

@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use crate::app::Design;
 use crate::app::cli::requirements;
-use crate::app::entrance::rounding::RoundingChoices;
-use crate::app::records::{
+use ask::Design;
+use ask::rounding::RoundingChoices;
+use machine::manufacture::Rounding;
+use records::{
     AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, JudgementRecord, NearestRoundingOutcome,
     RoundAnswer, RoundedJointRecord, VariantWord,
 };
-use machine::manufacture::Rounding;
 
 /// Everything there is to tell.
 #[derive(Debug)]

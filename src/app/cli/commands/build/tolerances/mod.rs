@@ -6,14 +6,13 @@ use std::path::PathBuf;
 
 use nalgebra::Point3;
 
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use crate::app::records::PoseDeviations;
+use ask::Design;
 use machine::manufacture::{
     Budget, ErrorAtPose, ErrorBound, JointErrors, MachineErrors, MachineUncertainty, PoseSearch,
     ToleranceError, Trials, budget, error_map, solved_error, trials,
@@ -21,6 +20,7 @@ use machine::manufacture::{
 use machine::requirements::PoseSpace;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
+use records::PoseDeviations;
 
 /// Arguments of `build tolerances`.
 #[derive(Debug, clap::Args)]

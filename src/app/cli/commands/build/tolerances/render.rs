@@ -3,16 +3,16 @@
 use std::fmt::Write as _;
 
 use super::Found;
-use crate::app::Design;
 use crate::app::cli::numbers::significant;
 use crate::app::cli::requirements;
 use crate::app::cli::table::{column_unit, csv_line, number};
-use crate::app::records::{
+use ask::Design;
+use machine::manufacture::{ErrorAtPose, ErrorParts, Trials};
+use records::{
     AssessAnswer, BudgetPosesRecord, CalibratedPosesRecord, CorrelationsWord, ErrorMapRecord,
     JointBudgetRecord, Number, PoseErrorRecord, SolvedBudgetRecord, TolerancesAnswer, TrialsRecord,
     WorkspaceWord, WorstErrorsRecord,
 };
-use machine::manufacture::{ErrorAtPose, ErrorParts, Trials};
 
 /// The record of the answer.
 pub(super) fn record(design: &Design, f: &Found, seed: u64, path: Option<String>) -> TolerancesAnswer {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::app::Design;
+use ask::Design;
 use files::plot::{CurveFigure, CurveMark, CurvePanel, component_curves};
 use num::Purpose;
 use platform::manipulator::LegIndex;

@@ -5,14 +5,14 @@ mod text;
 
 use std::path::PathBuf;
 
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::records::{ComponentRecord, ComponentsAnswer};
+use ask::Design;
 use num::Purpose;
+use records::{ComponentRecord, ComponentsAnswer};
 use synthesis::components::{
     Component, ComponentOptions, Components, ComponentsError, SampledLeg, components,
 };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::app::Design;
+use ask::Design;
 use platform::manipulator::LegIndex;
 use synthesis::components::{Component, Components, PlaneCurve, SampledLeg, flat_name};
 

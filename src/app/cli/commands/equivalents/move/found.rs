@@ -5,13 +5,13 @@ use std::path::Path;
 
 use super::naming::{family_names, moved_design};
 use super::wishes::WishArgs;
-use crate::app::Design;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::output::Answer;
 use crate::app::cli::requirements;
-use crate::app::records::{
+use ask::Design;
+use records::{
     AssessAnswer, CandidateRecord, DesignRecord, DesignRoleWord, HoleRecord, MoveAnswer, MoveSearchAnswer,
     Number, PlacementRecord, SearchWord, WishMarginRecord,
 };

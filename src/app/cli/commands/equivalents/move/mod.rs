@@ -8,15 +8,15 @@ pub(in crate::app::cli::commands) mod wishes;
 
 use std::path::PathBuf;
 
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::records::MoveAnswer;
+use ask::Design;
 use naming::{Meant, family_names, list_families, moved_design, resolve};
 use platform::manipulator::Body;
+use records::MoveAnswer;
 use request::{Request, requests};
 use synthesis::components::{ComponentOptions, Components, ComponentsError, components};
 use synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};

@@ -3,8 +3,8 @@
 use nalgebra::Point3;
 
 use super::request::Along;
-use crate::app::Design;
 use crate::app::cli::failure::Failure;
+use ask::Design;
 use files::design::{DesignModel, Origin};
 use num::linalg::LinalgError;
 use platform::manipulator::Body;

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use super::Done;
-use crate::app::Design;
 use crate::app::cli::commands::equivalents::map;
-use crate::app::records::{
+use ask::Design;
+use records::{
     DesignRecord, LegEndsRecord, LegMoveRecord, MoveMode, MoveStepRecord, MovesAnswer, Number,
     SingularParametersRecord,
 };

@@ -2,9 +2,9 @@
 
 use nalgebra::Point3;
 
-use crate::app::Design;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::poses;
+use ask::Design;
 use platform::manipulator::{Body, LegIndex, inverse_condition, jacobian};
 use synthesis::relocate::search::{Hole, MoveSearchOptions, Wishes};
 

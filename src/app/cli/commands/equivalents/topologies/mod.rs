@@ -8,23 +8,23 @@ use std::path::PathBuf;
 
 use nalgebra::Point3;
 
-use crate::app::Design;
-use crate::app::bench::{Class, LengthsFrom, Planar, problem};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::records::{
-    RearrangementRecord, RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord,
-    VirtualLegsRecord,
-};
 use ::files::plot::{TopologyFigure, topology_diagram, topology_sheet};
+use ask::Design;
+use ask::bench::{Class, LengthsFrom, Planar, problem};
 use fk::distance::{ClosureDegrees, generic_degrees};
 use fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
 use num::Purpose;
 use platform::manipulator::{Manipulator, default_home};
 use platform::topology::{NamedTopology, Recognised, Sequence, catalogue, recognise};
+use records::{
+    RearrangementRecord, RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord,
+    VirtualLegsRecord,
+};
 
 /// Arguments of `equivalents topologies`.
 #[derive(Debug, clap::Args)]

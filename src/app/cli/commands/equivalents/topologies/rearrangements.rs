@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::app::Design;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
-use crate::app::records::RearrangementRecord;
+use ask::Design;
 use platform::manipulator::default_home;
 use platform::topology::NamedTopology;
+use records::RearrangementRecord;
 use synthesis::rearrangement::{Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement};
 
 /// All cases of these topologies.

@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 
 use num_complex::Complex64;
 
-use crate::app::Design;
 use crate::app::cli::commands::fk::{MethodArg, failure_of, lengths};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::records::LocusWord;
 use ::files::plot::{LocusStep, LocusValue};
+use ask::Design;
 use fk::{self, FkOptions, FkSolutions, PoseCounting, Reality, SolutionSet, Threads};
 use platform::manipulator::{Leg, LegLengths, Manipulator};
 use platform::topology::Topology;
+use records::LocusWord;
 
 /// Arguments of `plot locus`.
 #[derive(Debug, clap::Args)]

@@ -5,11 +5,9 @@ use std::fmt::Write as _;
 use num_complex::Complex64;
 
 use super::{Between, Found, Row};
-use crate::app::records::{
-    LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord, Number,
-};
 use files::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
 use fk::{FkRoot, Reality};
+use records::{LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord, Number};
 
 pub(super) fn picture(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {
     let without = rows.iter().filter(|r| r.status() != LocusWord::Isolated).count();

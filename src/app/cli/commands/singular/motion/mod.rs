@@ -4,7 +4,6 @@ mod render;
 
 use std::path::PathBuf;
 
-use crate::app::Design;
 use crate::app::cli::commands::fk::lengths::six;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -12,11 +11,12 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use crate::app::records::OriginWord;
 use ::files::plot::{MotionFigure, motion};
+use ask::Design;
 use fk::{FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, SolutionSet};
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
+use records::OriginWord;
 use synthesis::singularity::{
     CriticalPoses, CurveDegree, CurveEnd, MotionOptions, SelfMotion, critical_poses, curve_degree,
     rounds_to_singular, self_motion,

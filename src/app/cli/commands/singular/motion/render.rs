@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 
 use super::Found;
-use crate::app::Design;
 use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use crate::app::records::{
+use ask::Design;
+use records::{
     CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, IsolatedRecord, MotionCurveRecord,
     MotionEvidenceWord, Number, OriginWord, PoseQuaternionRecord, SelfmotionAnswer,
 };

@@ -6,7 +6,6 @@ pub(in crate::app::cli::commands) mod slice;
 
 use std::path::PathBuf;
 
-use crate::app::Design;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -14,8 +13,9 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::freedoms::Freedoms;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use crate::app::entrance::BOX_CELLS;
 use ::files::plot::singular_slice;
+use ask::BOX_CELLS;
+use ask::Design;
 use fk::{Automatic, FkOptions, ForwardKinematics};
 use platform::geom::{Pose, PoseSpace, Region};
 use platform::manipulator::{LegLengths, Octahedral, inverse_condition, jacobian, leg_determinant};

@@ -3,17 +3,17 @@
 use std::fmt::Write as _;
 
 use super::{Args, Judged};
-use crate::app::Design;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::poses;
-use crate::app::records::{
+use ::files::plot::{AlongFigure, AlongPart, sign_along};
+use ask::Design;
+use platform::geom::Pose;
+use platform::manipulator::leg_determinant;
+use records::{
     Number, PoseQuaternionRecord, SignOutcome, SignPairRecord, SignPairsRecord, SignPartRecord,
     SignPathRecord, WayRecord,
 };
-use ::files::plot::{AlongFigure, AlongPart, sign_along};
-use platform::geom::Pose;
-use platform::manipulator::leg_determinant;
 use synthesis::singularity::{JoinOptions, Joined, Sign, SignsAlong, between, join, signs_along};
 
 /// Values of det J listed on each straight part of a path.

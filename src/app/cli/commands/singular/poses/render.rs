@@ -3,14 +3,14 @@
 use std::fmt::Write as _;
 
 use super::{Found, Judged, paths};
-use crate::app::Design;
 use crate::app::cli::output::Answer;
-use crate::app::records::{
+use ask::Design;
+use platform::geom::Region;
+use platform::manipulator::LegLengths;
+use records::{
     JudgedPoseRecord, Number, PoseQuaternionRecord, RegionWord, RegularBoxRecord, RegularityRecord,
     RegularityWord, ScaledPoseRecord, SingularitiesAnswer,
 };
-use platform::geom::Region;
-use platform::manipulator::LegLengths;
 use synthesis::singularity::BoxOptions;
 
 fn judged(j: &Judged) -> JudgedPoseRecord {

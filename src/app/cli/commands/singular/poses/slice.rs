@@ -1,7 +1,7 @@
 //! The singularity surface over two freedoms.
 
-use crate::app::Design;
 use crate::app::cli::freedoms::{Freedoms, PoseGrid};
+use ask::Design;
 use files::plot::SliceFigure;
 use platform::geom::Pose;
 use platform::manipulator::plucker_matrix;

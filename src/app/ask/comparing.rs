@@ -1,0 +1,313 @@
+//! The figures by which designs are compared.
+
+use nalgebra::{Point3, Vector3};
+
+use super::judging::{AssessReport, deciding};
+use super::moving::{MotionMasses, MotionReport, PlatformMotion};
+use crate::Design;
+use machine::dynamics::{least_stiffness, mass_matrix, stiffness_matrix, vibration};
+use machine::manufacture::{ErrorBound, PoseSearch, ToleranceError, joint_allowance};
+use machine::requirements::{Terms, leg_forces};
+use machine::rotary::RotaryPlatform;
+use num::Purpose;
+use platform::geom::Pose;
+use platform::manipulator::{Body, jacobian};
+
+/// Steps between two poses of a trajectory.
+const STEPS: usize = 10;
+/// Lengths at home that differ by less than this share of the size are one: a drawing does not tell them apart.
+const SAME_LENGTH: f64 = 1e-6;
+
+/// What is looked at.
+#[derive(Debug, Clone)]
+pub struct FigureOptions<'a> {
+    /// Points of a Halton sequence, and as many random ones, in the region of poses.
+    pub points: usize,
+    /// Seed of the random poses.
+    pub seed: u64,
+    /// Motions about home.
+    pub motions: &'a [PlatformMotion],
+    /// What forces along them are computed from.
+    pub masses: Option<&'a MotionMasses>,
+    /// The accuracy for which joints are toleranced.
+    pub accuracy: Option<ErrorBound>,
+    /// Characteristic length of the conditioning: one for all designs that are compared.
+    pub characteristic_length: f64,
+}
+
+/// Figures of a design over the poses of its workspace, at home where it states none. What a design says nothing about has none; an infinite force stands for a singular pose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignFigures {
+    /// What `assess` says; `None` where nothing is required.
+    pub assessment: Option<AssessReport>,
+    /// Poses looked at.
+    pub poses: usize,
+    /// Least and greatest leg length; not numbers where the legs are rods on cranks.
+    pub lengths: [f64; 2],
+    /// What cranks do, where the legs are rods on cranks.
+    pub cranks: Option<CrankFigures>,
+    /// Lengths at home that differ; of cranks lengths of rods.
+    pub different_legs: usize,
+    /// Greatest leg force under the loads.
+    pub force: Option<f64>,
+    /// Greatest leg speed under the speed of the platform.
+    pub speed: Option<f64>,
+    /// Greatest force, speed and power (watts) of a leg along the motions.
+    pub motion: MotionFigures,
+    /// Least inverse condition number over the poses that `assess` looks at.
+    pub conditioning: f64,
+    /// Least stiffness against a force.
+    pub stiffness: Option<f64>,
+    /// Lowest natural frequency, hertz.
+    pub frequency: Option<f64>,
+    /// Least distance of two joint centres of base and platform; `None` where a body has one.
+    pub spacing: [Option<f64>; 2],
+    /// Least gap between two legs.
+    pub clearance: Option<f64>,
+    /// Greatest distance of a joint of base and platform from the centroid of the joints of its body.
+    pub radius: [f64; 2],
+    /// How far each joint may be off for the accuracy to be kept: a radius, or why there is none.
+    pub allowance: Option<Result<f64, NoAllowance>>,
+}
+
+/// Why joints are not toleranced.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoAllowance {
+    /// They cannot be.
+    Error(ToleranceError),
+    /// The legs are rods on cranks.
+    Cranks,
+}
+
+impl std::fmt::Display for NoAllowance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Error(why) => why.fmt(f),
+            Self::Cranks => f.write_str(
+                "the legs are rods on cranks, and joints are toleranced of legs that change their lengths",
+            ),
+        }
+    }
+}
+
+/// The price of separate joints: figures of a design and of a platform made from it, in this order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Separation {
+    /// Worst conditioning over the poses judged, both by the characteristic length of the design.
+    pub conditioning: [f64; 2],
+    /// Least distance of the ends of two legs on base and platform: 0 where they share a joint.
+    pub spacing: [[f64; 2]; 2],
+    /// Radius of base and platform, as in [`DesignFigures`].
+    pub radius: [[f64; 2]; 2],
+}
+
+/// What cranks do over the poses. Poses that a rod does not reach count for nothing here; `assess` says that there are some.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrankFigures {
+    /// Least and greatest angle, degrees; `None` where no pose is reached.
+    pub angles_deg: Option<[f64; 2]>,
+    /// Least transmission angle, degrees.
+    pub transmission_deg: Option<f64>,
+    /// Greatest torque under the loads, force units times design units; infinite at a singular pose.
+    pub torque: Option<f64>,
+    /// Greatest speed under the speed of the platform, degrees per second.
+    pub speed_deg: Option<f64>,
+}
+
+/// The greatest of all legs along all motions.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MotionFigures {
+    pub force: Option<f64>,
+    pub speed: Option<f64>,
+    pub power: Option<f64>,
+}
+
+impl MotionFigures {
+    fn of(reports: &[MotionReport]) -> Self {
+        let legs = || reports.iter().flat_map(|r| &r.legs);
+        let greatest = |values: Vec<f64>| values.into_iter().map(f64::abs).reduce(f64::max);
+        let drives = || legs().map(|l| l.drive).collect::<Option<Vec<_>>>().unwrap_or_default();
+        // no force holds the platform at a singular pose
+        let singular =
+            (!drives().is_empty() && reports.iter().any(|r| r.singular.is_some())).then_some(f64::INFINITY);
+        Self {
+            force: singular
+                .or(greatest(drives().iter().flat_map(|d| [d.push.value, d.pull.value]).collect())),
+            speed: greatest(legs().map(|l| l.speed.value).collect()),
+            power: greatest(drives().iter().map(|d| d.power.value).collect()),
+        }
+    }
+}
+
+impl Design {
+    /// What separate joints cost in a platform made from this design.
+    pub fn separation(&self, separate: &Self, seed: u64) -> Separation {
+        let length = self.characteristic_length();
+        let both = [self, separate];
+        Separation {
+            conditioning: both.map(|d| d.least_conditioning(&deciding(seed), length).value),
+            spacing: Body::BOTH.map(|body| both.map(|d| d.leg_spacing(body))),
+            radius: Body::BOTH.map(|body| both.map(|d| d.radius(body))),
+        }
+    }
+
+    /// The least distance of the ends of two legs on a body.
+    fn leg_spacing(&self, body: Body) -> f64 {
+        let legs = self.manipulator().legs();
+        let ends = legs.map(|l| if body == Body::Base { l.base } else { l.platform });
+        let pairs = (0..6).flat_map(|i| (0..i).map(move |k| (i, k)));
+        pairs.map(|(i, k)| (ends[i] - ends[k]).norm()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The figures of the design.
+    pub fn figures(&self, options: &FigureOptions<'_>) -> DesignFigures {
+        let m = self.manipulator();
+        let home = self.home_or_default();
+        let space = self.workspace.space(&home);
+        let mut rng = Purpose::ASSESSED_POSES.rng(options.seed);
+        let region = space.cube_points(options.points, &mut rng).into_iter().map(|x| space.pose(&x));
+        let poses: Vec<Pose> = space.listed(STEPS).into_iter().chain(region).collect();
+        let least = |values: &dyn Fn(&Pose) -> Option<f64>| -> Option<f64> {
+            poses.iter().map(values).collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)
+        };
+        let lengths = |pose: &Pose| m.legs().map(|l| (pose.transform(&l.platform) - l.base).norm());
+        let all = || poses.iter().flat_map(lengths);
+        let moving: Vec<MotionReport> =
+            options.motions.iter().map(|motion| self.along(motion, options.masses)).collect();
+        let required = self.requirements();
+        let terms = Terms::new(m, &required, &home);
+        // cranks of a design that was read make a platform
+        let platform = self.rotary().ok().flatten();
+        let (assessment, conditioning) = self.assessed_beside(options.seed, options.characteristic_length);
+        let stiffness = self.hardware.leg_stiffness;
+        // a singular pose has none
+        let softest = |pose: &Pose| {
+            least_stiffness(&stiffness_matrix(m, pose, stiffness?)).map_or(Some(0.0), |s| Some(s.linear))
+        };
+        let lowest = |pose: &Pose| self.lowest_frequency(pose, options.masses?);
+        DesignFigures {
+            assessment,
+            poses: poses.len(),
+            lengths: match &platform {
+                None => [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)],
+                Some(_) => [f64::NAN; 2],
+            },
+            different_legs: match &platform {
+                None => different(lengths(&home), SAME_LENGTH * m.size()),
+                Some(platform) => different(platform.rods().get(), SAME_LENGTH * m.size()),
+            },
+            force: least(&|pose| self.greatest_force(pose).filter(|_| platform.is_none()).map(|f| -f))
+                .map(|f| -f),
+            speed: least(&|pose| self.greatest_speed(pose).filter(|_| platform.is_none()).map(|v| -v))
+                .map(|v| -v),
+            cranks: platform.as_ref().map(|platform| self.crank_figures(platform, &poses)),
+            motion: MotionFigures::of(&moving),
+            conditioning: conditioning.value,
+            stiffness: least(&softest),
+            frequency: least(&lowest),
+            spacing: Body::BOTH.map(|body| m.nearest_joints(body).map(|n| n.0)),
+            clearance: least(&|pose| terms.least_leg_gap(pose)),
+            radius: Body::BOTH.map(|body| self.radius(body)),
+            allowance: options.accuracy.map(|bound| {
+                if platform.is_some() {
+                    return Err(NoAllowance::Cranks);
+                }
+                let search = PoseSearch {
+                    points: options.points.min(300),
+                    seed: options.seed,
+                    ..PoseSearch::default()
+                };
+                let found = joint_allowance(m, &space, Point3::origin(), bound, &search);
+                found.map(|found| found.value).map_err(NoAllowance::Error)
+            }),
+        }
+    }
+
+    /// What the cranks do at poses.
+    fn crank_figures(&self, platform: &RotaryPlatform, poses: &[Pose]) -> CrankFigures {
+        let reached: Vec<(&Pose, [f64; 6])> =
+            poses.iter().filter_map(|pose| Some((pose, platform.ik(pose).ok()?))).collect();
+        let all = || reached.iter().flat_map(|(_, angles)| angles.map(f64::to_degrees));
+        let transmissions = reached.iter().flat_map(|(pose, angles)| platform.transmissions(pose, angles));
+        let greatest = |values: Option<[f64; 6]>| {
+            values.map_or(f64::INFINITY, |values| values.iter().fold(0.0, |a: f64, x| a.max(x.abs())))
+        };
+        let loads = self.all_loads();
+        let torques = reached.iter().flat_map(|(pose, angles)| {
+            loads
+                .iter()
+                .map(|load| greatest(platform.torques(pose, angles, &load.wrench(self.manipulator(), pose))))
+        });
+        let speeds = self.speed.map(|speed| {
+            let of = |(pose, angles): &(&Pose, [f64; 6])| {
+                let angular = speed.angular_deg.to_radians();
+                greatest(platform.greatest_speeds(pose, angles, speed.linear, angular)).to_degrees()
+            };
+            reached.iter().map(of).fold(0.0, f64::max)
+        });
+        CrankFigures {
+            angles_deg: all().reduce(f64::min).zip(all().reduce(f64::max)).map(|(least, most)| [least, most]),
+            transmission_deg: transmissions.map(|g| g.abs().min(1.0).asin().to_degrees()).reduce(f64::min),
+            torque: torques.reduce(f64::max),
+            speed_deg: speeds,
+        }
+    }
+
+    /// The greatest force of a leg under the loads; infinite at a singular pose.
+    fn greatest_force(&self, pose: &Pose) -> Option<f64> {
+        let m = self.manipulator();
+        let each = |wrench| leg_forces(m, pose, &wrench, m.size()).map_or(f64::INFINITY, |f| f.amax());
+        self.all_loads().iter().map(|load| each(load.wrench(m, pose))).reduce(f64::max)
+    }
+
+    /// The greatest speed of a leg in the worst direction of motion.
+    fn greatest_speed(&self, pose: &Pose) -> Option<f64> {
+        let speed = self.speed?;
+        let rows = jacobian(self.manipulator(), pose, 1.0);
+        let of =
+            |i: usize| speed.linear + rows.fixed_view::<1, 3>(i, 3).norm() * speed.angular_deg.to_radians();
+        (0..6).map(of).reduce(f64::max)
+    }
+
+    /// The lowest natural frequency at a pose, hertz; `None` without the stiffness of the legs, and where no inertia is held against turns.
+    pub fn lowest_frequency(&self, pose: &Pose, masses: &MotionMasses) -> Option<f64> {
+        let m = self.manipulator();
+        let stiffness = masses.per_second_squared(self.hardware.leg_stiffness?);
+        let found = vibration(m, pose, stiffness, &mass_matrix(m, masses.bodies(), pose))?;
+        Some(found[0].frequency)
+    }
+
+    /// The greatest distance of a joint of a body from the centroid of those that carry legs.
+    pub fn radius(&self, body: Body) -> f64 {
+        let m = self.manipulator();
+        let joints: Vec<Point3<f64>> = m.used_joints(body).iter().map(|&i| m.joints(body)[i]).collect();
+        let centroid = joints.iter().map(|p| p.coords).sum::<Vector3<f64>>() / joints.len() as f64;
+        joints.iter().map(|p| (p.coords - centroid).norm()).fold(0.0, f64::max)
+    }
+}
+
+/// How many values differ by more than a distance from all before them in their order of size.
+fn different(mut values: [f64; 6], distance: f64) -> usize {
+    values.sort_by(f64::total_cmp);
+    let mut kinds = 1;
+    let mut first = values[0];
+    for value in values {
+        if value - first > distance {
+            (kinds, first) = (kinds + 1, value);
+        }
+    }
+    kinds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_told_apart_by_their_distance() {
+        assert_eq!(different([1.0; 6], 1e-6), 1);
+        assert_eq!(different([1.0, 2.0, 1.0, 2.0, 1.0, 2.0 + 1e-9], 1e-6), 2);
+        assert_eq!(different([6.0, 5.0, 4.0, 3.0, 2.0, 1.0], 1e-6), 6);
+        assert_eq!(different([f64::NAN, 1.0, 1.0, 1.0, 1.0, 1.0], 1e-6), 1);
+    }
+}

@@ -1,0 +1,187 @@
+//! Which drives of a table fit a design: every requirement with the lengths, the force and the speed of the drive as limits, and along motions.
+
+use std::cmp::Ordering;
+
+use super::judging::{ASSESS_CELLS, BRIEF_CELLS, PATIENT_CELLS, deciding};
+use super::{AssessReport, MotionMasses, MotionReport, PlatformMotion};
+use crate::Design;
+use files::design::{DesignUnits, Drive};
+use machine::requirements::{MarginProof, Requirements, least_conditioning, prove};
+use synthesis::singularity::regular_workspace;
+
+/// A drive with what it makes of a design.
+#[derive(Debug, Clone)]
+pub struct DriveFit {
+    pub drive: Drive,
+    /// The design with the drive.
+    pub design: Design,
+    /// What is proved of it.
+    pub assessed: AssessReport,
+    /// Along each motion, in the order asked for.
+    pub motions: Vec<MotionReport>,
+}
+
+impl DriveFit {
+    /// Whether the drive fits: proved for every pose of the workspace and without a violation at the instants of the motions; refuted; or `None`.
+    pub fn fits(&self) -> Option<bool> {
+        let along =
+            |m: &MotionReport| m.singular.is_none() && m.margins.iter().all(|m| m.margin.standing.is_met());
+        if !self.motions.iter().all(along) {
+            return Some(false);
+        }
+        self.assessed.met()
+    }
+
+    /// Whether the reserve on every limit is kept too.
+    pub fn keeps_reserve(&self) -> Option<bool> {
+        let fits = self.fits();
+        let along = |m: &MotionReport| {
+            let required = self.design.requirements();
+            m.margins.iter().all(|m| m.margin.value >= required.reserve(m.margin.term.kind))
+        };
+        if fits == Some(false) || !self.motions.iter().all(along) {
+            return Some(false);
+        }
+        self.assessed.met_with_reserve()
+    }
+
+    /// Drives that fit first, then those that are undecided; among them the cheapest first, then the lightest, then as in the table. What has no price or mass comes last.
+    fn order(&self, other: &Self) -> Ordering {
+        let rank = |fit: &Self| match fit.fits() {
+            Some(true) => 0,
+            None => 1,
+            Some(false) => 2,
+        };
+        let last = |x: Option<f64>| x.unwrap_or(f64::INFINITY);
+        rank(self)
+            .cmp(&rank(other))
+            .then(last(self.drive.price).total_cmp(&last(other.drive.price)))
+            .then(last(self.drive.mass).total_cmp(&last(other.drive.mass)))
+            .then(self.drive.line.cmp(&other.drive.line))
+    }
+}
+
+/// What is known of the lightest drive of a table that suffices for a design.
+#[derive(Debug, Clone)]
+pub struct LightestDrive<'t> {
+    /// The drive; `None` where none is proved to suffice.
+    pub drive: Option<&'t Drive>,
+    /// Lighter ones, or all others where there is no such drive, of which it is not known.
+    pub undecided: Vec<&'t Drive>,
+    /// Whether what no drive changes is met.
+    pub rest: Option<bool>,
+}
+
+impl Design {
+    /// What a table of drives has to be read into.
+    pub fn drive_units(&self) -> DesignUnits<'_> {
+        DesignUnits { length: &self.units, force: self.force_unit(), mass: self.mass_unit() }
+    }
+
+    /// The design with a drive in each leg: its lengths, and what is known of its force, speed and stiffness, become those of `[hardware]`. Where both the drive and the legs of
+    /// the design have masses, those of cylinder and rod are multiplied alike, so that their sum is the mass of the drive; the mass in place of what turns in it stays.
+    /// Everything else is as it was.
+    pub fn with_drive(&self, drive: &Drive) -> Self {
+        let mut out = self.clone();
+        // the drive is chosen
+        out.drive_table = None;
+        let h = &mut out.hardware;
+        h.leg_length = Some(drive.lengths);
+        h.max_leg_force = drive.force.or(h.max_leg_force);
+        h.max_leg_speed = drive.speed.or(h.max_leg_speed);
+        h.leg_stiffness = drive.stiffness.or(h.leg_stiffness);
+        if let (Some(mass), Some(masses)) = (drive.mass, &mut h.leg_masses) {
+            let known = masses.cylinder.mass + masses.rod.mass;
+            if known > 0.0 {
+                let reflected = masses.reflected;
+                *masses = masses.scaled(mass / known);
+                masses.reflected = reflected;
+            }
+        }
+        out
+    }
+
+    /// Every drive of a table, the one to take first: those that fit by price, then mass. What no drive changes is proved once for all of them.
+    ///
+    /// `metres` is the length of a design unit; without it no forces are computed along motions.
+    pub fn fit_drives(
+        &self,
+        drives: &[Drive],
+        motions: &[PlatformMotion],
+        metres: Option<f64>,
+        seed: u64,
+    ) -> Vec<DriveFit> {
+        let rest = self.assessed_without_drives(seed);
+        let one = |drive: &Drive| {
+            let design = self.with_drive(drive);
+            let masses: Option<MotionMasses> = metres.and_then(|m| design.motion_masses(m, None));
+            let motions = motions.iter().map(|m| design.along(m, masses.as_ref())).collect();
+            let [of_drive, _] = design.requirements().of_drives_and_rest();
+            let own = design.proved(&of_drive, seed);
+            let mut assessed = rest.clone();
+            assessed.proof.poses += own.poses;
+            assessed.proof.bounds.extend(own.bounds);
+            assessed.proof.bounds.sort_by_key(|b| b.found.term.kind);
+            DriveFit { drive: drive.clone(), design, assessed, motions }
+        };
+        let mut all: Vec<DriveFit> = drives.iter().map(one).collect();
+        all.sort_by(DriveFit::order);
+        all
+    }
+
+    /// The lightest drive of a table that is proved to suffice; those without a mass come last. Drives are looked at by their mass until one suffices.
+    pub fn lightest_drive<'t>(&self, drives: &'t [Drive], seed: u64) -> LightestDrive<'t> {
+        let mut order: Vec<&Drive> = drives.iter().collect();
+        let mass = |d: &Drive| d.mass.unwrap_or(f64::INFINITY);
+        order.sort_by(|a, b| mass(a).total_cmp(&mass(b)).then(a.line.cmp(&b.line)));
+        let mut out = LightestDrive { drive: None, undecided: Vec::new(), rest: None };
+        let rest = self.assessed_without_drives(seed);
+        out.rest = rest.met();
+        if out.rest == Some(false) {
+            return out;
+        }
+        for drive in order {
+            let design = self.with_drive(drive);
+            let [of_drive, _] = design.requirements().of_drives_and_rest();
+            let proof = design.proved(&of_drive, seed);
+            match proof.all_met() {
+                Some(true) if out.rest == Some(true) => {
+                    out.drive = Some(drive);
+                    break;
+                }
+                Some(false) => {}
+                _ => out.undecided.push(drive),
+            }
+        }
+        out
+    }
+
+    /// Whether the workspace is free of singular poses, and every requirement that no drive changes.
+    fn assessed_without_drives(&self, seed: u64) -> AssessReport {
+        let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
+        let [_, rest] = self.requirements().of_drives_and_rest();
+        let proof = self.proved(&rest, seed);
+        let (regularity, regularity_cells) = regular_workspace(m, &space, ASSESS_CELLS, seed);
+        let conditioning = least_conditioning(m, &space, &deciding(seed), self.characteristic_length());
+        AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning }
+    }
+
+    /// What is proved of some requirements, with as many cells as decide them and no more than a search gets. A lost reserve alone does not end it, as it does where a whole design is judged: whether
+    /// the drive fits is the question.
+    fn proved(&self, required: &Requirements, seed: u64) -> MarginProof {
+        let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
+        let mut found = MarginProof { bounds: Vec::new(), poses: 0 };
+        for cells in [BRIEF_CELLS, ASSESS_CELLS, PATIENT_CELLS] {
+            found = prove(m, required, &space, &deciding(seed), cells);
+            let decided = match found.all_met() {
+                Some(false) => true,
+                Some(true) => found.all_reserved().is_some(),
+                None => false,
+            };
+            if decided {
+                break;
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,145 @@
+//! Two designs compared.
+
+use std::ops::ControlFlow;
+
+use super::Error;
+use crate::Design;
+use fk::{FkOptions, Threads};
+use num::Cancel;
+use platform::geom::SamplePlan;
+use synthesis::LegMapOutcome;
+use verify::{Sample, Verification, VerifyError, VerifyRun, judge, verify_each};
+
+/// Sample poses where nothing is said.
+pub const SAMPLES: usize = 10;
+
+/// Random poses in the workspace box of the design about its home pose; where it has neither, about the
+/// default home pose, a quarter of the size and 20 degrees each way.
+pub fn sample_plan(design: &Design, count: usize, seed: u64) -> SamplePlan {
+    let widths = (design.workspace.translation, design.workspace.rotation_deg);
+    SamplePlan::about(design.manipulator(), design.home_or_default(), widths, (count, seed))
+}
+
+type OnSample<'a> = Box<dyn FnMut(&Sample) -> ControlFlow<()> + 'a>;
+
+/// Options of [`verify_with`].
+pub struct VerifyOptions<'a> {
+    samples: usize,
+    seed: u64,
+    run: VerifyRun,
+    on_sample: Option<OnSample<'a>>,
+}
+
+impl std::fmt::Debug for VerifyOptions<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { samples, seed, run, on_sample } = self;
+        f.debug_struct("VerifyOptions")
+            .field("samples", samples)
+            .field("seed", seed)
+            .field("run", run)
+            .field("on_sample", &on_sample.is_some())
+            .finish()
+    }
+}
+
+impl Default for VerifyOptions<'_> {
+    fn default() -> Self {
+        Self { samples: SAMPLES, seed: 1, run: VerifyRun::default(), on_sample: None }
+    }
+}
+
+impl<'a> VerifyOptions<'a> {
+    /// The defaults: ten samples, seed 1, a thread for each processor.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How many sets of lengths both platforms are solved at.
+    #[must_use]
+    pub fn samples(mut self, samples: usize) -> Self {
+        self.samples = samples;
+        self
+    }
+
+    /// Seed of the sample poses and of forward kinematics. Same seed, same answer, whatever the number of threads.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// How many threads solve samples.
+    #[must_use]
+    pub fn threads(mut self, threads: Threads) -> Self {
+        self.run.threads = threads;
+        self
+    }
+
+    /// What ends the comparison before its time.
+    #[must_use]
+    pub fn cancel(mut self, cancel: &Cancel) -> Self {
+        self.run.cancel = cancel.clone();
+        self
+    }
+
+    /// Sees each sample as soon as it and those before it are solved, and may end the comparison.
+    #[must_use]
+    pub fn on_sample(mut self, look: impl FnMut(&Sample) -> ControlFlow<()> + 'a) -> Self {
+        self.on_sample = Some(Box::new(look));
+        self
+    }
+}
+
+/// Are two platforms kinematically equivalent? The leg map says so algebraically, and forward kinematics of both, which knows nothing of
+/// the map, agrees or disagrees at lengths of random poses of `a`. Both are described in the same two frames and units.
+///
+/// ```
+/// use equipod::prelude::*;
+/// let a = Design::load("designs/rbt-octahedral.toml")?;
+/// let b = Design::load("designs/rbt-griffis-duffy.toml")?;
+/// let found = verify(&a, &b)?;
+/// assert_eq!((found.verdict.to_string().as_str(), found.samples.len()), ("equivalent", 10));
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// # Errors
+/// Designs in different units; a part that could not be computed.
+pub fn verify(a: &Design, b: &Design) -> Result<Verification, Error> {
+    verify_with(a, b, VerifyOptions::new())
+}
+
+/// As [`verify()`], with options.
+///
+/// # Errors
+/// Those of [`verify()`]; [`Error::Cancelled`].
+pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result<Verification, Error> {
+    same_units(a, b)?;
+    let VerifyOptions { samples, seed, run, on_sample } = options;
+    let plan = sample_plan(a, samples, seed);
+    let fk = FkOptions::new().seed(seed);
+    let mut look = on_sample.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
+    let found = verify_each(a.manipulator(), b.manipulator(), &plan, &fk, &run, &mut look);
+    let found = found.map_err(|e| match e {
+        VerifyError::Cancelled => Error::Cancelled,
+        other => other.into(),
+    })?;
+    Ok(found)
+}
+
+/// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none: decided in exact arithmetic on the joints as the designs say
+/// them, with the level of the proof.
+///
+/// # Errors
+/// Designs in different units; a decomposition that does not converge.
+pub fn leg_map(from: &Design, to: &Design) -> Result<LegMapOutcome, Error> {
+    same_units(from, to)?;
+    Ok(judge(from.manipulator(), to.manipulator())?)
+}
+
+fn same_units(a: &Design, b: &Design) -> Result<(), Error> {
+    if a.units == b.units {
+        return Ok(());
+    }
+    Err(Error::Units(Box::new([a, b].map(|d| (d.name.clone(), d.units.clone())))))
+}

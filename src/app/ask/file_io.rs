@@ -1,0 +1,87 @@
+//! Designs read from files and written to them: beside the command line the only place of the library that does.
+
+use std::path::Path;
+
+use super::Error;
+#[cfg(not(target_family = "wasm"))]
+use super::whole::WholeFile;
+use crate::Design;
+use crate::design::{DesignOrViolations, parse};
+use files::design::{Format, SeriesKind, Warning};
+use platform::geom::InvalidPose;
+
+impl Design {
+    /// Reads a design file, TOML or, where the name ends in `.json`, JSON, and the table of its trajectory where it names one. What is allowed but
+    /// often a slip is in [`warnings`](Self::warnings).
+    ///
+    /// ```
+    /// use equipod::prelude::*;
+    /// let design = Design::load("designs/rbt-octahedral.toml")?;
+    /// assert_eq!((design.name.as_str(), design.warnings().len()), ("octahedral 12-6", 0));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A file that cannot be read; a design with violations, all of them.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Error> {
+        Self::load_by(path.as_ref(), parse)
+    }
+
+    /// As [`load`](Self::load), also a design whose legs are rods on cranks, for callers that know what to do with it.
+    #[cfg(feature = "files")]
+    pub fn load_ideal(path: impl AsRef<Path>) -> Result<Self, Error> {
+        Self::load_by(path.as_ref(), crate::design::parse_ideal)
+    }
+
+    fn load_by(path: &Path, parsed: fn(&str, Format) -> DesignOrViolations) -> Result<Self, Error> {
+        let (mut design, _) = parsed(&read(path)?, Format::of_path(path))
+            .map_err(|violations| Error::Design { file: Some(path.to_path_buf()), violations })?;
+        if let Some(trajectory) = &mut design.workspace.trajectory {
+            let file = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
+            let bytes = std::fs::read(&file).map_err(|source| Error::File { path: file.clone(), source })?;
+            let read =
+                SeriesKind::Poses.read(&bytes, |row| row.parse().map_err(|e: InvalidPose| e.to_string()));
+            let table = read.map_err(|why| Error::Trajectory { file, bad: why.sentences() })?;
+            trajectory.poses = table.rows.into_iter().map(|row| row.value).collect();
+        }
+        Ok(design)
+    }
+
+    /// Writes the design, as JSON where the name ends in `.json`, else as TOML with the comments of the file it is from ([`text`](files::design::DesignModel::text)). The file
+    /// appears whole or not at all.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    #[cfg(not(target_family = "wasm"))]
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        let path = path.as_ref();
+        let text = match Format::of_path(path) {
+            Format::Toml => self.text(),
+            Format::Json => self.to_json(),
+        };
+        WholeFile::write(path, text.as_bytes())
+            .map_err(|source| Error::File { path: path.to_path_buf(), source })
+    }
+
+    /// What is allowed in the text the design was read from but often a slip.
+    #[must_use]
+    pub fn warnings(&self) -> &[Warning] {
+        self.written.warnings()
+    }
+}
+
+/// TOML; [`Design::load`] reads files of both notations.
+impl std::str::FromStr for Design {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match parse(text, Format::Toml) {
+            Ok((design, _)) => Ok(design),
+            Err(violations) => Err(Error::Design { file: None, violations }),
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<String, Error> {
+    std::fs::read_to_string(path).map_err(|source| Error::File { path: path.to_path_buf(), source })
+}

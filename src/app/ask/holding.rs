@@ -1,0 +1,60 @@
+//! Do the legs or rods hold the platform at home?
+
+use crate::Design;
+use platform::geom::Pose;
+use synthesis::singularity::{Architecture, PoseHold, SingularEvidence, hold_at};
+
+/// A home pose at which the legs or rods do not hold the platform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SingularHome {
+    /// The pose.
+    pub pose: Pose,
+    /// What shows it.
+    pub evidence: SingularEvidence,
+}
+
+/// The finding in a few words.
+impl std::fmt::Display for SingularHome {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [x, y, z]: [f64; 3] = self.pose.position.into();
+        let [roll, pitch, yaw] = self.pose.angles().degrees().map(|angle| angle + 0.0);
+        write!(
+            f,
+            "the home pose ({x}, {y}, {z}; {roll}, {pitch}, {yaw} degrees) is singular: {}",
+            self.evidence
+        )
+    }
+}
+
+impl Design {
+    /// The home pose that the design states, where it is singular; `None` where it is proved to be regular, or where
+    /// no home is stated.
+    #[must_use]
+    pub fn singular_home(&self) -> Option<SingularHome> {
+        self.singular_at(&self.home?)
+    }
+
+    /// The same of any pose.
+    pub fn singular_at(&self, pose: &Pose) -> Option<SingularHome> {
+        let hold = match self.rotary().ok().flatten() {
+            None => hold_at(self.manipulator(), pose),
+            // a pose that rods do not reach is refused elsewhere
+            Some(platform) => {
+                let angles = platform.ik(pose).ok()?;
+                hold_at(&platform.at(&angles).ok()?, pose)
+            }
+        };
+        match hold {
+            PoseHold::Held(_) => None,
+            PoseHold::Singular(evidence) => Some(SingularHome { pose: *pose, evidence }),
+        }
+    }
+
+    /// The home pose, stated or not, where it is singular and the design is not: no equivalent platform holds it.
+    /// Architecturally singular designs are left to the decision about these.
+    #[cfg(feature = "optimize")]
+    pub fn home_that_no_equivalent_holds(&self) -> Option<SingularHome> {
+        let home = self.singular_at(&self.home_or_default())?;
+        (Architecture::of(self.manipulator()).is_singular() == Some(false)).then_some(home)
+    }
+}

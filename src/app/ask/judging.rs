@@ -1,0 +1,480 @@
+//! Is the design singular, and does it meet its requirements?
+
+use std::time::Instant;
+
+use super::{Error, SingularHome};
+use crate::Design;
+use crate::equivalents::Equivalents;
+use files::design::Workspace;
+use fk::solve::pose_count::{
+    CommonPoints, CountOptions, PoseCount, count_common_points, count_generic_poses,
+};
+use fk::{Theorem, pose_bound};
+use machine::requirements::{
+    AssessOptions, AssessStage, LeastConditioning, MarginBound, MarginProof, Requirements, RodRegularity,
+    Terms, least_conditioning, least_rod_conditioning, prove_telling, regular_rods,
+};
+use platform::geom::{BestLine, PoseSpace, Region};
+use platform::manipulator::{Body, Level, Manipulator};
+use synthesis::singularity::{
+    Assembly, BoxOptions, Conditioning, NearestSingular, Regularity, SingularityVerdict, assembly,
+    conditioning, nearest_singular, regular_workspace, singular_distance_at_least,
+};
+
+/// Whether a design is architecturally singular, and why.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct CheckReport {
+    /// The design.
+    pub design: Design,
+    /// Whether it is singular, with the proof.
+    pub verdict: SingularityVerdict,
+    /// A singular design nearby; for a design that is not singular as written.
+    pub nearest: Option<NearestSingular>,
+    /// No singular design is nearer, design units; 0 for a singular one.
+    pub at_least: f64,
+    /// Whether the lengths can be assembled; for a (nearly) singular design of Griffis-Duffy type with lengths.
+    pub assembly: Option<Assembly>,
+    /// How well the legs hold the platform at random poses.
+    pub conditioning: Conditioning,
+    /// Finite poses, real and complex, for generic leg lengths: no lengths have more isolated ones.
+    pub pose_count: PoseCount,
+    /// The common points of the legs for generic lengths, by where they are; `None` where the poses are not isolated or not counted.
+    pub common_points: Option<CommonPoints>,
+    /// The theorem with the smallest bound on the isolated finite poses, for all lengths.
+    pub pose_bound: Theorem,
+    /// The line that fits the joints of each body best; `None` where they are in one place.
+    pub best_lines: [Option<BestLine>; 2],
+    /// The home pose that the design states, where it is singular.
+    pub singular_home: Option<SingularHome>,
+}
+
+impl CheckReport {
+    /// Whether the design is architecturally singular: proved either way, or `None` ([`SingularityVerdict`]).
+    #[must_use]
+    pub fn is_singular(&self) -> Option<bool> {
+        self.verdict.is_singular()
+    }
+}
+
+/// The verdict in a sentence.
+impl std::fmt::Display for CheckReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (name, units) = (&self.design.name, &self.design.units);
+        if let Some(words) = self.verdict.undecided_in_words(units) {
+            return write!(f, "{name} is {words}");
+        }
+        let about = self.verdict.level().map_or("", Level::words);
+        let singular = self.is_singular() == Some(true);
+        let word = if singular { "architecturally singular" } else { "not architecturally singular" };
+        write!(f, "{name} is {word}: proved {about}")?;
+        match self.verdict.reason() {
+            Some(reason) => write!(f, " ({reason})"),
+            None if !singular && self.singular_home.is_some() => write!(f, "; its home pose is singular"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The poses that a judgement is about: those that the design states, and home.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct JudgedPoses {
+    /// Every pose of a region about home.
+    pub region: bool,
+    /// Single poses, without the motions between them.
+    pub listed: usize,
+    /// Poses of a trajectory, with the straight motions between them.
+    pub trajectory: usize,
+}
+
+impl JudgedPoses {
+    /// Those of a workspace.
+    #[must_use]
+    pub fn of(workspace: &Workspace) -> Self {
+        let trajectory = workspace.trajectory.as_ref().map_or(0, |t| t.poses.len());
+        Self { region: workspace.has_box(), listed: workspace.poses.len(), trajectory }
+    }
+
+    /// Whether the design states any: without them home alone is judged.
+    #[must_use]
+    pub fn are_stated(self) -> bool {
+        self.region || self.listed > 0 || self.trajectory > 0
+    }
+
+    /// The verdict on requirements that are met at these poses, in two or three words.
+    #[must_use]
+    pub fn met_in_words(self) -> String {
+        match self {
+            _ if !self.are_stated() => "met at home only".to_owned(),
+            Self { region: false, trajectory: 0, listed } => format!("met at {}", poses(listed)),
+            _ => "met".to_owned(),
+        }
+    }
+
+    /// The same of poses none of which is singular, as a sentence without its full stop.
+    fn regular_in_words(self) -> String {
+        let among = match (self.region, self.listed, self.trajectory) {
+            (false, 0, 0) => return "Home is not a singular pose: proved; no workspace stated".to_owned(),
+            (true, ..) => "in the workspace",
+            (false, 0, _) => "on the trajectory",
+            (false, n, 0) => {
+                return format!("No singular pose among the {} listed: proved; {BETWEEN}", poses(n));
+            }
+            (false, ..) => "on the trajectory and among the poses listed",
+        };
+        let between = if self.listed > 0 { format!("; {BETWEEN_LISTED}") } else { String::new() };
+        format!("No singular pose {among}: proved{between}")
+    }
+}
+
+/// What a list of poses leaves open.
+const BETWEEN: &str = "nothing is said between them";
+/// The same beside a region or a trajectory.
+const BETWEEN_LISTED: &str = "nothing is said between the poses listed";
+
+/// A number of poses.
+fn poses(n: usize) -> String {
+    if n == 1 { "1 pose".to_owned() } else { format!("{n} poses") }
+}
+
+/// For all of them, as the end of a sentence.
+impl std::fmt::Display for JudgedPoses {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.region, self.listed, self.trajectory) {
+            (false, 0, 0) => f.write_str("at home; no workspace stated"),
+            (false, n, 0) => write!(f, "at the {} listed; {BETWEEN}", poses(n)),
+            (true, 0, _) => f.write_str("for every pose of its workspace"),
+            (true, n, _) => {
+                write!(f, "for every pose of its workspace, with the {} listed; {BETWEEN_LISTED}", poses(n))
+            }
+            (false, 0, _) => f.write_str("for every pose of its trajectory"),
+            (false, n, _) => {
+                write!(
+                    f,
+                    "for every pose of its trajectory, and at the {} listed; {BETWEEN_LISTED}",
+                    poses(n)
+                )
+            }
+        }
+    }
+}
+
+/// By how much a design meets its requirements.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct AssessReport {
+    /// The poses judged.
+    pub judged: JudgedPoses,
+    /// The least margin of each kind of requirement, with what is proved of it.
+    pub proof: MarginProof,
+    /// Whether a pose of the workspace is singular.
+    pub regularity: Regularity,
+    /// Cells looked at for that.
+    pub regularity_cells: usize,
+    /// Where the Jacobian is conditioned worst among the poses looked at.
+    pub conditioning: LeastConditioning,
+}
+
+impl AssessReport {
+    /// Proved either way, or `None`.
+    #[must_use]
+    pub fn met(&self) -> Option<bool> {
+        match (self.proof.all_met(), self.regularity.is_regular()) {
+            (Some(false), _) | (_, Some(false)) => Some(false),
+            (Some(true), Some(true)) => Some(true),
+            _ => None,
+        }
+    }
+
+    /// The same with the reserve on every limit: what a search has to reach.
+    #[must_use]
+    pub fn met_with_reserve(&self) -> Option<bool> {
+        match (self.met(), self.proof.all_reserved()) {
+            (Some(false), _) | (_, Some(false)) => Some(false),
+            (Some(true), Some(true)) => Some(true),
+            _ => None,
+        }
+    }
+
+    /// The kinds of requirements with this answer.
+    fn kinds(&self, of: impl Fn(&MarginBound) -> Option<bool>, wanted: Option<bool>) -> Vec<&'static str> {
+        let these = self.proof.bounds.iter().filter(|b| of(b) == wanted);
+        these.map(|b| b.found.term.kind.code()).collect()
+    }
+
+    /// The requirements with this answer, singularity among them.
+    fn names(&self, wanted: Option<bool>) -> String {
+        let mut names = self.kinds(|b| b.verdict.is_met(), wanted);
+        names.extend((self.regularity.is_regular() == wanted).then_some("singularity"));
+        names.join(", ")
+    }
+
+    /// What is known of singular poses, as a sentence without its full stop.
+    #[must_use]
+    pub fn regularity_in_words(&self) -> String {
+        match self.regularity {
+            Regularity::Regular => self.judged.regular_in_words(),
+            Regularity::ChangesSign(_) => {
+                "The workspace holds a singular pose: det J changes its sign on the way to it".to_owned()
+            }
+            Regularity::Undecided(_) => "Not proved to be free of singular poses".to_owned(),
+        }
+    }
+}
+
+/// The verdict, without its subject: the words of every command and every page.
+impl std::fmt::Display for AssessReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.met() {
+            Some(true) => write!(f, "meets all its requirements, proved {}", self.judged)?,
+            Some(false) => write!(f, "violates requirements: {}", self.names(Some(false)))?,
+            None => write!(
+                f,
+                "violates no requirement at the poses looked at; not all is proved: {}",
+                self.names(None)
+            )?,
+        }
+        if self.met() != Some(true) && !self.judged.are_stated() {
+            f.write_str("; no workspace stated, judged at home")?;
+        }
+        if self.proof.bounds.iter().any(|b| b.reserve.is_some()) {
+            let short = |wanted| self.kinds(MarginBound::keeps_reserve, wanted).join(", ");
+            match self.proof.all_reserved() {
+                Some(true) => f.write_str("; every reserve is kept")?,
+                Some(false) => write!(f, "; the reserve is not kept: {}", short(Some(false)))?,
+                None => write!(f, "; that the reserve is kept is not proved: {}", short(None))?,
+            }
+        }
+        write!(f, " ({} looked at)", poses(self.proof.poses))
+    }
+}
+
+/// Cells over which `det J` is bounded in the search for the largest region without singular poses, at most.
+pub const BOX_CELLS: usize = 30_000;
+
+/// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at most.
+pub(super) const ASSESS_CELLS: usize = 6000;
+
+/// The same for what fewer leave undecided: a search drives margins to zero, where proofs need many.
+pub(super) const PATIENT_CELLS: usize = 60_000;
+
+/// Cells of the first attempt where one of several drives is sought.
+pub(super) const BRIEF_CELLS: usize = 300;
+
+/// What is known of the lines of rods, as of those of legs.
+fn as_regularity(of_rods: &RodRegularity) -> Regularity {
+    match *of_rods {
+        RodRegularity::Regular => Regularity::Regular,
+        RodRegularity::ChangesSign(pose) => Regularity::ChangesSign(pose),
+        RodRegularity::Undecided(pose) => Regularity::Undecided(pose),
+    }
+}
+
+/// Whether a region has a singular pose: of the rods where the design has cranks, of the legs where it has none.
+pub(super) fn regular_region(
+    m: &Manipulator,
+    required: &Requirements,
+    space: &PoseSpace,
+    cells: usize,
+    seed: u64,
+) -> Regularity {
+    match regular_rods(m, required, space, cells, seed) {
+        Some((of_rods, _)) => as_regularity(&of_rods),
+        None => regular_workspace(m, space, cells, seed).0,
+    }
+}
+
+/// Proofs that end where they decide.
+pub(super) fn deciding(seed: u64) -> AssessOptions {
+    AssessOptions::new().seed(seed).close(false)
+}
+
+impl Design {
+    /// Whether the design is architecturally singular, so that no pose can hold the platform: decided exactly, explained, and how far away a singular
+    /// design is.
+    ///
+    /// ```
+    /// use equipod::prelude::*;
+    /// let midpoints = Design::load("designs/rbt-midline.toml")?;
+    /// assert_eq!(midpoints.check()?.is_singular(), Some(true));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A decomposition that does not converge.
+    pub fn check(&self) -> Result<CheckReport, Error> {
+        self.check_with(1)
+    }
+
+    /// As [`check`](Self::check), with another seed of the search for a singular design nearby.
+    ///
+    /// # Errors
+    /// A decomposition that does not converge.
+    pub fn check_with(&self, seed: u64) -> Result<CheckReport, Error> {
+        let m = self.manipulator();
+        let verdict = SingularityVerdict::of(m)?;
+        let singular = verdict.architecture.is_singular();
+        let nearest = match &verdict.meant {
+            None if singular == Some(true) => None,
+            None => nearest_singular(m, seed)?,
+            meant => meant.clone(),
+        };
+        let at_least = if nearest.is_some() { singular_distance_at_least(m, seed) } else { 0.0 };
+        let conditioning = conditioning(m, seed)?;
+        let singular_hexagon = verdict.architecture.griffis_duffy.as_ref().filter(|g| g.is_nearly_singular());
+        let assembly = match (singular_hexagon, self.lengths) {
+            (Some(g), Some(l)) => Some(assembly(g, m, &l.squared())?),
+            _ => None,
+        };
+        let counting = CountOptions { seed, ..CountOptions::default() };
+        let pose_count = count_generic_poses(m, &counting);
+        // lengths determine the poses of regular designs, and only theirs, up to finitely many
+        if let (Some(singular), Some(poses)) = (singular, pose_count.finite())
+            && singular != (poses == 0)
+        {
+            return Err(Error::Contradiction { singular, poses });
+        }
+        let common_points = count_common_points(m, &pose_count, &counting);
+        let design = self.clone();
+        let pose_bound = pose_bound(m);
+        Ok(CheckReport {
+            design,
+            verdict,
+            nearest,
+            at_least,
+            assembly,
+            conditioning,
+            pose_count,
+            common_points,
+            pose_bound,
+            best_lines: Body::BOTH.map(|body| BestLine::of(m.joints(body))),
+            singular_home: self.singular_home(),
+        })
+    }
+
+    /// By how much the design meets its requirements over its whole workspace, and whether that is proved. What 6,000 cells of the workspace leave undecided gets 60,000.
+    ///
+    /// # Errors
+    /// [`Error::NothingRequired`] where the design requires nothing.
+    pub fn assess(&self) -> Result<AssessReport, Error> {
+        self.assess_by(&AssessOptions::default(), None, &mut |_| {})
+    }
+
+    /// As [`assess_with`](Self::assess_with), where a number of cells is given; without one as [`assess`](Self::assess).
+    ///
+    /// # Errors
+    /// [`Error::NothingRequired`] where the design requires nothing.
+    pub fn assess_by(
+        &self,
+        options: &AssessOptions,
+        cells: Option<usize>,
+        tell: &mut dyn FnMut(AssessStage),
+    ) -> Result<AssessReport, Error> {
+        let length = self.characteristic_length();
+        match cells {
+            Some(cells) => self.judged_by((options, cells), length, tell),
+            None => self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, tell),
+        }
+    }
+
+    /// As [`assess`](Self::assess), with other numbers of poses and cells looked at.
+    ///
+    /// # Errors
+    /// [`Error::NothingRequired`] where the design requires nothing.
+    pub fn assess_with(&self, options: &AssessOptions, cells: usize) -> Result<AssessReport, Error> {
+        self.judged_by((options, cells), self.characteristic_length(), &mut |_| {})
+    }
+
+    /// The judgement itself, with this length for the conditioning.
+    fn judged_by(
+        &self,
+        (options, cells): (&AssessOptions, usize),
+        length: f64,
+        tell: &mut dyn FnMut(AssessStage),
+    ) -> Result<AssessReport, Error> {
+        let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
+        let required = self.requirements();
+        let proof = prove_telling(m, &required, &space, (options, cells), tell);
+        if proof.bounds.is_empty() {
+            return Err(Error::NothingRequired);
+        }
+        tell(AssessStage::SingularPoses);
+        // a proof whose time is over looks at one cell
+        let (cells, patient) =
+            if options.is_late() { (1, 1) } else { (cells, cells.max(options.patient_cells)) };
+        let of_rods = regular_rods(m, &required, &space, patient, options.seed);
+        let (regularity, regularity_cells) = of_rods.map_or_else(
+            || regular_workspace(m, &space, cells, options.seed),
+            |(of_rods, cells)| (as_regularity(&of_rods), cells),
+        );
+        tell(AssessStage::Conditioning);
+        let conditioning = self.least_conditioning(options, length);
+        Ok(AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning })
+    }
+
+    /// The poses that the design is judged at.
+    pub fn judged_poses(&self) -> JudgedPoses {
+        JudgedPoses::of(&self.workspace)
+    }
+
+    /// The worst conditioning over these poses, of rods where the design has cranks.
+    pub(super) fn least_conditioning(&self, options: &AssessOptions, length: f64) -> LeastConditioning {
+        let (m, required) = (self.manipulator(), self.requirements());
+        let space = self.workspace.space(&self.home_or_default());
+        let terms = Terms::new(m, &required, &space.home);
+        least_rod_conditioning(&terms, &space, options, length)
+            .unwrap_or_else(|| least_conditioning(m, &space, options, length))
+    }
+
+    /// What [`assess`](Self::assess) decides, with this seed: what every answer that judges a design begins with. `None` where the design requires nothing.
+    ///
+    /// Proofs end where they decide: the proved margins may be smaller than those of `assess`.
+    pub fn assessed(&self, seed: u64) -> Option<AssessReport> {
+        self.assessed_until(seed, None)
+    }
+
+    /// The same; proofs end at a time with what they have.
+    pub fn assessed_until(&self, seed: u64, until: Option<Instant>) -> Option<AssessReport> {
+        self.decided_by(&deciding(seed).until(until), self.characteristic_length())
+    }
+
+    fn decided_by(&self, options: &AssessOptions, length: f64) -> Option<AssessReport> {
+        self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, &mut |_| {}).ok()
+    }
+
+    /// The same with the conditioning by a given length, that of all designs of a comparison; the conditioning also where the design requires nothing.
+    pub fn assessed_beside(&self, seed: u64, length: f64) -> (Option<AssessReport>, LeastConditioning) {
+        let options = deciding(seed);
+        let found = self.decided_by(&options, length);
+        let conditioning = found.as_ref().map(|f| f.conditioning);
+        (found, conditioning.unwrap_or_else(|| self.least_conditioning(&options, length)))
+    }
+
+    /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half the size and 30 degrees either way.
+    pub fn box_options(&self, regions: usize, seed: u64) -> BoxOptions {
+        let w = &self.workspace;
+        let (region, translation, rotation_deg) = if w.has_box() {
+            (w.region, w.translation.into(), w.rotation_deg.into())
+        } else {
+            (Region::Box, [0.5 * self.manipulator().size(); 3], [30.0; 3])
+        };
+        BoxOptions { region, translation, rotation_deg, regions, enough: 0.9, seed }
+    }
+
+    /// Every platform equivalent to this one: the class of the octahedral platform that the design is, or is made of.
+    ///
+    /// ```
+    /// use equipod::prelude::*;
+    /// let design = Design::load("designs/rbt-octahedral.toml")?;
+    /// let (free, map) = design.equivalents()?.joint_free([0.25, 0.5, 0.25, 0.5, 0.25, 0.75])?;
+    /// assert_eq!((free.base_names().len(), free.platform_names().len()), (6, 6));
+    /// assert!(map.determinant().abs() > 0.0);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotOctahedral`] for a design that is neither octahedral nor made from an octahedral one by offsets along the sides of its triangles.
+    pub fn equivalents(&self) -> Result<Equivalents, Error> {
+        Ok(Equivalents::of(self)?)
+    }
+}

@@ -1,0 +1,485 @@
+//! Which freedom resolves a conflict: the search again with one more opened, and what came of it.
+
+use std::ops::ControlFlow;
+
+use super::judged::{Checked, checked};
+use super::platform_search::keeps_symmetry_of_start;
+use super::problem::dimensional_problem;
+use crate::Design;
+use machine::requirements::{Envelope, LengthLimits, PlateDesign, TermKind, VariableKind};
+use optimize::dimensional::{
+    ConstraintConflict, Demand, DimensionalOutcome, DimensionalProblem, DimensionalReport,
+    DimensionalSolution, Give, Progress, ShapeSearchOptions, Triangles, meet, optimize,
+};
+use optimize::offsets::DEFAULT_MIN_ABS_DET;
+use platform::manipulator::Octahedral;
+use verify::VerifyError;
+
+/// A freedom that a design does not have.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Freedom")]
+pub enum ConflictFreedom {
+    /// The height of home is chosen.
+    HomeHeight,
+    /// The sizes of the triangles, or of base and platform, are chosen.
+    TriangleSizes,
+    /// Shapes and sizes of the triangles are chosen.
+    Triangles,
+    /// The legs have a longer stroke.
+    Stroke,
+    /// The envelope of the base is wider on every side.
+    BaseEnvelope,
+    /// The envelope of the platform is wider on every side.
+    PlatformEnvelope,
+    /// The envelope of the machine is wider on every side.
+    MachineEnvelope,
+    /// The plate of the base is wider on every side: its outline has a greater margin around the joints.
+    BaseMargin,
+    /// The plate of the platform is wider on every side.
+    PlatformMargin,
+    /// The least `|det A|` that the search holds, and the design does not state, is left out.
+    MinAbsDet,
+}
+
+impl ConflictFreedom {
+    /// Every freedom.
+    pub const ALL: [Self; 10] = [
+        Self::HomeHeight,
+        Self::TriangleSizes,
+        Self::Triangles,
+        Self::Stroke,
+        Self::BaseEnvelope,
+        Self::PlatformEnvelope,
+        Self::MachineEnvelope,
+        Self::BaseMargin,
+        Self::PlatformMargin,
+        Self::MinAbsDet,
+    ];
+
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::HomeHeight => "home_height",
+            Self::TriangleSizes => "triangle_sizes",
+            Self::Triangles => "triangles",
+            Self::Stroke => "stroke",
+            Self::BaseEnvelope => "base_envelope",
+            Self::PlatformEnvelope => "platform_envelope",
+            Self::MachineEnvelope => "machine_envelope",
+            Self::BaseMargin => "base_margin",
+            Self::PlatformMargin => "platform_margin",
+            Self::MinAbsDet => "min_abs_det",
+        }
+    }
+
+    /// The variables that open it; `None` for a limit that gives way.
+    fn variable(self) -> Option<VariableKind> {
+        match self {
+            Self::HomeHeight => Some(VariableKind::HomeHeight),
+            Self::TriangleSizes => Some(VariableKind::TriangleSizes),
+            Self::Triangles => Some(VariableKind::Triangles),
+            _ => None,
+        }
+    }
+
+    /// The requirements that it gives room to.
+    fn kinds(self) -> &'static [TermKind] {
+        match self {
+            Self::Stroke => &[TermKind::LegTooShort, TermKind::LegTooLong],
+            Self::BaseEnvelope => &[TermKind::BaseEnvelope],
+            Self::PlatformEnvelope => &[TermKind::PlatformEnvelope],
+            Self::MachineEnvelope => &[TermKind::MachineEnvelope],
+            Self::BaseMargin => &[TermKind::BaseHoleEdge],
+            Self::PlatformMargin => &[TermKind::PlatformHoleEdge],
+            _ => &[],
+        }
+    }
+}
+
+/// What came of a search with a freedom more.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FreedomOutcome {
+    /// A platform was found that meets all requirements with their reserves, proved by [`Design::assess`].
+    Resolved(Box<Checked>),
+    /// One was found that meets them at the poses looked at; not all is proved.
+    Undecided(Box<Checked>),
+    /// No start met the requirements.
+    Unresolved,
+    /// The search was told to end before.
+    NotTried,
+}
+
+/// A freedom with the search that had it.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct OpenedFreedom {
+    /// Which.
+    pub freedom: ConflictFreedom,
+    /// By how much a limit gave way in the last search, design units; for a variable by how much the platform found differs: its height in design units; `None` where there is no such
+    /// number.
+    pub amount: Option<f64>,
+    /// What came of it.
+    pub outcome: FreedomOutcome,
+    /// Demands of the conflict that have to give less with it, from how much to how much.
+    pub eased: Vec<EasedDemand>,
+}
+
+impl OpenedFreedom {
+    /// The platform found with it.
+    #[must_use]
+    pub fn design(&self) -> Option<&Design> {
+        match &self.outcome {
+            FreedomOutcome::Resolved(c) | FreedomOutcome::Undecided(c) => Some(&c.design),
+            FreedomOutcome::Unresolved | FreedomOutcome::NotTried => None,
+        }
+    }
+}
+
+/// A demand of a conflict that has to give less when a default of the search is left out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EasedDemand {
+    /// Which.
+    pub demand: Demand,
+    /// By how much it has to give under the default.
+    pub from: f64,
+    /// By how much without it.
+    pub to: f64,
+}
+
+/// Multiples of the amount that the conflict names, tried one after the other.
+const ATTEMPTS: [f64; 4] = [1.1, 1.3, 2.0, 4.0];
+/// The first amount where the conflict names none, as a part of the limit.
+const FIRST: f64 = 0.02;
+
+/// The search of one attempt: a quarter of the whole one.
+fn smaller(options: &ShapeSearchOptions) -> ShapeSearchOptions {
+    let quarter = |n: usize| n.div_ceil(4).max(1);
+    ShapeSearchOptions {
+        populations: quarter(options.populations),
+        starts: quarter(options.starts).max(2),
+        polished: quarter(options.polished).max(2),
+        ..*options
+    }
+}
+
+/// The least `|det A|` where it is to decide about nothing, as a part of the usual one.
+const LOOSE: f64 = 1e-3;
+/// A demand is eased where it has to give less by more than this share.
+const EASED: f64 = 1e-2;
+
+/// The design without the least `|det A|` that it does not state; `None` where it states one, or where the search holds none.
+fn without_default_determinant(design: &Design, extension: f64) -> Option<Design> {
+    let v = dimensional_problem(design, extension).variables;
+    let holds = (v.offsets || v.components) && v.triangles == Triangles::Fixed;
+    let mut loose = design.clone();
+    loose.optimize.min_abs_det = Some(LOOSE * DEFAULT_MIN_ABS_DET);
+    (holds && design.optimize.min_abs_det.is_none()).then_some(loose)
+}
+
+/// The least by which a demand has to give.
+fn given(g: &Give) -> f64 {
+    g.alone.unwrap_or(g.together)
+}
+
+/// The demands of a conflict that give less in another.
+fn eased(before: &ConstraintConflict, after: &ConstraintConflict) -> Vec<EasedDemand> {
+    let less = |g: &Give| {
+        let other = after.demands.iter().find(|other| other.demand == g.demand)?;
+        let found = EasedDemand { demand: g.demand, from: given(g), to: given(other) };
+        (found.to < (1.0 - EASED) * found.from).then_some(found)
+    };
+    before.demands.iter().filter_map(less).collect()
+}
+
+/// The freedoms that a design does not have: defaults of the search first, then those of its variables, then the limits of the conflict.
+fn closed(design: &Design, report: &DimensionalReport, extension: f64) -> Vec<ConflictFreedom> {
+    let has = |kind| design.search.variables.contains(&kind);
+    let mut out = Vec::new();
+    if without_default_determinant(design, extension).is_some() {
+        out.push(ConflictFreedom::MinAbsDet);
+    }
+    if !has(VariableKind::HomeHeight) {
+        out.push(ConflictFreedom::HomeHeight);
+    }
+    let octahedral = Octahedral::recognise(design.manipulator()).is_ok();
+    match (has(VariableKind::TriangleSizes), has(VariableKind::Triangles)) {
+        (true, false) if octahedral => out.push(ConflictFreedom::Triangles),
+        (true, false) | (_, true) => {}
+        (false, false) => out.push(ConflictFreedom::TriangleSizes),
+    }
+    let DimensionalOutcome::Infeasible(conflict) = &report.outcome else { return out };
+    let clashes = |kind: &TermKind| conflict.demands.iter().any(|g| g.demand == Demand::Requirement(*kind));
+    let limits = [
+        ConflictFreedom::Stroke,
+        ConflictFreedom::BaseEnvelope,
+        ConflictFreedom::PlatformEnvelope,
+        ConflictFreedom::MachineEnvelope,
+        ConflictFreedom::BaseMargin,
+        ConflictFreedom::PlatformMargin,
+    ];
+    out.extend(limits.into_iter().filter(|f| f.kinds().iter().any(clashes)));
+    out
+}
+
+/// By how much the requirements of a kind give in the conflict: alone where that was found, else with the others.
+fn gives(report: &DimensionalReport, kind: TermKind) -> f64 {
+    let DimensionalOutcome::Infeasible(conflict) = &report.outcome else { return 0.0 };
+    let own = conflict.demands.iter().find(|g| g.demand == Demand::Requirement(kind));
+    own.map_or(0.0, |g| g.alone.unwrap_or(g.together))
+}
+
+/// The design with a limit that gives way by an amount; for the stroke `ends` says how much of it is added at the short end and at the long one of a range.
+fn wider(design: &Design, freedom: ConflictFreedom, amount: f64, ends: [f64; 2]) -> Design {
+    let mut out = design.clone();
+    let grown = |e: &mut Option<Envelope>| {
+        *e = e.map(|e| match e {
+            Envelope::Cylinder { radius, center } => Envelope::Cylinder { radius: radius + amount, center },
+            Envelope::Box { min, max } => {
+                Envelope::Box { min: min.map(|x| x - amount), max: max.map(|x| x + amount) }
+            }
+        });
+    };
+    let widened = |plate: &mut Option<PlateDesign>| {
+        if let Some(plate) = plate {
+            plate.margin += amount;
+        }
+    };
+    match freedom {
+        ConflictFreedom::BaseMargin => widened(&mut out.plates.base),
+        ConflictFreedom::PlatformMargin => widened(&mut out.plates.platform),
+        ConflictFreedom::Stroke => {
+            out.hardware.leg_length = design.hardware.leg_length.map(|l| match l {
+                LengthLimits::Range(a, b) => {
+                    LengthLimits::Range((a - ends[0] * amount).max(0.0), b + ends[1] * amount)
+                }
+                LengthLimits::Stroke { dead, stroke } => {
+                    LengthLimits::Stroke { dead, stroke: stroke + amount }
+                }
+            });
+        }
+        ConflictFreedom::BaseEnvelope => grown(&mut out.envelopes.base),
+        ConflictFreedom::PlatformEnvelope => grown(&mut out.envelopes.platform),
+        ConflictFreedom::MachineEnvelope => grown(&mut out.envelopes.machine),
+        ConflictFreedom::HomeHeight
+        | ConflictFreedom::TriangleSizes
+        | ConflictFreedom::Triangles
+        | ConflictFreedom::MinAbsDet => {}
+    }
+    out
+}
+
+/// The first amounts, and for a stroke how it is shared between the ends.
+fn first_amount(design: &Design, report: &DimensionalReport, freedom: ConflictFreedom) -> (f64, [f64; 2]) {
+    let half = |e: Option<Envelope>| e.map_or(0.0, |e| e.half_width());
+    let part = |x: f64, whole: f64| if x > 0.0 { x } else { FIRST * whole };
+    let margin = |plate: &Option<PlateDesign>| plate.as_ref().map_or(0.0, |plate| plate.margin);
+    match freedom {
+        ConflictFreedom::BaseMargin => {
+            (part(gives(report, TermKind::BaseHoleEdge), margin(&design.plates.base)), [0.0; 2])
+        }
+        ConflictFreedom::PlatformMargin => {
+            (part(gives(report, TermKind::PlatformHoleEdge), margin(&design.plates.platform)), [0.0; 2])
+        }
+        ConflictFreedom::Stroke => {
+            let range = design.hardware.leg_length.map_or((0.0, 0.0), |l| l.range());
+            let [short, long] = [TermKind::LegTooShort, TermKind::LegTooLong].map(|kind| gives(report, kind));
+            match design.hardware.leg_length {
+                // the longest leg grows by twice the stroke
+                Some(LengthLimits::Stroke { .. }) => {
+                    (part(0.5 * long.max(short), range.1 - range.0), [0.0; 2])
+                }
+                // one end suffices where it can give alone
+                _ if long > 0.0 && (long <= short || short <= 0.0) => (long, [0.0, 1.0]),
+                _ if short > 0.0 => (short, [1.0, 0.0]),
+                _ => (FIRST * (range.1 - range.0), [0.5; 2]),
+            }
+        }
+        ConflictFreedom::BaseEnvelope => {
+            (part(gives(report, TermKind::BaseEnvelope), half(design.envelopes.base)), [0.0; 2])
+        }
+        ConflictFreedom::PlatformEnvelope => {
+            (part(gives(report, TermKind::PlatformEnvelope), half(design.envelopes.platform)), [0.0; 2])
+        }
+        _ => (part(gives(report, TermKind::MachineEnvelope), half(design.envelopes.machine)), [0.0; 2]),
+    }
+}
+
+/// One search; `Break` where it was told to end.
+type AttemptFlow = ControlFlow<(), Option<Box<Checked>>>;
+
+/// Searches with one more freedom each.
+pub struct FreedomSearch<'a, 'p> {
+    pub design: &'a Design,
+    pub extension: f64,
+    pub report: &'a DimensionalReport,
+    pub options: ShapeSearchOptions,
+    pub progress: &'p mut dyn FnMut(ConflictFreedom, Progress) -> ControlFlow<()>,
+}
+
+impl FreedomSearch<'_, '_> {
+    /// All freedoms that are closed, one after the other.
+    pub fn run(mut self) -> Result<Vec<OpenedFreedom>, VerifyError> {
+        let mut out = Vec::new();
+        let mut ended = false;
+        for freedom in closed(self.design, self.report, self.extension) {
+            let opened = if ended {
+                let outcome = FreedomOutcome::NotTried;
+                Some(OpenedFreedom { freedom, amount: None, outcome, eased: Vec::new() })
+            } else {
+                self.open(freedom)?
+            };
+            ended |= opened.as_ref().is_some_and(|o| o.outcome == FreedomOutcome::NotTried);
+            out.extend(opened);
+        }
+        Ok(out)
+    }
+
+    /// `None` for a freedom that cannot be asked for.
+    fn open(&mut self, freedom: ConflictFreedom) -> Result<Option<OpenedFreedom>, VerifyError> {
+        let told = |outcome, amount| Some(OpenedFreedom { freedom, amount, outcome, eased: Vec::new() });
+        if freedom == ConflictFreedom::MinAbsDet {
+            return self.without_default();
+        }
+        if let Some(kind) = freedom.variable() {
+            let mut more = self.design.clone();
+            if more.search.variables.is_empty() {
+                let usual = if Octahedral::recognise(more.manipulator()).is_ok() {
+                    VariableKind::Offsets
+                } else {
+                    VariableKind::Components
+                };
+                more.search.variables.push(usual);
+            }
+            more.search.variables.push(kind);
+            return Ok(match self.search(freedom, &more)? {
+                None => None,
+                Some(ControlFlow::Break(())) => told(FreedomOutcome::NotTried, None),
+                Some(ControlFlow::Continue(found)) => {
+                    let lift = |c: &Checked| {
+                        c.design.home_or_default().position.z - self.design.home_or_default().position.z
+                    };
+                    let amount =
+                        found.as_deref().filter(|_| freedom == ConflictFreedom::HomeHeight).map(lift);
+                    told(outcome_of(found), amount)
+                }
+            });
+        }
+        let (first, ends) = first_amount(self.design, self.report, freedom);
+        let mut best: Option<(f64, Box<Checked>)> = None;
+        let mut last = None;
+        for factor in ATTEMPTS {
+            let amount = first * factor;
+            match self.search(freedom, &wider(self.design, freedom, amount, ends))? {
+                None => return Ok(None),
+                Some(ControlFlow::Break(())) if best.is_none() => {
+                    return Ok(told(FreedomOutcome::NotTried, None));
+                }
+                Some(ControlFlow::Break(())) => break,
+                Some(ControlFlow::Continue(found)) => {
+                    last = Some(amount);
+                    let Some(found) = found else { continue };
+                    let proved = found.met() == Some(true);
+                    if best.is_none() || proved {
+                        best = Some((amount, found));
+                    }
+                    if proved {
+                        break;
+                    }
+                }
+            }
+        }
+        Ok(match best {
+            Some((amount, found)) => told(outcome_of(Some(found)), Some(amount)),
+            None => told(FreedomOutcome::Unresolved, last),
+        })
+    }
+
+    /// The search without the least `|det A|`. Where that does not resolve the conflict, the conflict without it: `None` where nothing has to give less.
+    fn without_default(&mut self) -> Result<Option<OpenedFreedom>, VerifyError> {
+        let freedom = ConflictFreedom::MinAbsDet;
+        let told = |outcome, eased| Some(OpenedFreedom { freedom, amount: None, outcome, eased });
+        let Some(loose) = without_default_determinant(self.design, self.extension) else { return Ok(None) };
+        match self.search(freedom, &loose)? {
+            None => return Ok(None),
+            Some(ControlFlow::Break(())) => return Ok(told(FreedomOutcome::NotTried, Vec::new())),
+            Some(ControlFlow::Continue(Some(found))) => return Ok(told(outcome_of(Some(found)), Vec::new())),
+            Some(ControlFlow::Continue(None)) => {}
+        }
+        let DimensionalOutcome::Infeasible(before) = &self.report.outcome else { return Ok(None) };
+        let problem = dimensional_problem(&loose, self.extension);
+        let report = optimize(&problem, &[], &smaller(&self.options), &mut |p| (self.progress)(freedom, p));
+        let less = match report {
+            Ok(DimensionalReport { outcome: DimensionalOutcome::Infeasible(after), .. }) => {
+                eased(before, &after)
+            }
+            _ => Vec::new(),
+        };
+        Ok(if less.is_empty() { None } else { told(FreedomOutcome::Unresolved, less) })
+    }
+
+    /// The search for a design with more freedom, and what `assess` says of what it finds; `None` where it cannot be asked. A design that has three-fold symmetry and names none is searched with it
+    /// first, which has few variables, and without it where nothing is found.
+    fn search(
+        &mut self,
+        freedom: ConflictFreedom,
+        design: &Design,
+    ) -> Result<Option<AttemptFlow>, VerifyError> {
+        let free = dimensional_problem(design, self.extension);
+        let symmetric = keeps_symmetry_of_start(design, &free);
+        for problem in symmetric.iter().chain([&free]) {
+            match self.search_problem(freedom, design, problem)? {
+                Some(ControlFlow::Continue(None)) => {}
+                ended => return Ok(ended),
+            }
+        }
+        Ok(Some(ControlFlow::Continue(None)))
+    }
+
+    /// See [`search`](Self::search), for one of its problems.
+    fn search_problem(
+        &mut self,
+        freedom: ConflictFreedom,
+        design: &Design,
+        problem: &DimensionalProblem,
+    ) -> Result<Option<AttemptFlow>, VerifyError> {
+        let known = self.report.nearest.as_deref().map_or(&[][..], |s| &s.variables);
+        let mut ended = false;
+        let found = meet(problem, known, &smaller(&self.options), &mut |p| {
+            let flow = (self.progress)(freedom, p);
+            ended |= flow.is_break();
+            flow
+        });
+        let found: Option<DimensionalSolution> = match found {
+            Ok(found) => found,
+            // a problem that cannot be asked with another variable is no freedom
+            Err(_) => return Ok(None),
+        };
+        if ended && found.is_none() {
+            return Ok(Some(ControlFlow::Break(())));
+        }
+        let judged = found.map(|s| checked(design, problem, &s, (&self.options).into())).transpose()?;
+        let met = judged.filter(|c| c.met() != Some(false));
+        Ok(Some(ControlFlow::Continue(met.map(Box::new))))
+    }
+}
+
+fn outcome_of(found: Option<Box<Checked>>) -> FreedomOutcome {
+    match found {
+        None => FreedomOutcome::Unresolved,
+        Some(c) if c.met() == Some(true) => FreedomOutcome::Resolved(c),
+        Some(c) => FreedomOutcome::Undecided(c),
+    }
+}

@@ -1,0 +1,244 @@
+//! How large the workspace around home is: positions, orientations, and what is required of both.
+
+use nalgebra::Vector3;
+
+use super::judging::regular_region;
+use crate::Design;
+use machine::reach::{FreeRay, largest_box_within, volume_of_rays};
+use machine::requirements::{AssessOptions, Limit, Requirements, assess, prove};
+use platform::geom::{Pose, PoseSpace, Region};
+
+/// Directions in which ways and turns are followed, where nothing is said.
+pub const RAYS: usize = 1000;
+/// Rounds in which the size of a region is halved between what is proved and what is violated.
+const ROUNDS: usize = 8;
+/// The size is known well enough when what is proved and what is violated differ by less, as a share.
+const CLOSE: f64 = 5e-3;
+/// By how much the first size lies below the one at which a ray ended, as a share.
+const INSIDE: f64 = 5e-4;
+/// Cells over which each kind of requirement is bounded for one size.
+const CELLS: usize = 250;
+/// Halton points looked at for one size, and as many random ones.
+const POINTS: usize = 100;
+/// The required region is looked at up to so many times its size.
+const LARGEST: f64 = 8.0;
+/// Rotations are looked at up to half a turn.
+const HALF_TURN: f64 = 180.0;
+
+/// Up to which size a region around home is free, as far as is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FreeSize {
+    /// Proved: every pose of the region of this size meets all requirements, and none is singular. 0 where nothing is proved.
+    pub proved: f64,
+    /// No violation was found in the regions looked at up to this size; no less than what is proved.
+    pub searched: f64,
+    /// What is violated in a region that is larger by a little, with its margin there; `None` where nothing is within what was looked at.
+    pub binding: Option<(Limit, f64)>,
+}
+
+/// How far a turn about an axis of the base frame is free, degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FreeTurn {
+    pub back: FreeRay,
+    pub forth: FreeRay,
+}
+
+/// The required region in that of the positions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RequiredSize {
+    /// Its translations alone, design units cubed.
+    pub volume: f64,
+    /// The factor by which translations and rotations may be multiplied.
+    pub factor: FreeSize,
+}
+
+/// How large the workspace is around home.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WorkspaceSize {
+    /// Straight ways at the orientation of home.
+    pub rays: Vec<FreeRay>,
+    /// The volume that they reach, and the share by which every second one differs from the others.
+    pub volume: (f64, f64),
+    /// Radius of the largest ball of positions around home.
+    pub ball: FreeSize,
+    /// Half widths of the largest box of positions around home that the rays leave room for, and the factor on them.
+    pub box_half: [f64; 3],
+    pub box_factor: FreeSize,
+    /// About x, y, z of the base frame at the position of home.
+    pub turns: [FreeTurn; 3],
+    /// Largest angle up to which the platform may tilt about every axis of the xy plane, degrees.
+    pub tilt: FreeSize,
+    /// Largest angle up to which it may turn about every axis, degrees.
+    pub turn: FreeSize,
+    /// Where the design asks for a region.
+    pub required: Option<RequiredSize>,
+}
+
+impl Design {
+    /// How large the workspace is around home; `None` where home is not allowed.
+    pub fn workspace_size(&self, rays: usize, seed: u64) -> Option<WorkspaceSize> {
+        let (home, required) = (self.home_or_default(), self.requirements());
+        let reach = self.reach(&required);
+        if !reach.allows(&home) {
+            return None;
+        }
+        let around = Around { design: self, required: &required, home, seed };
+        let shifts = reach.shifts(&home, rays);
+        let turned = reach.turns(&home, rays);
+        let level: Vec<FreeRay> = (0..rays.div_ceil(8).max(8))
+            .map(|k| {
+                let (s, c) = (std::f64::consts::TAU * k as f64 / rays.div_ceil(8).max(8) as f64).sin_cos();
+                reach.ray(&home, &Vector3::new(c, s, 0.0), true)
+            })
+            .collect();
+        let axis = |k: usize| {
+            let d = Vector3::ith(k, 1.0);
+            FreeTurn { back: reach.ray(&home, &-d, true), forth: reach.ray(&home, &d, true) }
+        };
+        let box_half = largest_box_within(&shifts);
+        let (ball, tilt, turn) = (
+            around.largest(&shortest(&shifts), &|r| around.shifted(Region::Ellipsoid, [r; 3])),
+            around.largest(&in_degrees(shortest(&level)), &|a| around.turned([a, a, 0.0])),
+            around.largest(&in_degrees(shortest(&turned)), &|a| around.turned([a; 3])),
+        );
+        let to_box = |t: f64| around.shifted(Region::Box, box_half.map(|h| h * t));
+        // the rays leave a little room between them
+        let all = FreeRay { free: 1.1, ..shortest(&shifts) };
+        Some(WorkspaceSize {
+            volume: volume_of_rays(&shifts),
+            ball,
+            box_half,
+            box_factor: around.largest(&all, &to_box),
+            turns: [axis(0), axis(1), axis(2)],
+            tilt,
+            turn,
+            required: around.of_required_region(),
+            rays: shifts,
+        })
+    }
+}
+
+fn shortest(rays: &[FreeRay]) -> FreeRay {
+    let none = FreeRay { direction: Vector3::z(), free: f64::INFINITY, binding: None };
+    rays.iter().fold(none, |least, ray| if ray.free < least.free { *ray } else { least })
+}
+
+fn in_degrees(ray: FreeRay) -> FreeRay {
+    FreeRay { free: ray.free.to_degrees(), ..ray }
+}
+
+/// A design with what regions around its home are judged by.
+struct Around<'a> {
+    design: &'a Design,
+    required: &'a Requirements,
+    home: Pose,
+    seed: u64,
+}
+
+/// What is known of a region.
+enum Judged {
+    Free,
+    Violated(Limit, f64),
+    Undecided,
+}
+
+impl Around<'_> {
+    fn shifted(&self, region: Region, half: [f64; 3]) -> PoseSpace {
+        PoseSpace { region, translation: half.into(), ..PoseSpace::at(self.home) }
+    }
+
+    fn turned(&self, half_deg: [f64; 3]) -> PoseSpace {
+        let rotation_deg = Vector3::from(half_deg).map(|x| x.min(HALF_TURN));
+        PoseSpace { region: Region::Ellipsoid, rotation_deg, ..PoseSpace::at(self.home) }
+    }
+
+    fn options(&self) -> AssessOptions {
+        AssessOptions::new().points(POINTS).searches(1).seed(self.seed).close(false)
+    }
+
+    /// A violation that poses of a region and searches from the worst of them show.
+    fn shown(&self, space: &PoseSpace) -> Option<(Limit, f64)> {
+        let found = assess(self.design.manipulator(), self.required, space, &self.options());
+        let violated = found.margins.iter().filter(|m| !m.term.kind.is_fixed());
+        violated.filter(|m| !m.standing.is_met()).map(|m| (Limit::Term(m.term), m.value)).next()
+    }
+
+    /// All requirements that depend on the pose, and the sign of `det J`.
+    fn judge(&self, space: &PoseSpace) -> Judged {
+        if let Some((limit, margin)) = self.shown(space) {
+            return Judged::Violated(limit, margin);
+        }
+        let (m, options) = (self.design.manipulator(), self.options());
+        let proof = prove(m, self.required, space, &options, CELLS);
+        let bounds = || proof.bounds.iter().filter(|b| !b.found.term.kind.is_fixed());
+        let violated = |b: &&machine::requirements::MarginBound| b.verdict.is_met() == Some(false);
+        if let Some(b) = bounds().find(violated) {
+            return Judged::Violated(Limit::Term(b.found.term), b.found.value);
+        }
+        let regularity = regular_region(m, self.required, space, CELLS, self.seed);
+        match regularity.is_regular() {
+            Some(false) => Judged::Violated(Limit::Singular, 0.0),
+            Some(true) if bounds().all(|b| b.verdict.is_met() == Some(true)) => Judged::Free,
+            _ => Judged::Undecided,
+        }
+    }
+
+    /// Halves between the largest size that is proved and the smallest that is violated, from a ray that ended at a violation.
+    fn largest(&self, ray: &FreeRay, space: &dyn Fn(f64) -> PoseSpace) -> FreeSize {
+        let mut found = FreeSize { proved: 0.0, searched: ray.free, binding: ray.binding.map(|l| (l, 0.0)) };
+        if !(ray.free > 0.0 && ray.free.is_finite()) {
+            return FreeSize { searched: 0.0, ..found };
+        }
+        // nothing is proved of this size and more
+        let (mut doubtful, mut size) = (ray.free, ray.free * (1.0 - INSIDE));
+        for _ in 0..ROUNDS {
+            match self.judge(&space(size)) {
+                Judged::Free => found.proved = size,
+                Judged::Violated(limit, margin) => {
+                    (found.searched, found.binding) = (size, Some((limit, margin)));
+                    doubtful = size;
+                }
+                Judged::Undecided => doubtful = size,
+            }
+            if found.proved >= doubtful * (1.0 - CLOSE) {
+                break;
+            }
+            size = if found.proved > 0.0 { 0.5 * (found.proved + doubtful) } else { 0.8 * doubtful };
+        }
+        found
+    }
+
+    /// The region of the design, multiplied.
+    fn of_required_region(&self) -> Option<RequiredSize> {
+        let w = &self.design.workspace;
+        if !w.has_box() {
+            return None;
+        }
+        let own = w.space(&self.home);
+        let space = |t: f64| PoseSpace {
+            translation: own.translation * t,
+            rotation_deg: own.rotation_deg * t,
+            poses: Vec::new(),
+            trajectory: Vec::new(),
+            ..own.clone()
+        };
+        let most = (HALF_TURN / own.rotation_deg.max()).min(LARGEST);
+        // the first factor that is violated
+        let mut first = FreeRay { direction: Vector3::z(), free: most, binding: None };
+        let mut factor = 0.5;
+        while factor < most {
+            if let Some((limit, _)) = self.shown(&space(factor)) {
+                (first.free, first.binding) = (factor, Some(limit));
+                break;
+            }
+            factor *= 1.2;
+        }
+        let factor = self.largest(&first, &space);
+        let parts = own.translation;
+        let whole = match own.region {
+            Region::Box => 8.0,
+            Region::Ellipsoid => 4.0 / 3.0 * std::f64::consts::PI,
+        };
+        Some(RequiredSize { volume: whole * parts.x * parts.y * parts.z, factor })
+    }
+}
