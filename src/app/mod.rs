@@ -2,11 +2,12 @@
 //!
 //! It knows everything below. It proves nothing: each "proved", "singular", "equivalent" and "met" is copied from one value of the rooms below.
 //!
-//! * [`entrance`]: the questions as methods of the design.
-//! * [`records`]: every answer as plain data.
+//! * `ask` (a package): one function for each question.
+//! * `records` (a package): every answer as plain data.
 //! * [`cli`]: the program.
 //!
-//! A door reads its arguments, asks one question of `entrance`, and shows the record of the answer as text, JSON, HTML or arrays.
+//! A door reads its arguments, asks one question, and shows the record of the answer as text, JSON, HTML or arrays.
+//! The doors for many designs (`sweep`), for Python, for C and for the browser (`page/core`) are packages.
 
 #[cfg(feature = "cli")]
 pub mod cli;

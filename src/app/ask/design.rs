@@ -1,4 +1,4 @@
-//! The design of the front page: the contents of a design file, with the questions of `entrance` as methods.
+//! The design of the front page: the contents of a design file, with the questions as methods.
 
 use std::ops::{Deref, DerefMut};
 

@@ -12,6 +12,7 @@ use synthesis::singularity::regular_workspace;
 /// A drive with what it makes of a design.
 #[derive(Debug, Clone)]
 pub struct DriveFit {
+    /// The row of the table.
     pub drive: Drive,
     /// The design with the drive.
     pub design: Design,

@@ -15,6 +15,7 @@ use synthesis::{
 /// An octahedral platform with the names of its corners and of the joints on its edges.
 #[derive(Debug, Clone)]
 pub struct Original {
+    /// Its triangles.
     pub octahedral: Octahedral,
     /// The octahedral platform as a design.
     pub design: Design,
@@ -259,6 +260,7 @@ impl Equivalents {
 /// The octahedral platform nearest to a design, as designs.
 #[derive(Debug, Clone)]
 pub struct NearestDesigns {
+    /// Its distance from the design, and the map between the two.
     pub found: NearestOctahedral,
     /// The octahedral platform; its corners have the names of the joints that moved there.
     pub octahedral: Design,

@@ -28,6 +28,9 @@ impl Design {
     }
 
     /// As [`load`](Self::load), also a design whose legs are rods on cranks, for callers that know what to do with it.
+    ///
+    /// # Errors
+    /// As of [`load`](Self::load).
     #[cfg(feature = "files")]
     pub fn load_ideal(path: impl AsRef<Path>) -> Result<Self, Error> {
         Self::load_by(path.as_ref(), crate::design::parse_ideal)

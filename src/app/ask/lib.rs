@@ -1,6 +1,12 @@
-//! The methods of the front page: what a user asks of a design, put together from the layers below.
+//! Asks: one function for each question, which every door calls.
 //!
-//! Nothing is computed here. Each question names the modules that answer it, with their defaults; the command line asks the same questions.
+//! It knows all rooms below. It computes nothing by itself: each question names the modules that answer it, with their defaults.
+//!
+//! * [`Design`]: a platform with names, units, home pose and requirements; its methods are the questions.
+//! * [`Kinematics`]: the questions that need a platform alone.
+//! * [`Error`]: why a question has no answer.
+//!
+//! A design is read from a text, a question is put to it with its options, and the answer is a value with its evidence.
 
 #[cfg(feature = "lab")]
 pub mod bench;
@@ -46,16 +52,12 @@ pub use comparing::{DesignFigures, FigureOptions, Separation};
 #[cfg(feature = "files")]
 pub use design::Design;
 #[cfg(feature = "files")]
-pub use equivalence::{SAMPLES, sample_plan};
-#[cfg(feature = "files")]
-pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
+pub use equivalence::{SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
 pub use error::Error;
 #[cfg(feature = "files")]
 pub use holding::SingularHome;
 #[cfg(feature = "files")]
-pub use judging::{AssessReport, CheckReport};
-#[cfg(feature = "files")]
-pub use judging::{BOX_CELLS, JudgedPoses};
+pub use judging::{AssessReport, BOX_CELLS, CheckReport, JudgedPoses};
 #[cfg(feature = "files")]
 pub use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]

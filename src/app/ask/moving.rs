@@ -116,7 +116,9 @@ pub struct MotionInstant {
 /// A margin with the time at which it is least.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimedMargin {
+    /// The least one.
     pub margin: Margin,
+    /// Seconds from the start.
     pub time: f64,
 }
 
@@ -150,6 +152,7 @@ pub struct MotionReport {
 /// How stiff a platform is at a pose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StiffnessReport {
+    /// The pose.
     pub pose: Pose,
     /// `J^T diag(k) J` in force units, design units and radians.
     pub matrix: Matrix6<f64>,

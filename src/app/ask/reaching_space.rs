@@ -39,7 +39,9 @@ pub struct FreeSize {
 /// How far a turn about an axis of the base frame is free, degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeTurn {
+    /// To negative angles.
     pub back: FreeRay,
+    /// To positive angles.
     pub forth: FreeRay,
 }
 
@@ -63,6 +65,7 @@ pub struct WorkspaceSize {
     pub ball: FreeSize,
     /// Half widths of the largest box of positions around home that the rays leave room for, and the factor on them.
     pub box_half: [f64; 3],
+    /// The factor on that box up to which it is free.
     pub box_factor: FreeSize,
     /// About x, y, z of the base frame at the position of home.
     pub turns: [FreeTurn; 3],

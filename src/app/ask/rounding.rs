@@ -76,6 +76,9 @@ impl RoundingWay {
 
 impl Design {
     /// Both roundings of the design, judged at the poses of the grid of its workspace.
+    ///
+    /// # Errors
+    /// [`NoRounding`].
     pub fn rounded(&self, choices: &RoundingChoices) -> Result<Rounding, NoRounding> {
         let (home, workspace) = (self.home_or_default(), self.workspace_or_default());
         let (space, poses) = (workspace.space(&home), workspace.sample(&home));

@@ -19,6 +19,9 @@ pub struct WholeFile {
 
 impl WholeFile {
     /// Begins the file for a path; where a link stands, the file that it points to will be replaced.
+    ///
+    /// # Errors
+    /// A folder where no file can be made.
     pub fn begin(path: &Path) -> io::Result<Self> {
         let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let mut name = OsString::from(PART.0);
@@ -39,6 +42,9 @@ impl WholeFile {
     }
 
     /// Makes sure that all of it is on the disk, and puts it in its place with the permissions of the file that stood there.
+    ///
+    /// # Errors
+    /// A disk that is full, a target that cannot be replaced.
     pub fn finish(self) -> io::Result<()> {
         let Self { part, target } = self;
         part.as_file().sync_all()?;
@@ -53,6 +59,9 @@ impl WholeFile {
     }
 
     /// Writes bytes as a whole file.
+    ///
+    /// # Errors
+    /// As of [`begin`](Self::begin) and [`finish`](Self::finish).
     pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let whole = Self::begin(path)?;
         io::Write::write_all(&mut whole.file(), bytes)?;

@@ -18,7 +18,7 @@ pub struct DriveLengthsRecord {
 }
 
 impl DriveLengthsRecord {
-    pub fn new(distances: &[f64; 6], states: &[DriveState; 6]) -> Self {
+    pub(crate) fn new(distances: &[f64; 6], states: &[DriveState; 6]) -> Self {
         Self {
             lengths: std::array::from_fn(|i| distances[i] + states[i].correction),
             of_offsets: states.map(|s| s.of_offsets),
@@ -67,6 +67,7 @@ pub enum DriveSolutionWord {
 }
 
 impl DriveSolutionRecord {
+    /// The record of drives that are followed.
     pub fn new(lengths: &[f64; 6], found: &CoupledOutcome) -> Self {
         let (status, bound, reason) = match found.status {
             CoupledStatus::Proved(bound) => (DriveSolutionWord::Proved, Some(bound), None),

@@ -1,7 +1,7 @@
 //! Columns of the table of a sweep, and what their cells hold.
 
 /// The first column: the numbers of the candidates.
-pub const CANDIDATE: &str = "candidate";
+pub(crate) const CANDIDATE: &str = "candidate";
 
 /// What the cells of a column hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,7 +17,8 @@ pub enum ColumnKind {
 }
 
 impl ColumnKind {
-    pub const ALL: [Self; 4] = [Self::Number, Self::Integer, Self::Truth, Self::Text];
+    /// All kinds.
+    pub(crate) const ALL: [Self; 4] = [Self::Number, Self::Integer, Self::Truth, Self::Text];
 
     /// The word in plans.
     pub fn name(self) -> &'static str {
@@ -33,7 +34,9 @@ impl ColumnKind {
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SweepColumn {
+    /// Its name.
     pub name: String,
+    /// What its cells hold.
     pub kind: ColumnKind,
     /// The unit; `None` for pure numbers and for what has none.
     pub unit: Option<String>,
@@ -42,7 +45,7 @@ pub struct SweepColumn {
 }
 
 impl SweepColumn {
-    pub fn new(name: &str, kind: ColumnKind, unit: Option<&str>, meaning: &str) -> Self {
+    pub(crate) fn new(name: &str, kind: ColumnKind, unit: Option<&str>, meaning: &str) -> Self {
         Self { name: name.into(), kind, unit: unit.map(Into::into), meaning: meaning.into() }
     }
 
@@ -57,9 +60,13 @@ impl SweepColumn {
 pub enum SweepCell {
     /// Nothing: not decided, not computed, no such thing.
     Empty,
+    /// A double.
     Number(f64),
+    /// An integer.
     Integer(i64),
+    /// Yes or no.
     Truth(bool),
+    /// Words.
     Text(String),
 }
 

@@ -14,6 +14,7 @@ pub struct Digested<W> {
 }
 
 impl<W: Write> Digested<W> {
+    /// Digests what is written to `inner`.
     pub fn new(inner: W) -> Self {
         Self { inner, hash: Sha256::new(), bytes: 0 }
     }

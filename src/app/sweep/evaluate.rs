@@ -35,9 +35,13 @@ pub(super) struct KnownPattern {
 /// A plan made ready: candidate `k` has one row, whoever asks for it.
 #[derive(Debug)]
 pub struct Sweep {
+    /// The plan.
     pub plan: SweepPlan,
+    /// The base design and the files that belong to it.
     pub base: BasePlan,
+    /// The seed of all samples.
     pub seed: u64,
+    /// The columns of the table.
     pub columns: Vec<SweepColumn>,
     /// What is the same for all candidates, unless the text of the base design changes.
     pub(super) ground: Option<Ground>,

@@ -23,7 +23,7 @@ mod sample;
 #[cfg(test)]
 mod tests;
 
-pub use column::{SweepCell, SweepColumn};
+pub use column::{ColumnKind, SweepCell, SweepColumn};
 pub use digest::{Digested, digest_of};
 pub use evaluate::Sweep;
 pub use rows::{RowChunk, SweepRow, shard_range};

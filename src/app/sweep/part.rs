@@ -191,6 +191,7 @@ struct PartHead<W> {
 }
 
 /// Writes rows; what it writes depends on columns, notes and rows alone.
+#[allow(missing_debug_implementations, reason = "the writer of Parquet has none")]
 pub struct PartWriter<W: Write + Send> {
     /// Until the first rows are written.
     head: Option<PartHead<W>>,
@@ -327,8 +328,10 @@ fn other_type(column: &SweepColumn) -> PartError {
 }
 
 /// A part that is read, one group of rows after the other.
+#[allow(missing_debug_implementations, reason = "the reader of Parquet has none")]
 pub struct PartReader {
     reader: Box<dyn FileReader>,
+    /// The columns of the table.
     pub columns: Vec<SweepColumn>,
 }
 

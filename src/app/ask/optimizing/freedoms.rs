@@ -321,17 +321,17 @@ fn first_amount(design: &Design, report: &DimensionalReport, freedom: ConflictFr
 type AttemptFlow = ControlFlow<(), Option<Box<Checked>>>;
 
 /// Searches with one more freedom each.
-pub struct FreedomSearch<'a, 'p> {
-    pub design: &'a Design,
-    pub extension: f64,
-    pub report: &'a DimensionalReport,
-    pub options: ShapeSearchOptions,
-    pub progress: &'p mut dyn FnMut(ConflictFreedom, Progress) -> ControlFlow<()>,
+pub(crate) struct FreedomSearch<'a, 'p> {
+    pub(crate) design: &'a Design,
+    pub(crate) extension: f64,
+    pub(crate) report: &'a DimensionalReport,
+    pub(crate) options: ShapeSearchOptions,
+    pub(crate) progress: &'p mut dyn FnMut(ConflictFreedom, Progress) -> ControlFlow<()>,
 }
 
 impl FreedomSearch<'_, '_> {
     /// All freedoms that are closed, one after the other.
-    pub fn run(mut self) -> Result<Vec<OpenedFreedom>, VerifyError> {
+    pub(crate) fn run(mut self) -> Result<Vec<OpenedFreedom>, VerifyError> {
         let mut out = Vec::new();
         let mut ended = false;
         for freedom in closed(self.design, self.report, self.extension) {

@@ -26,7 +26,7 @@ const POINTS: usize = 5000;
 const SAMPLES: usize = 3;
 
 /// The outcome of a search for offsets, with the check that does not use its code.
-pub fn offset_status(report: &OffsetReport, checked: Option<&Checked>) -> OptimizeStatus {
+pub(crate) fn offset_status(report: &OffsetReport, checked: Option<&Checked>) -> OptimizeStatus {
     let met = checked.map(Checked::met);
     match report.outcome {
         _ if report.interrupted => OptimizeStatus::Interrupted,
@@ -39,7 +39,7 @@ pub fn offset_status(report: &OffsetReport, checked: Option<&Checked>) -> Optimi
 }
 
 /// The outcome of a search under requirements, with the check that does not use its code.
-pub fn dimensional_status(report: &DimensionalReport, checked: Option<&Checked>) -> OptimizeStatus {
+pub(crate) fn dimensional_status(report: &DimensionalReport, checked: Option<&Checked>) -> OptimizeStatus {
     match (&report.outcome, checked) {
         _ if report.interrupted => OptimizeStatus::Interrupted,
         (DimensionalOutcome::Infeasible(_), _) => OptimizeStatus::Infeasible,
@@ -63,7 +63,12 @@ pub fn met_or_nothing_required(assessed: Option<&AssessReport>) -> Option<bool> 
 }
 
 /// The optimised platform as a design with the tables of the one it comes from.
-pub fn optimised_design(design: &Design, problem: &OffsetProblem, s: &OffsetSolution, seed: u64) -> Design {
+pub(crate) fn optimised_design(
+    design: &Design,
+    problem: &OffsetProblem,
+    s: &OffsetSolution,
+    seed: u64,
+) -> Design {
     let mut out = joint_free_design(design, &problem.octahedral, &s.manipulator, s.offsets);
     out.source.clone_from(&design.source);
     out.description = Some(format!(
@@ -149,7 +154,7 @@ impl From<&ShapeSearchOptions> for Judging {
 }
 
 /// The platform as a design, evaluated by code that the optimiser does not use.
-pub fn checked(
+pub(crate) fn checked(
     design: &Design,
     problem: &DimensionalProblem,
     s: &DimensionalSolution,
@@ -162,7 +167,7 @@ pub fn checked(
 }
 
 /// The platform of a search for offsets, evaluated in the same way.
-pub fn checked_offsets(
+pub(crate) fn checked_offsets(
     design: &Design,
     problem: &OffsetProblem,
     s: &OffsetSolution,

@@ -14,7 +14,8 @@ pub use self::drive_search::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlat
 use self::freedoms::FreedomSearch;
 pub use self::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
 pub use self::judged::Checked;
-pub use self::judged::{Judging, checked, met_or_nothing_required};
+pub(crate) use self::judged::checked;
+pub use self::judged::{Judging, met_or_nothing_required};
 use self::judged::{checked_offsets, offset_status};
 pub use self::platform_search::{FoundFront, FoundPlatform};
 use self::platform_search::{find_front, find_platform};
@@ -399,6 +400,9 @@ impl OptimizeReport {
     }
 
     /// Where nothing was found: the searches with one more freedom each.
+    ///
+    /// # Errors
+    /// As of [`Design::optimize_with`].
     pub fn open_freedoms(&mut self, options: &mut OptimizeOptions<'_>) -> Result<(), Error> {
         let report = match &self.evidence {
             OptimizeEvidence::Dimensions(found) if found.checked.is_none() => Some(&found.report),

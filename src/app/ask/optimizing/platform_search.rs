@@ -99,7 +99,7 @@ impl FoundPlatform {
 ///
 /// # Errors
 /// A problem that cannot be asked, or a platform that cannot be compared with the design.
-pub fn find_platform(
+pub(crate) fn find_platform(
     design: &Design,
     extension: f64,
     options: &ShapeSearchOptions,
@@ -181,7 +181,7 @@ impl FoundFront {
 ///
 /// # Errors
 /// As [`find_platform`].
-pub fn find_front(
+pub(crate) fn find_front(
     design: &Design,
     points: usize,
     extension: f64,

@@ -25,7 +25,9 @@ const MOST_CANDIDATES: u64 = 1 << 53;
 /// What a plan says, checked against its base design.
 #[derive(Debug, Clone)]
 pub struct SweepPlan {
+    /// Its name.
     pub name: String,
+    /// What it is for, in words.
     pub description: Option<String>,
     /// What varies; the candidates are all combinations of the candidates of the blocks.
     pub blocks: Vec<PlanBlock>,
@@ -55,6 +57,7 @@ pub enum BaseName {
 /// The files that a plan names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlanFiles {
+    /// The base design.
     pub base: BaseName,
     /// A table of drives, relative to the plan.
     pub drives: Option<String>,
@@ -63,7 +66,9 @@ pub struct PlanFiles {
 /// The text of a plan, in its notation.
 #[derive(Debug, Clone, Copy)]
 pub struct PlanText<'a> {
+    /// The text.
     pub text: &'a str,
+    /// Its notation.
     pub format: Format,
 }
 
@@ -83,9 +88,9 @@ pub enum PoseChoice {
 /// How densely requirements are looked at, and how hard they are bounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AssessEffort {
-    pub points: usize,
-    pub searches: usize,
-    pub cells: usize,
+    pub(crate) points: usize,
+    pub(crate) searches: usize,
+    pub(crate) cells: usize,
 }
 
 impl Default for AssessEffort {
@@ -160,24 +165,27 @@ pub enum SweepTask {
 /// A field of the answer of a command, as a column of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnswerField {
-    pub column: String,
-    pub answer: AnswerName,
+    pub(crate) column: String,
+    pub(crate) answer: AnswerName,
     /// The keys on the way to it; elements of lists by their number from 1.
     pub path: Vec<String>,
-    pub kind: ColumnKind,
-    pub unit: Option<String>,
+    pub(crate) kind: ColumnKind,
+    pub(crate) unit: Option<String>,
 }
 
 /// The commands whose answers have columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AnswerName {
+    /// Requirements and margins.
     Assess,
+    /// Architectural singularity.
     Check,
+    /// Poses of lengths.
     Fk,
 }
 
 impl AnswerName {
-    pub const ALL: [Self; 3] = [Self::Assess, Self::Check, Self::Fk];
+    pub(crate) const ALL: [Self; 3] = [Self::Assess, Self::Check, Self::Fk];
 
     /// The command.
     pub fn name(self) -> &'static str {

@@ -17,8 +17,9 @@ pub(super) const TRAJECTORY: &str = "workspace.trajectory";
 /// A base design and the text it is read from, into which candidates write their numbers.
 #[derive(Debug, Clone)]
 pub struct BasePlan {
-    pub text: String,
-    pub format: Format,
+    pub(crate) text: String,
+    pub(crate) format: Format,
+    /// The design.
     pub design: Design,
     /// The drives that candidates may have.
     pub drives: Option<DriveTable>,

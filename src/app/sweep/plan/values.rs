@@ -7,10 +7,10 @@ use crate::sample::{PointPlace, PointSpread};
 /// Quantities that vary together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanBlock {
-    pub spreading: Spreading,
+    pub(crate) spreading: Spreading,
     /// Candidates of the block.
     pub count: u64,
-    pub axes: Vec<PlanAxis>,
+    pub(crate) axes: Vec<PlanAxis>,
 }
 
 /// How the candidates of a block follow one another.
@@ -27,16 +27,25 @@ pub enum Spreading {
 /// A free quantity with its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanAxis {
-    pub quantity: FreeQuantity,
-    pub column: SweepColumn,
-    pub values: AxisValues,
+    pub(crate) quantity: FreeQuantity,
+    pub(crate) column: SweepColumn,
+    pub(crate) values: AxisValues,
 }
 
 /// The values of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AxisValues {
     /// From one number to another, with steps of the same size or, on a logarithmic scale, of the same ratio; `count` values on a grid.
-    Range { from: f64, to: f64, logarithmic: bool, count: u64 },
+    Range {
+        /// The first value.
+        from: f64,
+        /// The last one.
+        to: f64,
+        /// Whether the steps are factors.
+        logarithmic: bool,
+        /// How many values.
+        count: u64,
+    },
     /// These numbers.
     Numbers(Vec<f64>),
     /// These texts.
@@ -45,7 +54,7 @@ pub enum AxisValues {
 
 impl AxisValues {
     /// How many values a grid or a list takes from it.
-    pub fn len(&self) -> u64 {
+    pub(crate) fn len(&self) -> u64 {
         match self {
             Self::Range { count, .. } => *count,
             Self::Numbers(list) => list.len() as u64,
