@@ -30,6 +30,17 @@ impl Exit {
     }
 }
 
+/// What an answer that is yes, no or undecided means for the exit code.
+impl From<Option<bool>> for Exit {
+    fn from(answer: Option<bool>) -> Self {
+        match answer {
+            Some(true) => Self::Yes,
+            Some(false) => Self::No,
+            None => Self::Inconclusive,
+        }
+    }
+}
+
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
         Self::from(exit.code())

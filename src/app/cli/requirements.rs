@@ -2,21 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::exit::Exit;
 use machine::requirements::MarginVerdict;
 use records::{AssessAnswer, MarginRecord, PoseQuaternionRecord, RegularityWord};
 
 /// Width of a column of numbers in the table.
 const COLUMN: usize = 14;
-
-/// What the answer about the requirements means for the exit code.
-pub(crate) fn exit_of(met: Option<bool>) -> Exit {
-    match met {
-        Some(true) => Exit::Yes,
-        Some(false) => Exit::No,
-        None => Exit::Inconclusive,
-    }
-}
 
 /// The sentence, the table and what was assumed of masses; a design that requires nothing is told so in a line.
 pub(crate) fn lead(name: &str, found: Option<&AssessAnswer>) -> String {

@@ -9,7 +9,6 @@ use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::cli::requirements;
 use ::files::design::{Drive, DriveTable, JudgedForces};
 use ask::Design;
 use ask::PlatformMotion;
@@ -87,7 +86,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         output,
     };
     let text = render::text(&answer);
-    Ok(Answer::new(requirements::exit_of(met), answer, text))
+    Ok(Answer::new(met.into(), answer, text))
 }
 
 /// The table of drives that an option names, or the design beside its file.
