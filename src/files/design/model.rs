@@ -119,9 +119,14 @@ impl CalibratedNumber {
     /// What it is called: `base.A1.x`, `offset.3`.
     #[must_use]
     pub fn name(&self, design: &DesignModel) -> String {
-        match *self {
+        self.name_among([design.base_names(), design.platform_names()])
+    }
+
+    /// The same among these names of the joints of base and platform.
+    pub(super) fn name_among(self, joints: [&[String]; 2]) -> String {
+        match self {
             Self::Coordinate { body, joint, axis } => {
-                format!("{body}.{}.{}", design.joint_names(body)[joint], ["x", "y", "z"][axis])
+                format!("{body}.{}.{}", joints[body.index()][joint], ["x", "y", "z"][axis])
             }
             Self::Offset(leg) => format!("offset.{}", leg + 1),
         }

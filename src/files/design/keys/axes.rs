@@ -2,8 +2,8 @@
 
 use nalgebra::{Unit, Vector3};
 
+use super::hardware::is_normal;
 use super::joint_models::check_axes;
-use super::tables::is_normal;
 use crate::design::DesignModel;
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
