@@ -150,7 +150,8 @@ fn fits(value: &Json, kind: &Kind) -> bool {
 }
 
 impl DesignModel {
-    /// The same design with its lengths in another unit. Parameters stay, since they may be angles; the constructions that use them get the factor.
+    /// The same design with its lengths in another unit. Parameters stay, since they may be angles; the constructions
+    /// that use them get the factor.
     ///
     /// # Errors
     /// [`NotScaled`].

@@ -6,7 +6,9 @@ use serde_json::{Map, Value as Json, json};
 use super::document::toml_value;
 use super::found::{check_keys, element_span, elements, nearest_help, number, numbers, shown, table};
 use super::joints::NamedJoints;
-use super::kind::{HALF_WIDTHS, Kind, Numbers, numbers as numbers_of, own, table as table_of, unit};
+use super::kind::{
+    HALF_WIDTHS, Kind, Numbers, list_of, not_negative, numbers as numbers_of, own, table as table_of, unit,
+};
 use super::stored::{Item, Stored};
 use super::{Found, Table, key};
 use crate::design::tree::{Entry, Node, Value, find};
@@ -33,81 +35,57 @@ pub(super) struct CalibrationKeys {
 
 pub(super) static CALIBRATION: Table<CalibrationKeys> = Table {
     keys: &[
-        key!(
-            "offsets",
-            numbers_of(&OFFSETS, unit::LENGTH),
-            "what the length that each leg shows is longer than the distance of its joints",
-            table.offsets;
-            default = "[0, 0, 0, 0, 0, 0]"
-        ),
-        key!(
-            "offset_deviations",
-            own(
-                r##"{"type": "array", "minItems": 6, "maxItems": 6, "items": {"$ref": "#/$defs/not_negative"}}"##,
-                unit::LENGTH
-            ),
-            "standard deviations of the offsets",
+        key!("offsets" { default = "[0, 0, 0, 0, 0, 0]" }: numbers_of(&OFFSETS, unit::LENGTH), table.offsets;
+            "what the length that each leg shows is longer than the distance of its joints"),
+        key!("offset_deviations": list_of(6, &not_negative(unit::LENGTH)),
             |found, to| {
                 found.kind = numbers_of(&DEVIATIONS, unit::LENGTH);
                 found.fill(&mut to.table.offset_deviations);
-                not_negative(found.report, &found.entry.node);
+                refuse_negative(found.report, &found.entry.node);
             },
-            |of| of.table.offset_deviations.written()
-        ),
-        key!(
-            "base_deviations",
-            table_of(&OF_JOINTS),
-            "standard deviations of the coordinates of base joints, by name",
+            |of| of.table.offset_deviations.written();
+            "standard deviations of the offsets"),
+        key!("base_deviations": table_of(&OF_JOINTS),
             |found, to| to.table.base_deviations = deviations(found, to.joints[0].as_deref()),
-            |of| of.deviations(Body::Base)
-        ),
-        key!(
-            "platform_deviations",
-            table_of(&OF_JOINTS),
-            "standard deviations of the coordinates of platform joints, by name",
+            |of| of.deviations(Body::Base);
+            "standard deviations of the coordinates of base joints, by name"),
+        key!("platform_deviations": table_of(&OF_JOINTS),
             |found, to| to.table.platform_deviations = deviations(found, to.joints[1].as_deref()),
-            |of| of.deviations(Body::Platform)
-        ),
-        key!(
-            "correlations",
-            table_of(&CORRELATIONS),
-            "how coordinates and offsets are off together; each for itself where it is absent",
+            |of| of.deviations(Body::Platform);
+            "standard deviations of the coordinates of platform joints, by name"),
+        key!("correlations": table_of(&CORRELATIONS),
             |found, to| {
                 if let [Some(base), Some(platform)] = &to.joints {
                     to.table.correlations = correlations(found, [base, platform], &to.table);
                 }
             },
-            |of| CORRELATIONS.put(of)
-        ),
+            |of| CORRELATIONS.put(of);
+            "how coordinates and offsets are off together; each for itself where it is absent"),
     ],
     ..Table::EMPTY
 };
 
+const TRIANGLE: Kind = own(
+    r#"{
+        "type": "array",
+        "items": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": -1, "maximum": 1}}
+    }"#,
+    unit::NONE,
+);
+
 static CORRELATIONS: Table<CalibrationKeys> = Table {
     keys: &[
-        key!(
-            "unknowns",
-            own(r#"{"type": "array", "uniqueItems": true, "items": {"type": "string"}}"#, unit::NONE),
-            "what rows and columns of `matrix` are about: `base.JOINT.x`, `platform.JOINT.z`, `offset.3`",
+        key!("unknowns" { required = BOTH }: own(r#"{"type": "array", "uniqueItems": true, "items": {"type": "string"}}"#, unit::NONE),
             |_, _| (),
             |of| {
                 let joints = of.joints.each_ref().map(|names| names.as_deref().unwrap_or_default());
                 let unknowns = &of.table.correlations.as_ref()?.unknowns;
                 Some(unknowns.iter().map(|number| json!(number.name_among(joints))).collect())
             };
-            required = BOTH
-        ),
-        key!(
-            "matrix",
-            own(
-                r#"{"type": "array", "items": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": -1, "maximum": 1}}}"#,
-                unit::NONE
-            ),
-            "the lower triangle of the correlations with the diagonal, which is 1: row i has i numbers",
-            |_, _| (),
-            |of| Some(json!(of.table.correlations.as_ref()?.triangle));
-            required = BOTH
-        ),
+            "what rows and columns of `matrix` are about: `base.JOINT.x`, `platform.JOINT.z`, `offset.3`"),
+        key!("matrix" { required = BOTH }: TRIANGLE,
+            |_, _| (), |of| Some(json!(of.table.correlations.as_ref()?.triangle));
+            "the lower triangle of the correlations with the diagonal, which is 1: row i has i numbers"),
     ],
     ..Table::EMPTY
 };
@@ -127,7 +105,8 @@ impl CalibrationKeys {
     }
 }
 
-/// `[calibration.correlations]` with a row of the triangle a line, which the writer of TOML would put on one line of ten thousand characters.
+/// `[calibration.correlations]` with a row of the triangle a line, which the writer of TOML would put on one line of
+/// ten thousand characters.
 pub(super) fn correlations_toml(table: &Json) -> String {
     let items = |list: &Json| list.as_array().cloned().unwrap_or_default();
     let lines =
@@ -278,7 +257,7 @@ fn triangle_row(report: &mut Findings<'_>, row: &Node, i: usize) -> Option<Vec<f
     Some(out)
 }
 
-fn not_negative(report: &mut Findings<'_>, node: &Node) {
+fn refuse_negative(report: &mut Findings<'_>, node: &Node) {
     for (i, x) in elements(node).enumerate().filter(|(_, x)| *x < 0.0 && x.is_finite()) {
         let message = format!("a standard deviation of {x}");
         let help = "standard deviations are not negative";
@@ -301,7 +280,7 @@ fn deviations(found: &mut Found<'_, '_>, names: Option<&[String]>) -> Vec<Option
         };
         let what = format!("the deviation of `{}`", shown(&joint.key));
         let three = numbers::<3>(report, &joint.node, &what, Code::CoordinateCount, "standard deviations");
-        not_negative(report, &joint.node);
+        refuse_negative(report, &joint.node);
         out[index] = three.map(Vector3::from);
     }
     // a table without joints says nothing, as no table does

@@ -8,7 +8,7 @@ use super::cranks::CrankPlaces;
 use super::found::{LARGEST, check_keys, nearest_help, number, shown, table};
 use super::joints::NamedJoints;
 use super::kind::{
-    Kind, Shape, either, own, quantities, quantity as quantity_of, table as table_of, unit, word,
+    Kind, Shape, either, list_of, quantities, quantity as quantity_of, table as table_of, unit, word,
 };
 use super::stored::{self, Word};
 use super::{Code, TEXT, Table, key};
@@ -23,16 +23,10 @@ use crate::design::violation::Findings;
 /// A point on the line of two joints.
 static ON_LINE: Table<()> = Table {
     keys: &[
-        key!(
-            "on",
-            own(
-                r#"{"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "string"}}"#,
-                unit::NONE
-            ),
-            ""
-        ),
-        key!("t", quantity_of(unit::NONE), "share of the way from the first joint to the second"),
-        key!("offset", quantity_of(unit::LENGTH), "length from the first joint towards the second"),
+        key!("on": list_of(2, &TEXT);
+            ""),
+        key!("t": quantity_of(unit::NONE); "share of the way from the first joint to the second"),
+        key!("offset": quantity_of(unit::LENGTH); "length from the first joint towards the second"),
     ],
     rules: r#"{
         "required": ["on"],
@@ -45,9 +39,9 @@ static ON_LINE: Table<()> = Table {
 /// A point in polar coordinates.
 static POLAR: Table<()> = Table {
     keys: &[
-        key!("radius", quantity_of(unit::LENGTH), ""),
-        key!("angle_deg", quantity_of(unit::DEGREES), "from the x axis towards the y axis"),
-        key!("z", quantity_of(unit::LENGTH), "0 when absent"),
+        key!("radius": quantity_of(unit::LENGTH); ""),
+        key!("angle_deg": quantity_of(unit::DEGREES); "from the x axis towards the y axis"),
+        key!("z": quantity_of(unit::LENGTH); "0 when absent"),
     ],
     rules: r#"{"required": ["radius", "angle_deg"]}"#,
     ..Table::EMPTY
@@ -56,8 +50,8 @@ static POLAR: Table<()> = Table {
 /// A rotated copy.
 static TURNED: Table<()> = Table {
     keys: &[
-        key!("turn", TEXT, ""),
-        key!("deg", quantity_of(unit::DEGREES), "about the z axis of the frame of the body"),
+        key!("turn": TEXT; ""),
+        key!("deg": quantity_of(unit::DEGREES); "about the z axis of the frame of the body"),
     ],
     rules: r#"{"required": ["turn", "deg"], "description": "a joint of the same body, turned"}"#,
     ..Table::EMPTY
@@ -65,7 +59,7 @@ static TURNED: Table<()> = Table {
 
 /// A mirrored copy.
 static MIRRORED: Table<()> = Table {
-    keys: &[key!("mirror", TEXT, ""), key!("plane", word(CoordinatePlane::words), "")],
+    keys: &[key!("mirror": TEXT; ""), key!("plane": word(CoordinatePlane::words); "")],
     rules: r#"{"required": ["mirror", "plane"], "description": "a joint of the same body, mirrored in a plane of two axes"}"#,
     ..Table::EMPTY
 };

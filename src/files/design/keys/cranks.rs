@@ -8,7 +8,7 @@ use super::joints::{Legs, NamedJoints};
 use super::kind::{
     Joined, Kind, Range, angle, positive, quantities, quantity as quantity_of, table as table_of, unit, word,
 };
-use super::stored::{self, Stored, Word};
+use super::stored::{self, Item, Stored, Word};
 use super::{Found, TEXT, Table, key};
 use crate::design::construction::{
     Constructions, CoordinatePlane, CrankCopy, CrankLimits, PARTS, WrittenCrank, WrittenCranks, WrittenNumber,
@@ -29,48 +29,29 @@ struct CrankKeys {
 /// Keys of all cranks and of single ones.
 static CRANK: Table<CrankKeys> = Table {
     keys: &[
-        key!(
-            "length",
-            quantity_of(unit::LENGTH),
-            "of each crank, from its centre to its tip",
+        key!("length": quantity_of(unit::LENGTH),
             |found, to| to.written.length = one(found, &mut to.places, 0),
-            |of| of.written.length.as_ref().map(WrittenNumber::json)
-        ),
-        key!(
-            "rod_length",
-            quantity_of(unit::LENGTH),
-            "of each rod, from the tip to the platform joint",
+            |of| of.written.length.as_ref().map(WrittenNumber::json);
+            "of each crank, from its centre to its tip"),
+        key!("rod_length": quantity_of(unit::LENGTH),
             |found, to| to.written.rod_length = one(found, &mut to.places, 1),
-            |of| of.written.rod_length.as_ref().map(WrittenNumber::json)
-        ),
-        key!(
-            "axis",
-            quantities(3, unit::NONE),
-            "direction of the axis, base frame; angles count about it by the right hand",
+            |of| of.written.rod_length.as_ref().map(WrittenNumber::json);
+            "of each rod, from the tip to the platform joint"),
+        key!("axis": quantities(3, unit::NONE),
             |found, to| to.written.axis = three(found, &mut to.places, 2),
-            |of| of.written.axis.as_ref().map(|list| stored::quantities(list))
-        ),
-        key!(
-            "zero",
-            quantities(3, unit::NONE),
-            "direction of the tip at the angle 0, base frame; what of it is along the axis is left out",
+            |of| of.written.axis.as_ref().map(|list| stored::quantities(list));
+            "direction of the axis, base frame; angles count about it by the right hand"),
+        key!("zero": quantities(3, unit::NONE),
             |found, to| to.written.zero = three(found, &mut to.places, 5),
-            |of| of.written.zero.as_ref().map(|list| stored::quantities(list))
-        ),
-        key!(
-            "elbow",
-            word(Elbow::words),
-            "the side that the crank stays on: the greater or the smaller of the two angles around the one at which the tip is nearest to the platform joint",
-            |found, to| to.written.elbow = elbow(found),
-            |of| of.written.elbow.written()
-        ),
-        key!(
-            "angle_deg",
-            quantities(2, unit::DEGREES),
-            "`[least, greatest]` angle, degrees; none when absent",
+            |of| of.written.zero.as_ref().map(|list| stored::quantities(list));
+            "direction of the tip at the angle 0, base frame; what of it is along the axis is left out"),
+        key!("elbow": word(Elbow::words),
+            |found, to| to.written.elbow = elbow(found), |of| of.written.elbow.written();
+            "the side that the crank stays on: the greater or the smaller of the two angles around the one at which the tip is nearest to the platform joint"),
+        key!("angle_deg": quantities(2, unit::DEGREES),
             |found, to| to.written.angle_deg = range(found, &mut to.places),
-            |of| of.written.angle_deg.as_ref().map(|list| stored::quantities(list))
-        ),
+            |of| of.written.angle_deg.as_ref().map(|list| stored::quantities(list));
+            "`[least, greatest]` angle, degrees; none when absent"),
     ],
     ..Table::EMPTY
 };
@@ -78,78 +59,45 @@ static CRANK: Table<CrankKeys> = Table {
 /// Keys of single cranks that are copies.
 static COPY: Table<CrankKeys> = Table {
     keys: &[
-        key!(
-            "turn",
-            TEXT,
-            "the base joint of another crank: this one has its values, with axis and zero turned about the z axis of the base frame",
-            |_, _| (),
-            |of| match &of.written.copy {
-                Some(CrankCopy::Turned { crank, .. }) => Some(json!(of.names[*crank])),
-                _ => None,
-            }
-        ),
-        key!("deg", quantity_of(unit::DEGREES), "with `turn`", |_, _| (), |of| match &of.written.copy {
-            Some(CrankCopy::Turned { deg, .. }) => Some(deg.json()),
-            _ => None,
-        }),
-        key!(
-            "mirror",
-            TEXT,
-            "the base joint of another crank: this one has its values, with zero mirrored and axis mirrored and reversed, so that equal angles are mirror images",
-            |_, _| (),
-            |of| match &of.written.copy {
-                Some(CrankCopy::Mirrored { crank, .. }) => Some(json!(of.names[*crank])),
-                _ => None,
-            }
-        ),
-        key!(
-            "plane",
-            word(CoordinatePlane::words),
-            "with `mirror`",
-            |_, _| (),
-            |of| match &of.written.copy {
-                Some(CrankCopy::Mirrored { plane, .. }) => Some(json!(plane.name())),
-                _ => None,
-            }
-        ),
+        key!("turn": TEXT, |_, _| (), |of| of.copy(0);
+            "the base joint of another crank: this one has its values, with axis and zero turned about the z axis of the base frame"),
+        key!("deg": quantity_of(unit::DEGREES), |_, _| (), |of| of.copy(1); "with `turn`"),
+        key!("mirror": TEXT, |_, _| (), |of| of.copy(2);
+            "the base joint of another crank: this one has its values, with zero mirrored and axis mirrored and reversed, so that equal angles are mirror images"),
+        key!("plane": word(CoordinatePlane::words), |_, _| (), |of| of.copy(3); "with `mirror`"),
     ],
     rules: r#"{"dependentRequired": {"turn": ["deg"], "deg": ["turn"], "mirror": ["plane"], "plane": ["mirror"]}}"#,
     ..Table::EMPTY
 };
 
+impl CrankKeys {
+    /// The values of `turn`, `deg`, `mirror` and `plane`.
+    fn copy(&self, key: usize) -> Option<Json> {
+        let values = match self.written.copy.as_ref()? {
+            CrankCopy::Turned { crank, deg } => {
+                [Some(json!(self.names[*crank])), Some(deg.json()), None, None]
+            }
+            CrankCopy::Mirrored { crank, plane } => {
+                [None, None, Some(json!(self.names[*crank])), Some(plane.json())]
+            }
+        };
+        values.into_iter().nth(key)?
+    }
+}
+
 /// Keys of all cranks together.
 static LIMITS: Table<CrankLimits> = Table {
     keys: &[
-        key!(
-            "max_torque",
-            positive(unit::TORQUE),
-            "greatest torque of a crank, force units times design units",
-            max_torque
-        ),
-        key!(
-            "max_speed_deg",
-            positive(unit::DEGREES),
-            "greatest speed of a crank, degrees per second",
-            max_speed_deg
-        ),
-        key!(
-            "least_transmission_deg",
-            angle(Range::Below(90)),
-            "least transmission angle of a crank, degrees: the angle whose sine is that part of a push along the rod which turns the crank; 0 when absent",
-            least_transmission_deg
-        ),
-        key!(
-            "tip_swing_deg",
-            angle(Range::Below(90)),
-            "how far the joint at the tip lets a rod lean out of the plane in which its crank turns, degrees",
-            tip_swing_deg
-        ),
-        key!(
-            "platform_swing_deg",
-            angle(Range::Below(180)),
-            "how far the joint at the platform lets a rod swing from its direction at home, degrees",
-            platform_swing_deg
-        ),
+        key!("max_torque": positive(unit::TORQUE), max_torque;
+            "greatest torque of a crank, force units times design units"),
+        key!("max_speed_deg": positive(unit::DEGREES), max_speed_deg;
+            "greatest speed of a crank, degrees per second"),
+        key!("least_transmission_deg": angle(Range::Below(90)), least_transmission_deg;
+            "least transmission angle of a crank, degrees: the angle whose sine is that part of a push along the rod which turns the crank; 0 when absent"),
+        key!("tip_swing_deg": angle(Range::Below(90)), tip_swing_deg;
+            "how far the joint at the tip lets a rod lean out of the plane in which its crank turns, degrees"),
+        key!("platform_swing_deg": angle(Range::Below(180)), platform_swing_deg;
+            "how far the joint at the platform lets a rod swing from its direction at home, degrees"),
     ],
     ..Table::EMPTY
 };

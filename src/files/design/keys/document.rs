@@ -1,4 +1,5 @@
-//! The keys above the first table, and the whole document: one walk over its tables that collects every violation, and the text that is written.
+//! The keys above the first table, and the whole document: one walk over its tables that collects every violation,
+//! and the text that is written.
 
 use nalgebra::Point3;
 use serde_json::{Map, Value as Json, json};
@@ -7,18 +8,18 @@ use super::calibration::{CALIBRATION, CalibrationKeys, calibration, correlations
 use super::constructions::{self, BODY, PARAMETERS};
 use super::cranks::{self, CRANKS};
 use super::envelope::{ENVELOPES, envelopes};
-use super::found::{check_keys, element_span, elements, numbers, text};
+use super::found::{check_keys, element_span, elements, numbers};
 use super::hardware::{HARDWARE, HardwareKeys, hardware};
 use super::holes::{HOLES, HOLES_SHAPE, holes};
 use super::joints::{self, Legs, NamedJoints};
-use super::kind::{list, own, table, unit, word};
+use super::kind::{list, list_of, not_negative, own, table, unit, word};
 use super::limits::{LIMITS, reserves};
-use super::loads::{KEEP_OUT, KeepOutKeys, LOAD, SPEED, STIFFNESS, keep_outs, loads, speed, stiffness};
+use super::loads::{KEEP_OUT, LOAD, SPEED, STIFFNESS, keep_outs, loads, speed, stiffness};
 use super::optimize::{OPTIMIZE, OptimizeKeys, optimize};
 use super::payload::{PAYLOAD, payload};
 use super::plates::{self, PLATES};
 use super::poses::{HOME, home};
-use super::stored::{Stored, Word};
+use super::stored::Word;
 use super::workspace::{WORKSPACE, workspace};
 use super::{Code, Found, TEXT, Table, axes, joint_models, key};
 use crate::design::tree::{Entry, Node, Span, Value, find};
@@ -33,100 +34,85 @@ const SMALLEST: f64 = 1e-60;
 /// The keys of a design. Those of tables are read and written in an order of their own, since some need others.
 pub(super) static TOP: Table<DesignModel> = Table {
     keys: &[
-        key!("name", TEXT, "of the design, not blank"; required = "add `name = \"...\"` at the top"),
-        key!(
-            "units",
-            TEXT,
-            "label of the length unit; every length of the file is in it";
-            required = "add `units = \"mm\"` (a label; all lengths are in it) at the top"
-        ),
-        key!(
-            "force_units",
-            word(ForceUnit::words),
-            "unit of all forces; torques are in it times the length unit; where none is named a payload and the simulator take newtons"
-        ),
-        key!("mass_units", word(MassUnit::words), "unit of all masses; kilograms where none is named"),
-        key!("source", TEXT, "where the numbers come from"),
-        key!("description", TEXT, "free text"),
-        key!(
-            "drive",
-            own(r#"{"enum": ["prismatic", "rotary"]}"#, unit::NONE),
-            "`prismatic`: legs change their lengths; `rotary`: the legs are rods of constant length on cranks, the base joints are the centres of the cranks, and `[cranks]` is required";
-            default = r#""prismatic""#
-        ),
-        key!(
-            "lengths",
-            own(
-                r##"{"type": "array", "minItems": 6, "maxItems": 6, "items": {"$ref": "#/$defs/not_negative"}}"##,
-                unit::LENGTH
-            ),
-            "leg lengths in leg order, which `equipod fk` takes without `--lengths`"
-        ),
-        key!(
-            "legs",
-            own(
-                r#"{"type": "array", "minItems": 6, "maxItems": 6, "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "string"}}}"#,
-                unit::NONE
-            ),
-            "`[base joint, platform joint]` in leg order; in TOML above the first table";
-            required = "add `legs = [[\"A1\", \"B1\"], ...]` with six pairs base-platform above the first [table]"
-        ),
-        key!(
-            "parameters",
-            table(&PARAMETERS),
-            "numbers and expressions that expressions of joints and of other parameters name"
-        ),
-        key!(
-            "base",
-            table(&BODY),
-            "joints in the base frame, each as `[x, y, z]` or as a construction";
-            required = "add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`"
-        ),
-        key!(
-            "platform",
-            table(&BODY),
-            "joints in the platform frame, each as `[x, y, z]` or as a construction";
-            required = "add [platform] with joints such as `B1 = [0.0, 0.0, 0.0]`"
-        ),
-        key!(
-            "cranks",
-            table(&CRANKS),
-            "cranks and rods of a design whose drive is rotary: what holds for all, and tables named by base joints for what is different at one"
-        ),
-        key!("home", table(&HOME), "the pose the platform is built for"),
-        key!("workspace", table(&WORKSPACE), "the poses to reach"),
-        key!("optimize", table(&OPTIMIZE), "what the optimiser chooses, and by what"),
-        key!("hardware", table(&HARDWARE), "sizes and limits of joints, legs and drives"),
-        key!("speed", table(&SPEED), "the platform has to move so fast in every direction"),
-        key!(
-            "stiffness",
-            table(&STIFFNESS),
-            "the platform has to be so stiff on its legs at every pose; needs `leg_stiffness` of `[hardware]`"
-        ),
-        key!("loads", list(&LOAD_KIND), "wrenches the legs have to hold, one at a time"),
-        key!(
-            "keep_out",
-            list(&KEEP_OUT_KIND),
-            "bodies the legs must not touch, each a box, a sphere or a capsule"
-        ),
-        key!("payload", table(&PAYLOAD), "what the platform carries"),
-        key!("envelope", table(&ENVELOPES), "room that plates and machine may take up"),
-        key!(
-            "holes",
-            table(&HOLES_SHAPE),
-            "grids of holes that the joints have to be put on, of both plates or of one"
-        ),
-        key!("plates", table(&PLATES), "the plates that carry the joints: sizes, material, holes and bolts"),
-        key!("limits", table(&LIMITS), "what has to remain of each limit"),
-        key!("calibration", table(&CALIBRATION), "what `equipod calibrate` found beside the joints"),
+        key!("name" { required = "add `name = \"...\"` at the top" }: TEXT, name; "of the design, not blank"),
+        key!("units" { required = "add `units = \"mm\"` (a label; all lengths are in it) at the top" }: TEXT, units;
+            "label of the length unit; every length of the file is in it"),
+        key!("force_units": word(ForceUnit::words), force_units;
+            "unit of all forces; torques are in it times the length unit; where none is named a payload and the simulator take newtons"),
+        key!("mass_units": word(MassUnit::words), mass_units; "unit of all masses; kilograms where none is named"),
+        key!("source": TEXT, source; "where the numbers come from"),
+        key!("description": TEXT, description; "free text"),
+        key!("drive" { default = r#""prismatic""# }: own(r#"{"enum": ["prismatic", "rotary"]}"#, unit::NONE),
+            |_, _| (), |of| of.has_cranks().then(|| json!("rotary"));
+            "`prismatic`: legs change their lengths; `rotary`: the legs are rods of constant length on cranks, the base joints are the centres of the cranks, and `[cranks]` is required"),
+        key!("lengths": list_of(6, &not_negative(unit::LENGTH)),
+            |found, to| to.lengths = lengths(found), |of| Some(json!(of.lengths?.get()));
+            "leg lengths in leg order, which `equipod fk` takes without `--lengths`"),
+        key!("legs" { required = "add `legs = [[\"A1\", \"B1\"], ...]` with six pairs base-platform above the first [table]" }: list_of(6, &list_of(2, &TEXT)),
+            |_, _| (), |of| Some(json!(of.leg_names().map(|(a, b)| [a, b])));
+            "`[base joint, platform joint]` in leg order; in TOML above the first table"),
+        key!("parameters": table(&PARAMETERS), |_, _| (), |of| parameters(of);
+            "numbers and expressions that expressions of joints and of other parameters name"),
+        key!("base" { required = "add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`" }: table(&BODY), |_, _| (), |of| joints_of(of, Body::Base);
+            "joints in the base frame, each as `[x, y, z]` or as a construction"),
+        key!("platform" { required = "add [platform] with joints such as `B1 = [0.0, 0.0, 0.0]`" }: table(&BODY), |_, _| (), |of| joints_of(of, Body::Platform);
+            "joints in the platform frame, each as `[x, y, z]` or as a construction"),
+        key!("cranks": table(&CRANKS), |_, _| (), |of| Some(cranks::written(of.constructions.cranks.as_ref()?, of.base_names()));
+            "cranks and rods of a design whose drive is rotary: what holds for all, and tables named by base joints for what is different at one"),
+        key!("home": table(&HOME), |_, _| (), |of| of.home.and_then(|_| HOME.put(of));
+            "the pose the platform is built for"),
+        key!("workspace": table(&WORKSPACE), |_, _| (), |of| Some(&of.workspace).filter(|w| **w != Workspace::default()).and_then(|w| WORKSPACE.put(w));
+            "the poses to reach"),
+        key!("optimize": table(&OPTIMIZE), |_, _| (), |of| OPTIMIZE.put(&OptimizeKeys::of(of));
+            "what the optimiser chooses, and by what"),
+        key!("hardware": table(&HARDWARE), |_, _| (), |of| HARDWARE.put(&HardwareKeys::of(&of.hardware, of.drive_table.as_ref()));
+            "sizes and limits of joints, legs and drives"),
+        key!("speed": table(&SPEED), |_, _| (), |of| SPEED.put(of.speed.as_ref()?);
+            "the platform has to move so fast in every direction"),
+        key!("stiffness": table(&STIFFNESS), |_, _| (), |of| Some(json!(STIFFNESS.write(of.stiffness.as_ref()?)));
+            "the platform has to be so stiff on its legs at every pose; needs `leg_stiffness` of `[hardware]`"),
+        key!("loads": list(&table(&LOAD)), |_, _| (), |of| all(&of.loads, |load| LOAD.write(load));
+            "wrenches the legs have to hold, one at a time"),
+        key!("keep_out": list(&table(&KEEP_OUT)), |_, _| (), |of| all(&of.keep_outs, |keep_out| KEEP_OUT.write(&keep_out.into()));
+            "bodies the legs must not touch, each a box, a sphere or a capsule"),
+        key!("payload": table(&PAYLOAD), |_, _| (), |of| PAYLOAD.put(of.payload.as_ref()?);
+            "what the platform carries"),
+        key!("envelope": table(&ENVELOPES), |_, _| (), |of| ENVELOPES.put(&of.envelopes);
+            "room that plates and machine may take up"),
+        key!("holes": table(&HOLES_SHAPE), |_, _| (), |of| HOLES.put(of.holes.as_ref()?);
+            "grids of holes that the joints have to be put on, of both plates or of one"),
+        key!("plates": table(&PLATES), |_, _| (), |of| PLATES.put(&of.plates);
+            "the plates that carry the joints: sizes, material, holes and bolts"),
+        key!("limits": table(&LIMITS), |_, _| (), |of| LIMITS.put(&of.reserves);
+            "what has to remain of each limit"),
+        key!("calibration": table(&CALIBRATION), |_, _| (), |of| CALIBRATION.put(&CalibrationKeys::of(of, of.calibration.as_ref()?));
+            "what `equipod calibrate` found beside the joints"),
     ],
     ..Table::EMPTY
 };
-static LOAD_KIND: super::Kind = table(&LOAD);
-static KEEP_OUT_KIND: super::Kind = table(&KEEP_OUT);
+/// The tables behind [hardware] in the order in which they are written.
+const WRITTEN_LAST: [&str; 10] = [
+    "limits",
+    "envelope",
+    "holes",
+    "plates",
+    "speed",
+    "stiffness",
+    "payload",
+    "loads",
+    "keep_out",
+    "calibration",
+];
+
+/// Two triangles in place of the joints that are not read yet.
+fn placeholder() -> Option<Manipulator> {
+    let corners = || [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Point3::from).to_vec();
+    Manipulator::try_new(corners(), corners(), [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)]).ok()
+}
 
 /// The design, or `None` with the reasons in the report. Later checks run on whatever earlier ones left
-/// intact, so that one run shows all violations. Rods on cranks, and joints that are not ideal, are refused unless `takes_cranks`.
+/// intact, so that one run shows all violations. Rods on cranks, and joints that are not ideal, are refused unless
+/// `takes_cranks`.
 pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool) -> Option<DesignModel> {
     let Value::Table(entries) = &root.value else {
         let help = "write { \"name\": ..., \"units\": ..., \"base\": { ... }, \"platform\": { ... }, \"legs\": [ ... ] }";
@@ -139,10 +125,12 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
         return None;
     };
     check_keys(report, entries, &TOP.names(), "a design");
-    let name = required(report, root, entries, "name").and_then(|e| text(report, e));
-    let units = required(report, root, entries, "units").and_then(|e| text(report, e));
-    let source = text_or_absent(report, entries, "source");
-    let description = text_or_absent(report, entries, "description");
+    let mut design = DesignModel::new("", "", placeholder()?);
+    TOP.fill(report, entries, "a design", &mut design, |_| true);
+    for key in ["name", "units"] {
+        required(report, root, entries, key);
+    }
+    let units = Some(design.units.clone()).filter(|units| !units.is_empty());
     let legs_entry = legs_entry(report, root, entries);
     let parameters = constructions::parameters(report, entries);
     let mut base = required(report, root, entries, "base").and_then(|e| joints::body(report, Body::Base, e));
@@ -150,6 +138,7 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
         required(report, root, entries, "platform").and_then(|e| joints::body(report, Body::Platform, e));
     let read_home = find(entries, "home").and_then(|e| home(report, &e.node));
     let (home, written_home) = read_home.unzip();
+    design.home = home;
     let (cranks, crank_places) = cranks::cranks(report, entries, base.as_ref(), takes_cranks).unzip();
     let crank_places = crank_places.unwrap_or_default();
     let constructions = match (&mut base, &mut platform) {
@@ -171,49 +160,28 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     if let (Some(constructions), Some(base), Some(legs)) = (&constructions, &base, &legs) {
         cranks::check_legs(report, constructions, &crank_places, (base, legs));
     }
-    let lengths = lengths(report, entries);
-    let workspace = workspace(report, entries);
-    let (optimize, search) = optimize(report, entries, [base.as_ref(), platform.as_ref()]);
-    let (hardware, drive_table) = hardware(report, entries);
-    joint_models::refuse_coupled(report, entries, &hardware, takes_cranks);
-    let speed = speed(report, entries);
-    let stiffness = stiffness(report, entries, &hardware, units.as_deref());
-    let (loads, keep_outs) = (loads(report, entries), keep_outs(report, entries));
-    let force_units = word_or_absent(report, entries, "force_units");
-    let mass_units = word_or_absent(report, entries, "mass_units");
-    let payload = payload(report, entries);
-    let (envelopes, reserves) = (envelopes(report, entries), reserves(report, entries));
-    let holes = holes(report, entries);
-    let plates = plates::plates(report, entries, &hardware, units.as_deref());
-    let calibration = calibration(report, entries, [base.as_ref(), platform.as_ref()]);
+    let bodies = [base.as_ref(), platform.as_ref()];
+    design.workspace = workspace(report, entries);
+    (design.optimize, design.search) = optimize(report, entries, bodies);
+    (design.hardware, design.drive_table) = hardware(report, entries);
+    joint_models::refuse_coupled(report, entries, &design.hardware, takes_cranks);
+    design.speed = speed(report, entries);
+    design.stiffness = stiffness(report, entries, &design.hardware, units.as_deref());
+    (design.loads, design.keep_outs) = (loads(report, entries), keep_outs(report, entries));
+    design.payload = payload(report, entries);
+    (design.envelopes, design.reserves) = (envelopes(report, entries), reserves(report, entries));
+    design.holes = holes(report, entries);
+    design.plates = plates::plates(report, entries, &design.hardware, units.as_deref());
+    design.calibration = calibration(report, entries, bodies);
     if !report.is_clean() {
         return None;
     }
     let (base, platform) = (base?, platform?);
-    let manipulator = manipulator(report, &root.span, &base, &platform, &legs?)?;
-    let mut design =
-        DesignModel::new(name?, units?, manipulator).with_joint_names(base.names(), platform.names()).ok()?;
-    design.home = home;
+    design.manipulator = manipulator(report, &root.span, &base, &platform, &legs?)?;
+    design = design.with_joint_names(base.names(), platform.names()).ok()?;
     design.set_constructions(constructions?);
     cranks::check_platform(report, &design, &crank_places);
-    design.source = source;
-    design.description = description;
-    design.lengths = lengths;
-    design.workspace = workspace;
-    design.optimize = optimize;
-    design.search = search;
-    design.hardware = hardware;
-    design.speed = speed;
-    design.stiffness = stiffness;
-    design.loads = loads;
-    design.keep_outs = keep_outs;
-    (design.payload, design.envelopes, design.reserves) = (payload, envelopes, reserves);
-    (design.force_units, design.mass_units) = (force_units, mass_units);
-    design.holes = holes;
-    design.plates = plates;
-    design.drive_table = drive_table;
     axes::turn_to_normals(report, entries, &mut design);
-    design.calibration = calibration;
     plates::check_masses(report, entries, &design);
     Some(design)
 }
@@ -231,15 +199,6 @@ fn required<'a>(
         report.refuse(Code::MissingKey, &start, format!("`{key}` is missing"), help);
     }
     found
-}
-
-fn text_or_absent(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<String> {
-    find(entries, key).and_then(|e| text(report, e))
-}
-
-fn word_or_absent<W: Word>(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<W> {
-    let (entry, kind) = (find(entries, key)?, word(W::words));
-    Found { report, entry, place: "", kind }.word()
 }
 
 /// `legs` belongs at the top level. Written below a table header TOML counts it to that table; there it
@@ -261,13 +220,13 @@ fn legs_entry<'a>(report: &mut Findings<'_>, root: &Node, entries: &'a [Entry]) 
     required(report, root, entries, "legs")
 }
 
-fn lengths(report: &mut Findings<'_>, entries: &[Entry]) -> Option<LegLengths> {
-    let node = &find(entries, "lengths")?.node;
+fn lengths(found: &mut Found<'_, '_>) -> Option<LegLengths> {
+    let (report, node) = (&mut *found.report, &found.entry.node);
     let l = numbers::<6>(report, node, "`lengths`", Code::LengthCount, "leg lengths, one for each leg");
     for (i, x) in elements(node).enumerate().filter(|(_, x)| *x < 0.0 && x.is_finite()) {
-        let span = element_span(node, i);
         let message = format!("the length of leg {} is {x}", i + 1);
-        report.refuse(Code::NegativeLength, &span, message, "leg lengths are not negative");
+        let help = "leg lengths are not negative";
+        report.refuse(Code::NegativeLength, &element_span(node, i), message, help);
     }
     LegLengths::try_new(l?).ok()
 }
@@ -376,59 +335,29 @@ impl DesignModel {
 
     /// All keys in the order in which they are written.
     pub(in crate::design) fn document(&self) -> Map<String, Json> {
-        let joints = |body: Body| {
-            let (points, names) = (self.manipulator().joints(body), self.joint_names(body));
-            let joint = |(j, p): (usize, &Point3<f64>)| match self.constructions.of(body, j) {
-                None => json!(p.coords.as_slice()),
-                Some(made) => constructions::written(made, names),
-            };
-            let joints = names.iter().cloned().zip(points.iter().enumerate().map(joint));
-            Some(Json::Object(joints.collect()))
-        };
-        let parameters = self.constructions.parameters.iter().map(|(name, x)| (name.clone(), x.json()));
-        let all = |list: Vec<Json>| Some(Json::Array(list)).filter(|list| *list != json!([]));
-        let workspace = Some(&self.workspace).filter(|w| **w != Workspace::default());
-        let optimize =
-            OptimizeKeys::of(&self.optimize, &self.search, [self.base_names(), self.platform_names()]);
-        let [force, mass] = [self.force_units.written(), self.mass_units.written()];
-        let written = [
-            ("name", self.name.written()),
-            ("units", self.units.written()),
-            ("force_units", force),
-            ("mass_units", mass),
-            ("source", self.source.written()),
-            ("description", self.description.written()),
-            ("drive", self.has_cranks().then(|| json!("rotary"))),
-            ("lengths", self.lengths.map(|l| json!(l.get()))),
-            ("legs", Some(json!(self.leg_names().map(|(a, b)| [a, b])))),
-            (
-                "parameters",
-                Some(parameters.collect::<Map<_, _>>()).filter(|p| !p.is_empty()).map(Json::Object),
-            ),
-            ("base", joints(Body::Base)),
-            ("platform", joints(Body::Platform)),
-            ("cranks", self.constructions.cranks.as_ref().map(|c| cranks::written(c, self.base_names()))),
-            ("home", self.home.and_then(|_| HOME.put(self))),
-            ("workspace", workspace.and_then(|w| WORKSPACE.put(w))),
-            ("optimize", OPTIMIZE.put(&optimize)),
-            ("hardware", HARDWARE.put(&HardwareKeys::of(&self.hardware, self.drive_table.as_ref()))),
-            ("limits", LIMITS.put(&self.reserves)),
-            ("envelope", ENVELOPES.put(&self.envelopes)),
-            ("holes", self.holes.as_ref().and_then(|holes| HOLES.put(holes))),
-            ("plates", PLATES.put(&self.plates)),
-            ("speed", self.speed.as_ref().and_then(|speed| SPEED.put(speed))),
-            ("stiffness", self.stiffness.as_ref().map(|wanted| json!(STIFFNESS.write(wanted)))),
-            ("payload", self.payload.as_ref().and_then(|payload| PAYLOAD.put(payload))),
-            ("loads", all(self.loads.iter().map(|load| json!(LOAD.write(load))).collect())),
-            (
-                "keep_out",
-                all(self.keep_outs.iter().map(|k| json!(KEEP_OUT.write(&KeepOutKeys::from(k)))).collect()),
-            ),
-            (
-                "calibration",
-                self.calibration.as_ref().and_then(|t| CALIBRATION.put(&CalibrationKeys::of(self, t))),
-            ),
-        ];
-        written.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect()
+        let rank = |key: &String| WRITTEN_LAST.iter().position(|last| last == key);
+        let mut keys: Vec<_> = TOP.write(self).into_iter().collect();
+        keys.sort_by_key(|(key, _)| rank(key));
+        keys.into_iter().collect()
     }
+}
+
+fn parameters(of: &DesignModel) -> Option<Json> {
+    let parameters = of.constructions.parameters.iter().map(|(name, x)| (name.clone(), x.json()));
+    Some(parameters.collect::<Map<_, _>>()).filter(|list| !list.is_empty()).map(Json::Object)
+}
+
+fn joints_of(of: &DesignModel, body: Body) -> Option<Json> {
+    let (points, names) = (of.manipulator().joints(body), of.joint_names(body));
+    let joint = |(j, p): (usize, &Point3<f64>)| match of.constructions.of(body, j) {
+        None => json!(p.coords.as_slice()),
+        Some(made) => constructions::written(made, names),
+    };
+    let joints = names.iter().cloned().zip(points.iter().enumerate().map(joint));
+    Some(Json::Object(joints.collect()))
+}
+
+/// A list of tables; nothing where it is empty.
+fn all<T>(list: &[T], write: impl Fn(&T) -> Map<String, Json>) -> Option<Json> {
+    (!list.is_empty()).then(|| list.iter().map(|item| Json::Object(write(item))).collect())
 }

@@ -24,10 +24,11 @@ static CENTER: Numbers = Numbers::coordinates(2, "coordinates x, y");
 static SHAPE: Table<EnvelopeKeys> = Table {
     definition: "envelope",
     keys: &[
-        key!("radius", positive(unit::LENGTH), "of a cylinder about a line along the z axis", radius),
-        key!("center", numbers(&CENTER, unit::LENGTH).placed(), "of the cylinder", center; default = "[0, 0]"),
-        key!("min", vector(unit::LENGTH), "the least coordinates of a box", min),
-        key!("max", vector(unit::LENGTH), "the greatest coordinates of a box", max),
+        key!("radius": positive(unit::LENGTH), radius; "of a cylinder about a line along the z axis"),
+        key!("center" { default = "[0, 0]" }: numbers(&CENTER, unit::LENGTH).placed(), center;
+            "of the cylinder"),
+        key!("min": vector(unit::LENGTH), min; "the least coordinates of a box"),
+        key!("max": vector(unit::LENGTH), max; "the greatest coordinates of a box"),
     ],
     rules: r#"{"oneOf": [{"required": ["radius"]}, {"required": ["min", "max"]}]}"#,
     ..Table::EMPTY
@@ -37,9 +38,9 @@ const ENVELOPE: Kind = table(&SHAPE);
 
 pub(super) static ENVELOPES: Table<Envelopes> = Table {
     keys: &[
-        key!("base", ENVELOPE, "of the base joints with their housings, base frame", base),
-        key!("platform", ENVELOPE, "of the platform joints with their housings, platform frame", platform),
-        key!("machine", ENVELOPE, "of all joints with their housings at every pose, base frame", machine),
+        key!("base": ENVELOPE, base; "of the base joints with their housings, base frame"),
+        key!("platform": ENVELOPE, platform; "of the platform joints with their housings, platform frame"),
+        key!("machine": ENVELOPE, machine; "of all joints with their housings at every pose, base frame"),
     ],
     ..Table::EMPTY
 };

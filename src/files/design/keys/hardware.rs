@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 
 use super::found::numbers;
 use super::joint_models::{self, JOINT_MODELS, JointModel};
-use super::kind::{EDGES, Form, Kind, Range, angle, any, not_negative, own, positive, unit};
+use super::kind::{EDGES, Form, Kind, Range, angle, any, list_of, not_negative, own, positive, unit};
 use super::stored::{Item, Stored};
 use super::{Code, Found, TEXT, Table, key};
 use crate::design::tree::{Entry, Node, Value, find};
@@ -46,30 +46,16 @@ const AXES: Kind = own(r##"{"$ref": "#/$defs/axes"}"##, unit::NONE);
 
 pub(super) static HARDWARE: Table<HardwareKeys> = Table {
     keys: &[
-        key!(
-            "joint_diameter",
-            positive(unit::LENGTH),
-            "diameter of the sphere a joint takes up, both bodies",
-            hardware.joint_diameter
-        ),
-        key!(
-            "base_housing",
-            HOUSING,
-            "the same for the base: a diameter, or edge lengths of a box along the axes of the body",
-            hardware.base_housing
-        ),
-        key!("platform_housing", HOUSING, "the same for the platform", hardware.platform_housing),
-        key!(
-            "leg_diameter",
-            positive(unit::LENGTH),
-            "diameter of the leg; with `cylinder_length` and `rod_diameter` that of a cylinder from the base joint, which a rod follows",
+        key!("joint_diameter": positive(unit::LENGTH), hardware.joint_diameter;
+            "diameter of the sphere a joint takes up, both bodies"),
+        key!("base_housing": HOUSING, hardware.base_housing;
+            "the same for the base: a diameter, or edge lengths of a box along the axes of the body"),
+        key!("platform_housing": HOUSING, hardware.platform_housing; "the same for the platform"),
+        key!("leg_diameter": positive(unit::LENGTH),
             |found, to| to.hardware.leg_body = found.number().map(|diameter| LegBody { diameter, rod: None }),
-            |of| of.hardware.leg_body?.diameter.written()
-        ),
-        key!(
-            "rod_diameter",
-            positive(unit::LENGTH),
-            "diameter of the rod",
+            |of| of.hardware.leg_body?.diameter.written();
+            "diameter of the leg; with `cylinder_length` and `rod_diameter` that of a cylinder from the base joint, which a rod follows"),
+        key!("rod_diameter" { needs = &["cylinder_length", "leg_diameter"] }: positive(unit::LENGTH),
             |found, to| {
                 let diameter = found.number();
                 if let Some(body) = &mut to.hardware.leg_body {
@@ -77,12 +63,8 @@ pub(super) static HARDWARE: Table<HardwareKeys> = Table {
                 }
             },
             |of| of.hardware.leg_body?.rod?.1.written();
-            needs = &["cylinder_length", "leg_diameter"]
-        ),
-        key!(
-            "cylinder_length",
-            positive(unit::LENGTH),
-            "length of the cylinder",
+            "diameter of the rod"),
+        key!("cylinder_length" { needs = &["rod_diameter"] }: positive(unit::LENGTH),
             |found, to| {
                 let length = found.number().unwrap_or_default();
                 if let Some(rod) = to.hardware.leg_body.as_mut().and_then(|body| body.rod.as_mut()) {
@@ -90,124 +72,58 @@ pub(super) static HARDWARE: Table<HardwareKeys> = Table {
                 }
             },
             |of| of.hardware.leg_body?.rod?.0.written();
-            needs = &["rod_diameter"]
-        ),
-        key!(
-            "leg_clearance",
-            not_negative(unit::LENGTH),
-            "gap that has to remain between legs, and between legs and keep-outs",
-            hardware.leg_clearance;
-            default = "0", needs = &["leg_diameter"]
-        ),
-        key!(
-            "leg_length",
-            own(
-                r##"{"type": "array", "minItems": 2, "maxItems": 2, "items": {"$ref": "#/$defs/not_negative"}}"##,
-                unit::LENGTH
-            ),
-            "`[least, greatest]` length of a leg",
-            |found, to| to.leg_length = leg_length(found),
-            |of| of.leg_length.written()
-        ),
-        key!(
-            "dead_length",
-            not_negative(unit::LENGTH),
-            "with `stroke` instead of `leg_length`: lengths from `dead_length` + `stroke` to `dead_length` + 2 `stroke`",
-            dead_length;
-            needs = &["stroke"]
-        ),
-        key!("stroke", positive(unit::LENGTH), "travel of a leg, with `dead_length`", stroke; needs = &["dead_length"]),
-        key!(
-            "base_swing_deg",
-            angle(Range::HalfTurn),
-            "greatest angle between a leg and the axis of its base joint",
-            base_swing_deg
-        ),
-        key!(
-            "platform_swing_deg",
-            angle(Range::HalfTurn),
-            "greatest angle between a leg and the axis of its platform joint",
-            platform_swing_deg
-        ),
-        key!(
-            "base_axes",
-            AXES,
-            "along the legs at home, along the normal of the plane of the joints, chosen by the optimiser, or vectors in the frame of the base that point from base to platform: one for all joints, or six in leg order, each a vector or `normal`",
-            |found, to| to.base_axes = joint_axes(found),
-            |of| axes_json(of.base_axes?);
-            default = r#""home""#
-        ),
-        key!(
-            "platform_axes",
-            AXES,
-            "the same for the platform, in its frame",
-            |found, to| to.platform_axes = joint_axes(found),
-            |of| axes_json(of.platform_axes?);
-            default = r#""home""#
-        ),
-        key!(
-            "base_joint",
-            JOINT_MODELS,
-            "what kinds of joints the base has: one table for all, or six in leg order; ball joints when absent",
+            "length of the cylinder"),
+        key!("leg_clearance" { default = "0", needs = &["leg_diameter"] }: not_negative(unit::LENGTH), hardware.leg_clearance;
+            "gap that has to remain between legs, and between legs and keep-outs"),
+        key!("leg_length": list_of(2, &not_negative(unit::LENGTH)),
+            |found, to| to.leg_length = leg_length(found), |of| of.leg_length.written();
+            "`[least, greatest]` length of a leg"),
+        key!("dead_length" { needs = &["stroke"] }: not_negative(unit::LENGTH), dead_length;
+            "with `stroke` instead of `leg_length`: lengths from `dead_length` + `stroke` to `dead_length` + 2 `stroke`"),
+        key!("stroke" { needs = &["dead_length"] }: positive(unit::LENGTH), stroke;
+            "travel of a leg, with `dead_length`"),
+        key!("base_swing_deg": angle(Range::HalfTurn), base_swing_deg;
+            "greatest angle between a leg and the axis of its base joint"),
+        key!("platform_swing_deg": angle(Range::HalfTurn), platform_swing_deg;
+            "greatest angle between a leg and the axis of its platform joint"),
+        key!("base_axes" { default = r#""home""# }: AXES,
+            |found, to| to.base_axes = joint_axes(found), |of| axes_json(of.base_axes?);
+            "along the legs at home, along the normal of the plane of the joints, chosen by the optimiser, or vectors in the frame of the base that point from base to platform: one for all joints, or six in leg order, each a vector or `normal`"),
+        key!("platform_axes" { default = r#""home""# }: AXES,
+            |found, to| to.platform_axes = joint_axes(found), |of| axes_json(of.platform_axes?);
+            "the same for the platform, in its frame"),
+        key!("base_joint": JOINT_MODELS,
             |found, to| to.base_joint = joint_models::models(found).unwrap_or_default(),
-            |of| joint_models::written(&of.hardware, Body::Base)
-        ),
-        key!(
-            "platform_joint",
-            JOINT_MODELS,
-            "the same for the platform",
+            |of| joint_models::written(&of.hardware, Body::Base);
+            "what kinds of joints the base has: one table for all, or six in leg order; ball joints when absent"),
+        key!("platform_joint": JOINT_MODELS,
             |found, to| to.platform_joint = joint_models::models(found).unwrap_or_default(),
-            |of| joint_models::written(&of.hardware, Body::Platform)
-        ),
-        key!(
-            "screw_lead",
-            any(unit::LENGTH),
-            "what a leg becomes longer by when its platform end makes a turn about it against the base end, by the right hand about the direction from base to platform; needs universal joints at both ends",
-            hardware.screw_lead;
-            default = "0"
-        ),
-        key!(
-            "max_leg_force",
-            positive(unit::FORCE),
-            "greatest push or pull of a leg under each of the loads, force units",
-            hardware.max_leg_force
-        ),
-        key!(
-            "max_leg_speed",
-            positive(unit::SPEED),
-            "greatest speed of a leg under `[speed]`, design units per second",
-            hardware.max_leg_speed
-        ),
-        key!(
-            "leg_stiffness",
-            positive(unit::STIFFNESS),
-            "stiffness of a leg along its line, force units per design unit",
-            hardware.leg_stiffness
-        ),
-        key!("cylinder_mass", positive(unit::MASS), "mass of what turns about the base joint, mass units", cylinder.mass; needs = &["cylinder_center"]),
-        key!("cylinder_center", not_negative(unit::LENGTH), "distance of its centre of mass from the base joint", cylinder.center; needs = &["cylinder_mass"]),
-        key!(
-            "cylinder_inertia",
-            not_negative(unit::INERTIA),
-            "its moment of inertia about an axis across the leg through that centre, mass units times the square of the length unit; without it that of a thin rod from the joint with this middle, `m c^2 / 3`",
-            cylinder.inertia;
-            needs = &["cylinder_mass"]
-        ),
-        key!("rod_mass", positive(unit::MASS), "mass of what slides in it, mass units", rod.mass; needs = &["rod_center"]),
-        key!("rod_center", not_negative(unit::LENGTH), "distance of its centre of mass from the platform joint", rod.center; needs = &["rod_mass"]),
-        key!("rod_inertia", not_negative(unit::INERTIA), "the same for the rod as `cylinder_inertia`", rod.inertia; needs = &["rod_mass"]),
-        key!(
-            "reflected_mass",
-            positive(unit::MASS),
-            "what turns in the drive, as a mass that moves along the leg",
-            reflected_mass
-        ),
-        key!(
-            "drives",
-            TEXT,
-            "table of drives (CSV), a path relative to the folder of the design, from which one is chosen: `optimize` and `explore` do so as with `--drives`, `assess` and `compare` name the lightest that suffices",
-            drives
-        ),
+            |of| joint_models::written(&of.hardware, Body::Platform);
+            "the same for the platform"),
+        key!("screw_lead" { default = "0" }: any(unit::LENGTH), hardware.screw_lead;
+            "what a leg becomes longer by when its platform end makes a turn about it against the base end, by the right hand about the direction from base to platform; needs universal joints at both ends"),
+        key!("max_leg_force": positive(unit::FORCE), hardware.max_leg_force;
+            "greatest push or pull of a leg under each of the loads, force units"),
+        key!("max_leg_speed": positive(unit::SPEED), hardware.max_leg_speed;
+            "greatest speed of a leg under `[speed]`, design units per second"),
+        key!("leg_stiffness": positive(unit::STIFFNESS), hardware.leg_stiffness;
+            "stiffness of a leg along its line, force units per design unit"),
+        key!("cylinder_mass" { needs = &["cylinder_center"] }: positive(unit::MASS), cylinder.mass;
+            "mass of what turns about the base joint, mass units"),
+        key!("cylinder_center" { needs = &["cylinder_mass"] }: not_negative(unit::LENGTH), cylinder.center;
+            "distance of its centre of mass from the base joint"),
+        key!("cylinder_inertia" { needs = &["cylinder_mass"] }: not_negative(unit::INERTIA), cylinder.inertia;
+            "its moment of inertia about an axis across the leg through that centre, mass units times the square of the length unit; without it that of a thin rod from the joint with this middle, `m c^2 / 3`"),
+        key!("rod_mass" { needs = &["rod_center"] }: positive(unit::MASS), rod.mass;
+            "mass of what slides in it, mass units"),
+        key!("rod_center" { needs = &["rod_mass"] }: not_negative(unit::LENGTH), rod.center;
+            "distance of its centre of mass from the platform joint"),
+        key!("rod_inertia" { needs = &["rod_mass"] }: not_negative(unit::INERTIA), rod.inertia;
+            "the same for the rod as `cylinder_inertia`"),
+        key!("reflected_mass": positive(unit::MASS), reflected_mass;
+            "what turns in the drive, as a mass that moves along the leg"),
+        key!("drives": TEXT, drives;
+            "table of drives (CSV), a path relative to the folder of the design, from which one is chosen: `optimize` and `explore` do so as with `--drives`, `assess` and `compare` name the lightest that suffices"),
     ],
     rules: r#"{
         "dependentSchemas": {

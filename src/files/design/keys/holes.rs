@@ -23,6 +23,14 @@ const LENGTHS: Kind = own(
     unit::LENGTH,
 );
 
+const COUNTS: Kind = own(
+    r#"{"oneOf": [
+        {"type": "integer", "minimum": 1, "maximum": 1000000},
+        {"type": "array", "minItems": 1, "maxItems": 16, "items": {"type": "integer", "minimum": 1, "maximum": 1000000}}
+    ]}"#,
+    unit::NONE,
+);
+
 /// A grid, as it is written.
 #[derive(Default)]
 struct GridKeys {
@@ -38,56 +46,28 @@ struct GridKeys {
 static GRID: Table<GridKeys> = Table {
     definition: "hole_grid",
     keys: &[
-        key!(
-            "pattern",
-            word(HolePattern::words),
-            "",
-            |found, to| to.pattern = pattern(found),
-            |of| of.pattern.unwrap_or_default().written();
-            default = r#""square""#
-        ),
-        key!(
-            "pitch",
-            positive(unit::LENGTH),
-            "distance of neighbouring holes, or of the rings of a polar grid",
-            pitch
-        ),
-        key!(
-            "first_radius",
-            positive(unit::LENGTH),
-            "radius of the innermost ring of a polar grid",
-            first_radius
-        ),
-        key!(
-            "radii",
-            LENGTHS,
-            "radii of bolt circles",
-            |found, to| to.radii = radii(found.report, found.entry),
-            |of| list(of.radii.as_ref()?)
-        ),
-        key!(
-            "step_deg",
-            Kind { unit: unit::DEGREES, ..LENGTHS },
-            "angle between neighbouring holes of a ring or of each bolt circle; a whole number of them makes 360"
-        ),
-        key!(
-            "count",
-            own(
-                r#"{"oneOf": [
-                    {"type": "integer", "minimum": 1, "maximum": 1000000},
-                    {"type": "array", "minItems": 1, "maxItems": 16, "items": {"type": "integer", "minimum": 1, "maximum": 1000000}}
-                ]}"#,
-                unit::NONE
-            ),
-            "number of holes of a ring or of each bolt circle, instead of step_deg",
+        key!("pattern" { default = r#""square""# }: word(HolePattern::words),
+            |found, to| to.pattern = pattern(found), |of| of.pattern.unwrap_or_default().written();
+            ""),
+        key!("pitch": positive(unit::LENGTH), pitch;
+            "distance of neighbouring holes, or of the rings of a polar grid"),
+        key!("first_radius": positive(unit::LENGTH), first_radius;
+            "radius of the innermost ring of a polar grid"),
+        key!("radii": LENGTHS,
+            |found, to| to.radii = radii(found.report, found.entry), |of| list(of.radii.as_ref()?);
+            "radii of bolt circles"),
+        key!("step_deg": Kind { unit: unit::DEGREES, ..LENGTHS };
+            "angle between neighbouring holes of a ring or of each bolt circle; a whole number of them makes 360"),
+        key!("count": COUNTS,
             |_, _| (),
             |of| match of.pattern? {
                 HolePattern::Polar => Some(json!(of.counts.first()?)),
                 _ => list(&of.counts),
-            }
-        ),
-        key!("origin", numbers(&ORIGIN, unit::LENGTH).placed(), "a hole, or the centre of the circles", origin; default = "[0, 0]"),
-        key!("angle_deg", any(unit::DEGREES).placed(), "turn of the grid", angle_deg; default = "0"),
+            };
+            "number of holes of a ring or of each bolt circle, instead of step_deg"),
+        key!("origin" { default = "[0, 0]" }: numbers(&ORIGIN, unit::LENGTH).placed(), origin;
+            "a hole, or the centre of the circles"),
+        key!("angle_deg" { default = "0" }: any(unit::DEGREES).placed(), angle_deg; "turn of the grid"),
     ],
     ..Table::EMPTY
 };
@@ -95,15 +75,14 @@ static GRID: Table<GridKeys> = Table {
 /// The keys of `[holes]` beside those of a grid for both plates.
 pub(super) static HOLES: Table<[Option<Grid>; 2]> = Table {
     keys: &[
-        key!(
-            "base",
-            table_of(&GRID),
-            "of the base alone: keys instead of the common ones, or with pattern instead of all of them",
+        key!("base": table_of(&GRID),
+            |_, _| (), |of| GRID.put(&GridKeys::from(of[0].as_ref()?));
+            "of the base alone: keys instead of the common ones, or with pattern instead of all of them"),
+        key!("platform": table_of(&GRID),
             |_, _| (),
-            |of| GRID.put(&GridKeys::from(of[0].as_ref()?))
-        ),
-        key!("platform", table_of(&GRID), "of the platform alone, likewise", |_, _| (), |of| GRID
-            .put(&GridKeys::from(of[1].as_ref()?))),
+            |of| GRID
+            .put(&GridKeys::from(of[1].as_ref()?));
+            "of the platform alone, likewise"),
     ],
     rules: r#"{"minProperties": 1}"#,
     ..Table::EMPTY

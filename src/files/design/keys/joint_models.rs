@@ -7,7 +7,8 @@ use super::axes::named;
 use super::found::{check_keys, element_span, numbers, table};
 use super::hardware::{HOUSING, axis};
 use super::kind::{
-    Kind, Range, Shape, angle, either, list_of, not_negative, own, positive, table as table_of, unit, word,
+    Kind, Range, Shape, angle, either, list_of, not_negative, own, positive, table as table_of, unit, vector,
+    word,
 };
 use super::stored::{Item, Stored, Word};
 use super::{Code, Found, Table, key};
@@ -48,71 +49,41 @@ static JOINT_KINDS: [Kind; 2] = [ONE_JOINT, list_of(6, &ONE_JOINT_KIND)];
 static ONE_JOINT_KIND: Kind = ONE_JOINT;
 const ONE_JOINT: Kind = table_of(&JOINT);
 
+const TWO_ANGLES: Kind = own(
+    r#"{
+        "type": "array",
+        "minItems": 2,
+        "maxItems": 2,
+        "prefixItems": [
+            {"type": "number", "exclusiveMinimum": 0, "maximum": 180},
+            {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 90}
+        ],
+        "items": false
+    }"#,
+    unit::DEGREES,
+);
+
 static JOINT: Table<JointKeys> = Table {
     definition: "joint_model",
     keys: &[
-        key!(
-            "model",
-            word(JointType::words),
-            "`ball`: turns freely in a cone; `universal`: two axes, the first fixed in the body, the second at a right angle to it and to the leg; `flexure`: bends about its centre, within the cone of the swing",
-            model;
-            required = "add model = \"universal\", \"flexure\" or \"ball\""
-        ),
-        key!(
-            "first_axis",
-            own(
-                r##"{"oneOf": [{"$ref": "#/$defs/vector"}, {"type": "array", "minItems": 6, "maxItems": 6, "items": {"$ref": "#/$defs/vector"}}]}"##,
-                unit::NONE
-            ),
-            "universal: direction of the first axis in the frame of the body, one for all joints or six in leg order, in a list of tables one; required",
+        key!("model" { required = "add model = \"universal\", \"flexure\" or \"ball\"" }: word(JointType::words), model;
+            "`ball`: turns freely in a cone; `universal`: two axes, the first fixed in the body, the second at a right angle to it and to the leg; `flexure`: bends about its centre, within the cone of the swing"),
+        key!("first_axis": either(&[vector(unit::NONE), list_of(6, &vector(unit::NONE))]),
             |found, to| to.first_axes = first_axes(found, to.is_of_all),
-            |of| Some(first_axes_json(&of.first_axes?))
-        ),
-        key!(
-            "angle_deg",
-            own(
-                r#"{
-                    "type": "array",
-                    "minItems": 2,
-                    "maxItems": 2,
-                    "prefixItems": [
-                        {"type": "number", "exclusiveMinimum": 0, "maximum": 180},
-                        {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 90}
-                    ],
-                    "items": false
-                }"#,
-                unit::DEGREES
-            ),
-            "universal: greatest angles about the first and about the second axis, either way, degrees; none when absent",
-            |found, to| to.limits_deg = limits(found.report, found.entry),
-            |of| of.limits_deg.written()
-        ),
-        key!(
-            "offset",
-            not_negative(unit::LENGTH),
-            "universal: distance of the two axes, which meet when it is 0",
-            |found, to| found.fill(&mut to.offset),
-            |of| Some(of.offset).filter(|x| *x != 0.0).written();
-            default = "0"
-        ),
-        key!(
-            "housing",
-            HOUSING,
-            "the room that the joint takes up, in place of that of the body: a diameter, or edge lengths of a box along the axes of the body",
-            housing
-        ),
-        key!(
-            "swing_deg",
-            angle(Range::HalfTurn),
-            "greatest angle between the leg and the axis of the joint, in place of that of the body (`base_swing_deg`, `platform_swing_deg`)",
-            swing_deg
-        ),
-        key!(
-            "bending_stiffness",
-            positive(unit::TORQUE),
-            "flexure: torque over angle, force units times design units per radian; required",
-            bending
-        ),
+            |of| Some(first_axes_json(&of.first_axes?));
+            "universal: direction of the first axis in the frame of the body, one for all joints or six in leg order, in a list of tables one; required"),
+        key!("angle_deg": TWO_ANGLES,
+            |found, to| to.limits_deg = limits(found.report, found.entry), |of| of.limits_deg.written();
+            "universal: greatest angles about the first and about the second axis, either way, degrees; none when absent"),
+        key!("offset" { default = "0" }: not_negative(unit::LENGTH),
+            |found, to| found.fill(&mut to.offset), |of| Some(of.offset).filter(|x| *x != 0.0).written();
+            "universal: distance of the two axes, which meet when it is 0"),
+        key!("housing": HOUSING, housing;
+            "the room that the joint takes up, in place of that of the body: a diameter, or edge lengths of a box along the axes of the body"),
+        key!("swing_deg": angle(Range::HalfTurn), swing_deg;
+            "greatest angle between the leg and the axis of the joint, in place of that of the body (`base_swing_deg`, `platform_swing_deg`)"),
+        key!("bending_stiffness": positive(unit::TORQUE), bending;
+            "flexure: torque over angle, force units times design units per radian; required"),
     ],
     ..Table::EMPTY
 };
@@ -215,7 +186,8 @@ pub(super) fn models(found: &mut Found<'_, '_>) -> Option<JointModel> {
     })
 }
 
-/// Axes that do not meet are those of all six joints of a body: the lengths of its drives are computed for all legs in one way.
+/// Axes that do not meet are those of all six joints of a body: the lengths of its drives are computed for all legs
+/// in one way.
 fn one_offset(report: &mut Findings<'_>, list: &[Node], all: &[JointKeys; 6]) {
     let Some(offset) = all.iter().map(|joint| joint.offset).find(|x| *x != 0.0) else { return };
     if let Some(i) = all.iter().position(|joint| joint.offset.to_bits() != offset.to_bits()) {
@@ -340,7 +312,8 @@ pub(super) fn check_screw_lead(report: &mut Findings<'_>, entries: &[Entry], joi
     }
 }
 
-/// Refuses joints that are not ideal where what is asked for takes the length of a drive for the distance of its joints.
+/// Refuses joints that are not ideal where what is asked for takes the length of a drive for the distance of its
+/// joints.
 pub(super) fn refuse_coupled(report: &mut Findings<'_>, top: &[Entry], hardware: &Hardware, takes: bool) {
     if takes || !hardware.is_coupled() {
         return;

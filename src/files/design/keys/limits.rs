@@ -46,13 +46,9 @@ impl Shape for ByKind {
 }
 
 pub(super) static LIMITS: Table<Reserves> = Table {
-    keys: &[key!(
-        "reserve",
-        either(&[PERCENT, table_of(&BY_KIND)]),
-        "one percentage for all limits, or amounts and percentages by the names of the rows of assess",
-        reserve,
-        written
-    )],
+    keys: &[key!("reserve": either(&[PERCENT, table_of(&BY_KIND)]),
+        reserve, written;
+        "one percentage for all limits, or amounts and percentages by the names of the rows of assess")],
     ..Table::EMPTY
 };
 

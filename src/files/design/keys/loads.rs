@@ -1,4 +1,5 @@
-//! `[speed]`, `[stiffness]`, `[[loads]]` and `[[keep_out]]`: how fast and stiff the platform has to be, what it has to hold, and what is in the way of its legs.
+//! `[speed]`, `[stiffness]`, `[[loads]]` and `[[keep_out]]`: how fast and stiff the platform has to be, what it has
+//! to hold, and what is in the way of its legs.
 
 use nalgebra::{Point3, Vector3};
 
@@ -15,8 +16,8 @@ use platform::manipulator::Body;
 
 pub(super) static SPEED: Table<PlatformSpeed> = Table {
     keys: &[
-        key!("linear", not_negative(unit::SPEED), "of the platform origin, design units per second", linear),
-        key!("angular_deg", not_negative(unit::DEGREES), "degrees per second", angular_deg),
+        key!("linear": not_negative(unit::SPEED), linear; "of the platform origin, design units per second"),
+        key!("angular_deg": not_negative(unit::DEGREES), angular_deg; "degrees per second"),
     ],
     ..Table::EMPTY
 };
@@ -30,29 +31,18 @@ pub(super) fn speed(report: &mut Findings<'_>, top: &[Entry]) -> Option<Platform
 
 pub(super) static STIFFNESS: Table<PlatformStiffness> = Table {
     keys: &[
-        key!(
-            "linear",
-            positive(unit::STIFFNESS),
-            "least stiffness against a force through the platform origin in the softest direction, the platform free to turn, force units per design unit",
-            linear
-        ),
-        key!(
-            "angular",
-            positive(unit::TORQUE),
-            "least stiffness against a torque about the softest axis, the platform origin free to move, force units times design units per radian",
-            angular
-        ),
-        key!(
-            "natural_frequency",
-            positive(unit::NONE),
-            "least natural frequency of `[payload]` and legs, hertz; `units` is then a unit of length that is known",
-            natural_frequency
-        ),
+        key!("linear": positive(unit::STIFFNESS), linear;
+            "least stiffness against a force through the platform origin in the softest direction, the platform free to turn, force units per design unit"),
+        key!("angular": positive(unit::TORQUE), angular;
+            "least stiffness against a torque about the softest axis, the platform origin free to move, force units times design units per radian"),
+        key!("natural_frequency": positive(unit::NONE), natural_frequency;
+            "least natural frequency of `[payload]` and legs, hertz; `units` is then a unit of length that is known"),
     ],
     ..Table::EMPTY
 };
 
-/// `[stiffness]`, which is about legs whose stiffness is known, and about known masses in known units where it asks for a natural frequency.
+/// `[stiffness]`, which is about legs whose stiffness is known, and about known masses in known units where it asks
+/// for a natural frequency.
 pub(super) fn stiffness(
     report: &mut Findings<'_>,
     top: &[Entry],
@@ -87,17 +77,14 @@ const FIXED_TO: Kind = word(Body::words);
 
 pub(super) static LOAD: Table<Load> = Table {
     keys: &[
-        key!("name", TEXT, "for answers", name),
-        key!("force", vector(unit::FORCE), "force units", force; default = "[0, 0, 0]"),
-        key!("torque", vector(unit::TORQUE), "force units times design units", torque; default = "[0, 0, 0]"),
-        key!("at", vector(unit::LENGTH), "where the force acts, platform frame", at; default = "[0, 0, 0]"),
-        key!(
-            "fixed_to",
-            FIXED_TO,
-            "whose directions force and torque have; a weight has those of the base",
-            fixed_to;
-            default = r#""base""#
-        ),
+        key!("name": TEXT, name; "for answers"),
+        key!("force" { default = "[0, 0, 0]" }: vector(unit::FORCE), force; "force units"),
+        key!("torque" { default = "[0, 0, 0]" }: vector(unit::TORQUE), torque;
+            "force units times design units"),
+        key!("at" { default = "[0, 0, 0]" }: vector(unit::LENGTH), at;
+            "where the force acts, platform frame"),
+        key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
+            "whose directions force and torque have; a weight has those of the base"),
     ],
     ..Table::EMPTY
 };
@@ -147,32 +134,22 @@ pub(super) struct KeepOutKeys {
 
 pub(super) static KEEP_OUT: Table<KeepOutKeys> = Table {
     keys: &[
-        key!("name", TEXT, "for answers", name),
-        key!(
-            "fixed_to",
-            FIXED_TO,
-            "in whose frame it is and with which body it moves",
-            fixed_to;
-            default = r#""base""#
-        ),
-        key!(
-            "box",
-            table_of(&BOX),
-            "edges along the axes of the frame",
+        key!("name": TEXT, name; "for answers"),
+        key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
+            "in whose frame it is and with which body it moves"),
+        key!("box": table_of(&BOX),
+            |found, to| to.shape = shape(found), |of| written(of.shape.as_ref(), "box");
+            "edges along the axes of the frame"),
+        key!("sphere": table_of(&SPHERE),
             |found, to| to.shape = shape(found),
-            |of| written(of.shape.as_ref(), "box")
-        ),
-        key!("sphere", table_of(&SPHERE), "a ball", |found, to| to.shape = shape(found), |of| written(
+            |of| written(
             of.shape.as_ref(),
             "sphere"
-        )),
-        key!(
-            "capsule",
-            table_of(&CAPSULE),
-            "all points within half the diameter of a line",
-            |found, to| to.shape = shape(found),
-            |of| written(of.shape.as_ref(), "capsule")
-        ),
+        );
+            "a ball"),
+        key!("capsule": table_of(&CAPSULE),
+            |found, to| to.shape = shape(found), |of| written(of.shape.as_ref(), "capsule");
+            "all points within half the diameter of a line"),
     ],
     rules: r#"{"oneOf": [{"required": ["box"]}, {"required": ["sphere"]}, {"required": ["capsule"]}]}"#,
     ..Table::EMPTY

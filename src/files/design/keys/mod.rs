@@ -1,5 +1,6 @@
-//! The keys of design files. One entry of a table is one key: its name, its kind (type, range and unit), its sentence of the documentation, and how it gets into the
-//! design and out of it. Reading, checks, suggestions, saving, changes of units, the schema and the documentation follow from the entry.
+//! The keys of design files. One entry of a table is one key: its name, its kind (type, range and unit), its sentence
+//! of the documentation, and how it gets into the design and out of it. Reading, checks, suggestions, saving, changes
+//! of units, the schema and the documentation follow from the entry.
 
 mod axes;
 mod calibration;
@@ -68,17 +69,26 @@ impl<M> Key<M> {
     }
 }
 
-/// A key, as `key!(name, kind, sentence, field)`, or with functions `read, write` in place of the field, or with neither where functions of the table read and write it.
-/// `default = JSON`, `required = help` and `needs = [keys]` follow after a semicolon.
+/// A key: `key!(name { default = JSON, required = help, needs = keys }: kind, field; sentence)`, where all in braces
+/// may be absent. Functions `read, write` stand in place of the field where the value is no field; neither stands
+/// where functions of the table read and write it.
 macro_rules! key {
-    ($name:expr, $kind:expr, $says:expr $(; $($option:ident = $value:expr),+)?) => {
-        key!($name, $kind, $says, |_, _| (), |_| None $(; $($option = $value),+)?)
+    ($name:literal $({ $($option:ident = $value:expr),+ })?: $kind:expr; $says:expr) => {
+        key!($name $({ $($option = $value),+ })?: $kind, |_, _| (), |_| None; $says)
     };
-    ($name:expr, $kind:expr, $says:expr, $($field:ident).+ $(; $($option:ident = $value:expr),+)?) => {
-        key!($name, $kind, $says, |found, to| found.fill(&mut to.$($field).+), |of| $crate::design::keys::stored::Stored::written(&of.$($field).+) $(; $($option = $value),+)?)
+    ($name:literal $({ $($option:ident = $value:expr),+ })?: $kind:expr, $($field:ident).+; $says:expr) => {
+        key!(
+            $name $({ $($option = $value),+ })?: $kind,
+            |found, to| found.fill(&mut to.$($field).+),
+            |of| $crate::design::keys::stored::Stored::written(&of.$($field).+);
+            $says
+        )
     };
-    ($name:expr, $kind:expr, $says:expr, $read:expr, $write:expr $(; $($option:ident = $value:expr),+)?) => {
-        $crate::design::keys::Key { $($($option: $value,)+)? ..$crate::design::keys::Key::new($name, $kind, $says, $read, $write) }
+    ($name:literal $({ $($option:ident = $value:expr),+ })?: $kind:expr, $read:expr, $write:expr; $says:expr) => {
+        $crate::design::keys::Key {
+            $($($option: $value,)+)?
+            ..$crate::design::keys::Key::new($name, $kind, $says, $read, $write)
+        }
     };
 }
 use key;

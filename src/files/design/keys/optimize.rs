@@ -5,11 +5,11 @@ use serde_json::{Value as Json, json};
 use super::found::{nearest_help, number, numbers, shown};
 use super::joints::NamedJoints;
 use super::kind::{Kind, either, list as list_of, own, positive, table, unit, whole, word};
-use super::stored::{Stored, Word};
+use super::stored::{Item, Stored, Word};
 use super::{Code, Found, TEXT, Table, key};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
-use crate::design::{Combination, OptimizeTable, SearchTable};
+use crate::design::{Combination, DesignModel, OptimizeTable, SearchTable};
 use machine::requirements::{KeptSymmetry, Objective, VariableKind};
 use platform::manipulator::Body;
 
@@ -33,16 +33,16 @@ pub(super) struct OptimizeKeys {
 
 /// How several objectives are weighed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Mode {
+pub(super) enum Mode {
     Weighted,
     Lexicographic,
     Pareto,
 }
 
 impl Mode {
-    const ALL: [Self; 3] = [Self::Weighted, Self::Lexicographic, Self::Pareto];
+    pub(super) const ALL: [Self; 3] = [Self::Weighted, Self::Lexicographic, Self::Pareto];
 
-    fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Self::Weighted => "weighted",
             Self::Lexicographic => "lexicographic",
@@ -56,116 +56,49 @@ const OBJECTIVE: Kind = own(r##"{"$ref": "#/$defs/objective"}"##, unit::NONE);
 
 pub(super) static OPTIMIZE: Table<OptimizeKeys> = Table {
     keys: &[
-        key!(
-            "min_joint_distance",
-            positive(unit::LENGTH),
-            "least distance of joint centres of a body, design units; left to the optimiser where it is absent",
-            limits.min_joint_distance
-        ),
-        key!(
-            "min_abs_det",
-            positive(unit::NONE),
-            "least `|det A|`; left to the optimiser where it is absent",
-            limits.min_abs_det
-        ),
-        key!(
-            "characteristic_length",
-            positive(unit::LENGTH),
-            "by which moments are divided in the Jacobian, design units; else the RMS distance of the platform joints from their centroid",
-            limits.characteristic_length
-        ),
-        key!(
-            "variables",
-            list_of(&word(VariableKind::words)),
-            "what is chosen; `components` without offsets and triangles",
+        key!("min_joint_distance": positive(unit::LENGTH), limits.min_joint_distance;
+            "least distance of joint centres of a body, design units; left to the optimiser where it is absent"),
+        key!("min_abs_det": positive(unit::NONE), limits.min_abs_det;
+            "least `|det A|`; left to the optimiser where it is absent"),
+        key!("characteristic_length": positive(unit::LENGTH), limits.characteristic_length;
+            "by which moments are divided in the Jacobian, design units; else the RMS distance of the platform joints from their centroid"),
+        key!("variables" { default = r#"["offsets"]"# }: list_of(&word(VariableKind::words)),
             |found, to| to.search.variables = variables(found),
             |of| list(&of.search.variables, |v| json!(v.code()));
-            default = r#"["offsets"]"#
-        ),
-        key!(
-            "symmetry",
-            word(KeptSymmetry::words),
-            "of the platform found: `three_fold` takes turns by 120 degrees at home, which the design has to have (offsets alternate, triangles change in size alone, two kinds of leg at most); `mirror` is refused, since no regular platform without shared joints has a mirror plane; where the key is absent `three_fold` is tried first for a design that has it, and `none` is taken otherwise",
-            |found, to| {
-                let all = KeptSymmetry::ALL.map(|s| (s.code(), s));
-                to.search.symmetry = named(found.report, &found.entry.node, "a symmetry", &all);
-            },
-            |of| of.search.symmetry.written()
-        ),
-        key!(
-            "objective",
-            OBJECTIVE,
-            "what is to be best",
-            |found, to| to.objective = objective(found.report, &found.entry.node),
-            |_| None;
-            default = r#""worst_conditioning""#
-        ),
-        key!(
-            "objectives",
-            list_of(&either(&[OBJECTIVE, table(&WEIGHTED)])),
-            "instead of `objective`: several, with weights",
+            "what is chosen; `components` without offsets and triangles"),
+        key!("symmetry": word(KeptSymmetry::words),
+            |found, to| to.search.symmetry = named(found.report, &found.entry.node, "a symmetry"),
+            |of| of.search.symmetry.written();
+            "of the platform found: `three_fold` takes turns by 120 degrees at home, which the design has to have (offsets alternate, triangles change in size alone, two kinds of leg at most); `mirror` is refused, since no regular platform without shared joints has a mirror plane; where the key is absent `three_fold` is tried first for a design that has it, and `none` is taken otherwise"),
+        key!("objective" { default = r#""worst_conditioning""# }: OBJECTIVE,
+            |found, to| to.objective = objective(found.report, &found.entry.node), |_| None;
+            "what is to be best"),
+        key!("objectives": list_of(&either(&[OBJECTIVE, table(&WEIGHTED)])),
             |found, to| to.search.objectives = objectives(found),
             |of| list(&of.search.objectives, |(objective, weight)| {
                 let (name, weight) = (Some(*objective), Some(*weight));
                 json!(WEIGHTED.write(&WeightedKeys { name, weight }))
-            })
-        ),
-        key!(
-            "mode",
-            own(r#"{"enum": ["weighted", "lexicographic", "pareto"]}"#, unit::NONE),
-            "how several objectives are weighed: by their weights, in the order of the list, or as a front",
-            |found, to| {
-                let all = Mode::ALL.map(|mode| (mode.name(), mode));
-                to.mode = named(found.report, &found.entry.node, "a mode", &all);
-            },
-            |of| Some(json!(of.mode?.name()));
-            default = r#""weighted""#
-        ),
-        key!(
-            "slack",
-            positive(unit::NONE),
-            "share of the earlier levels that later ones may take, with `lexicographic`",
-            slack;
-            default = "0.01"
-        ),
-        key!(
-            "points",
-            whole(2, 100),
-            "steps of the front, with `pareto`",
-            |found, to| to.points = points(found),
-            |of| Some(json!(of.points?));
-            default = "10"
-        ),
-        key!(
-            "offset_bounds",
-            RANGE,
-            "`[least, greatest]`, in edges; with `--extension X` it is `[-X, 1 + X]`",
-            |found, to| to.search.offset_bounds = bounds(found),
-            |of| of.search.offset_bounds.map(|(low, high)| json!([low, high]))
-        ),
-        key!(
-            "stretch_bounds",
-            RANGE,
-            "`[least, greatest]` change of a triangle, as a share",
-            |found, to| to.search.stretch_bounds = bounds(found),
-            |of| of.search.stretch_bounds.map(|(low, high)| json!([low, high]));
-            default = "[-0.5, 1.0]"
-        ),
-        key!(
-            "height_bounds",
-            RANGE,
-            "`[least, greatest]` change of the height, in sizes of the design",
-            |found, to| to.search.height_bounds = bounds(found),
-            |of| of.search.height_bounds.map(|(low, high)| json!([low, high]));
-            default = "[-0.5, 1.0]"
-        ),
-        key!(
-            "fixed",
-            list_of(&TEXT),
-            "names of joints that no search may move, or base and platform for all joints of a body",
+            });
+            "instead of `objective`: several, with weights"),
+        key!("mode" { default = r#""weighted""# }: word(Mode::words),
+            |found, to| to.mode = named(found.report, &found.entry.node, "a mode"),
+            |of| of.mode.written();
+            "how several objectives are weighed: by their weights, in the order of the list, or as a front"),
+        key!("slack" { default = "0.01" }: positive(unit::NONE), slack;
+            "share of the earlier levels that later ones may take, with `lexicographic`"),
+        key!("points" { default = "10" }: whole(2, 100),
+            |found, to| to.points = points(found), |of| Some(json!(of.points?));
+            "steps of the front, with `pareto`"),
+        key!("offset_bounds": RANGE, search.offset_bounds;
+            "`[least, greatest]`, in edges; with `--extension X` it is `[-X, 1 + X]`"),
+        key!("stretch_bounds" { default = "[-0.5, 1.0]" }: RANGE, search.stretch_bounds;
+            "`[least, greatest]` change of a triangle, as a share"),
+        key!("height_bounds" { default = "[-0.5, 1.0]" }: RANGE, search.height_bounds;
+            "`[least, greatest]` change of the height, in sizes of the design"),
+        key!("fixed": list_of(&TEXT),
             |found, to| to.search.fixed = fixed(found, &to.joints),
-            |of| list(&of.search.fixed.concat(), |name| json!(name))
-        ),
+            |of| list(&of.search.fixed.concat(), |name| json!(name));
+            "names of joints that no search may move, or base and platform for all joints of a body"),
     ],
     rules: r#"{
         "not": {"required": ["objective", "objectives"]},
@@ -186,15 +119,10 @@ struct WeightedKeys {
 
 static WEIGHTED: Table<WeightedKeys> = Table {
     keys: &[
-        key!(
-            "name",
-            OBJECTIVE,
-            "",
-            |found, to| to.name = objective(found.report, &found.entry.node),
-            |of| of.name.written();
-            required = "write { name = \"...\", weight = 1.0 }"
-        ),
-        key!("weight", positive(unit::NONE), "", weight),
+        key!("name" { required = "write { name = \"...\", weight = 1.0 }" }: OBJECTIVE,
+            |found, to| to.name = objective(found.report, &found.entry.node), |of| of.name.written();
+            ""),
+        key!("weight": positive(unit::NONE), weight; ""),
     ],
     ..Table::EMPTY
 };
@@ -230,19 +158,19 @@ pub(super) fn optimize(
 
 impl OptimizeKeys {
     /// The table as it is written, with the fixed joints that there are.
-    pub(super) fn of(limits: &OptimizeTable, search: &SearchTable, joints: [&[String]; 2]) -> Self {
+    pub(super) fn of(design: &DesignModel) -> Self {
+        let mut search = design.search.clone();
         let (mode, slack, points) = match search.mode {
             None => (None, None, None),
             Some(Combination::Weighted) => (Some(Mode::Weighted), None, None),
             Some(Combination::Lexicographic { slack }) => (Some(Mode::Lexicographic), Some(slack), None),
             Some(Combination::Pareto { points }) => (Some(Mode::Pareto), None, Some(points)),
         };
-        let mut search = search.clone();
-        for (fixed, known) in search.fixed.iter_mut().zip(joints) {
-            fixed.retain(|name| known.contains(name));
+        for body in Body::BOTH {
+            search.fixed[body.index()].retain(|name| design.joint_names(body).contains(name));
         }
         let (objective, joints) = (None, [None, None]);
-        Self { limits: *limits, search, objective, mode, slack, points, joints }
+        Self { limits: design.optimize, search, objective, mode, slack, points, joints }
     }
 }
 
@@ -286,25 +214,25 @@ fn fixed(found: &mut Found<'_, '_>, joints: &[Option<Vec<String>>; 2]) -> [Vec<S
     out
 }
 
-/// One of the names; a name that is not known is refused.
-fn named<T: Copy>(
-    report: &mut Findings<'_>,
-    node: &Node,
-    what: &str,
-    all: &[(&'static str, T)],
-) -> Option<T> {
-    let names: Vec<&str> = all.iter().map(|a| a.0).collect();
+/// One of the words of a type; `what` is one of them.
+fn named<W: Word>(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<W> {
     let Value::Text(text) = &node.value else {
         let message = format!("{what} is {}, not a string", node.value.kind());
-        report.refuse(Code::WrongType, &node.span, message, format!("write one of {}", names.join(", ")));
+        report.refuse(
+            Code::WrongType,
+            &node.span,
+            message,
+            format!("write one of {}", W::words().join(", ")),
+        );
         return None;
     };
-    let found = all.iter().find(|a| a.0 == text).map(|a| a.1);
-    if found.is_none() {
-        let message = format!("`{}` is not {what}", shown(text));
-        report.refuse(Code::UnknownKey, &node.span, message, nearest_help("known keys", text, &names));
+    let value = W::of(text);
+    if value.is_none() {
+        let (message, help) =
+            (format!("`{}` is not {what}", shown(text)), nearest_help("known keys", text, &W::words()));
+        report.refuse(Code::UnknownKey, &node.span, message, help);
     }
-    found
+    value
 }
 
 /// The elements of a list.
@@ -318,12 +246,11 @@ fn nodes<'a>(found: &mut Found<'a, '_>) -> &'a [Node] {
 }
 
 fn variables(found: &mut Found<'_, '_>) -> Vec<VariableKind> {
-    let all = VariableKind::ALL.map(|v| (v.code(), v));
-    nodes(found).iter().filter_map(|node| named(found.report, node, "a variable", &all)).collect()
+    nodes(found).iter().filter_map(|node| named(found.report, node, "a variable")).collect()
 }
 
 fn objective(report: &mut Findings<'_>, node: &Node) -> Option<Objective> {
-    named(report, node, "an objective", &Objective::ALL.map(|o| (o.code(), o)))
+    named(report, node, "an objective")
 }
 
 /// Names, or `{ name, weight }`.
@@ -354,11 +281,17 @@ fn points(found: &mut Found<'_, '_>) -> Option<usize> {
     whole
 }
 
-fn bounds(found: &mut Found<'_, '_>) -> Option<(f64, f64)> {
-    let (what, noun) = (found.what(), "bounds, least and greatest");
-    let [low, high] = numbers::<2>(found.report, &found.entry.node, &what, Code::CoordinateCount, noun)?;
-    if low > high {
-        found.refuse(Code::OutOfRange, format!("{what} from {low} to {high}"), "give [least, greatest]");
+impl Item for (f64, f64) {
+    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+        let (what, noun) = (found.what(), "bounds, least and greatest");
+        let [low, high] = numbers::<2>(found.report, &found.entry.node, &what, Code::CoordinateCount, noun)?;
+        if low > high {
+            found.refuse(Code::OutOfRange, format!("{what} from {low} to {high}"), "give [least, greatest]");
+        }
+        Some((low, high))
     }
-    Some((low, high))
+
+    fn json(&self) -> Json {
+        json!([self.0, self.1])
+    }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::found::numbers;
-use super::kind::{own, positive, table, unit, vector, word};
+use super::kind::{Kind, own, positive, table, unit, vector, word};
 use super::shapes::{BOX, SPHERE, shape, written};
 use super::stored::{Item, Word, rows};
 use super::{Code, Found, Table, key};
@@ -11,54 +11,33 @@ use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use machine::requirements::{GRAVITY, Payload, PlateMass};
 
+/// Principal moments, or rows.
+const MOMENTS: Kind =
+    own(r##"{"oneOf": [{"$ref": "#/$defs/vector"}, {"$ref": "#/$defs/rows"}]}"##, unit::INERTIA);
+
 pub(super) static PAYLOAD: Table<Payload> = Table {
     keys: &[
-        key!(
-            "mass",
-            positive(unit::MASS),
-            "mass units, kilograms where none are named, with the platform itself unless `plate` says otherwise",
-            mass;
-            required = "add mass = 100.0"
-        ),
-        key!(
-            "center",
-            vector(unit::LENGTH),
-            "centre of mass, platform frame",
-            center;
-            default = "[0, 0, 0]"
-        ),
-        key!(
-            "inertia",
-            own(r##"{"oneOf": [{"$ref": "#/$defs/vector"}, {"$ref": "#/$defs/rows"}]}"##, unit::INERTIA),
-            "about the centre of mass, axes of the platform frame, mass units times length units squared: principal moments, or rows",
-            |found, to| to.inertia = inertia(found),
-            |of| of.inertia.as_ref().map(rows)
-        ),
-        key!("gravity", vector(unit::NONE), "base frame, m/s^2", gravity; default = "[0, 0, -9.80665]"),
-        key!(
-            "plate",
-            word(PlateMass::words).placed(),
-            "whether `mass`, `center` and `inertia` have the plate of `[plates.platform]` in them, or it comes on top",
+        key!("mass" { required = "add mass = 100.0" }: positive(unit::MASS), mass;
+            "mass units, kilograms where none are named, with the platform itself unless `plate` says otherwise"),
+        key!("center" { default = "[0, 0, 0]" }: vector(unit::LENGTH), center;
+            "centre of mass, platform frame"),
+        key!("inertia": MOMENTS,
+            |found, to| to.inertia = inertia(found), |of| of.inertia.as_ref().map(rows);
+            "about the centre of mass, axes of the platform frame, mass units times length units squared: principal moments, or rows"),
+        key!("gravity" { default = "[0, 0, -9.80665]" }: vector(unit::NONE), gravity; "base frame, m/s^2"),
+        key!("plate" { default = r#""included""# }: word(PlateMass::words).placed(),
             |found, to| found.fill(&mut to.plate),
             |of| Some(of.plate.json()).filter(|_| of.plate != PlateMass::Included);
-            default = r#""included""#
-        ),
-        key!(
-            "box",
-            table(&BOX),
-            "the room it takes up, which the legs keep clear of: edges along the axes of the platform frame",
-            |found, to| to.shape = shape(found),
-            |of| written(of.shape.as_ref(), "box")
-        ),
-        key!(
-            "sphere",
-            table(&SPHERE),
-            "the same as a ball",
+            "whether `mass`, `center` and `inertia` have the plate of `[plates.platform]` in them, or it comes on top"),
+        key!("box": table(&BOX),
+            |found, to| to.shape = shape(found), |of| written(of.shape.as_ref(), "box");
+            "the room it takes up, which the legs keep clear of: edges along the axes of the platform frame"),
+        key!("sphere": table(&SPHERE),
             |found, to| if to.shape.is_none() {
-                to.shape = shape(found)
+                to.shape = shape(found);
             },
-            |of| written(of.shape.as_ref(), "sphere")
-        ),
+            |of| written(of.shape.as_ref(), "sphere");
+            "the same as a ball"),
     ],
     rules: r#"{"not": {"required": ["box", "sphere"]}}"#,
     ..Table::EMPTY

@@ -19,24 +19,14 @@ const MOST_BOLTS: u32 = 64;
 static BOLTS: Table<BoltPattern> = Table {
     definition: "bolts",
     keys: &[
-        key!(
-            "count",
-            whole(1, MOST_BOLTS),
-            "bolts of a joint",
-            |found, to| to.count = bolt_count(found),
-            |of| Some(json!(of.count));
-            required = BOLTS_TAKE
-        ),
-        key!("circle", positive(unit::LENGTH), "diameter of their circle", circle; required = BOLTS_TAKE),
-        key!("hole", positive(unit::LENGTH), "diameter of their holes", hole; required = BOLTS_TAKE),
-        key!("first_deg", any(unit::DEGREES), "angle of the first one, degrees", first_deg; default = "0"),
-        key!(
-            "from",
-            word(BoltsFrom::words),
-            "from where it counts: from the first axis of the plate, or from the direction from the origin of the plate to the joint",
-            from;
-            default = r#""axis""#
-        ),
+        key!("count" { required = BOLTS_TAKE }: whole(1, MOST_BOLTS),
+            |found, to| to.count = bolt_count(found), |of| Some(json!(of.count));
+            "bolts of a joint"),
+        key!("circle" { required = BOLTS_TAKE }: positive(unit::LENGTH), circle; "diameter of their circle"),
+        key!("hole" { required = BOLTS_TAKE }: positive(unit::LENGTH), hole; "diameter of their holes"),
+        key!("first_deg" { default = "0" }: any(unit::DEGREES), first_deg; "angle of the first one, degrees"),
+        key!("from" { default = r#""axis""# }: word(BoltsFrom::words), from;
+            "from where it counts: from the first axis of the plate, or from the direction from the origin of the plate to the joint"),
     ],
     ..Table::EMPTY
 };
@@ -45,55 +35,23 @@ const BOLTS_TAKE: &str = "bolts take count, circle (its diameter) and hole, and 
 static PLATE: Table<PlateDesign> = Table {
     definition: "plate",
     keys: &[
-        key!("thickness", positive(unit::LENGTH), "thickness", thickness; required = "add thickness = 20"),
-        key!(
-            "margin",
-            positive(unit::LENGTH),
-            "distance of the outline from the convex hull of the joints, more than half of `hole`",
-            margin;
-            required = "add margin = 60, the distance of the outline from the hull of the joints"
-        ),
-        key!(
-            "hole",
-            positive(unit::LENGTH),
-            "diameter of the hole under each joint",
-            hole;
-            required = "add hole = 20, the diameter of the hole under each joint"
-        ),
-        key!(
-            "height",
-            positive(unit::LENGTH),
-            "height of the lowest joint centre above the face of the plate; without it that of a ball as wide as the housing on the edge of the hole",
-            height
-        ),
-        key!(
-            "material",
-            TEXT,
-            "`aluminium`, `steel`, `stainless_steel`, `cast_iron`, `titanium`, `brass`, `pom` or `plywood`, whose densities are known, or another name beside `density`",
-            material
-        ),
-        key!(
-            "density",
-            positive(unit::NONE),
-            "kg/m^3; `units` is then a unit of length that is known",
-            density
-        ),
-        key!(
-            "edge_distance",
-            not_negative(unit::LENGTH),
-            "least distance of the edge of a hole from the outline",
-            edge_distance;
-            default = "0"
-        ),
-        key!(
-            "hole_distance",
-            not_negative(unit::LENGTH),
-            "least distance of the edges of two holes",
-            hole_distance;
-            default = "0"
-        ),
-        key!("foot", positive(unit::LENGTH), "diameter of the round foot of a joint; feet keep apart", foot),
-        key!("bolts", table(&BOLTS), "the bolts of each joint, on a circle about its centre", bolts),
+        key!("thickness" { required = "add thickness = 20" }: positive(unit::LENGTH), thickness; "thickness"),
+        key!("margin" { required = "add margin = 60, the distance of the outline from the hull of the joints" }: positive(unit::LENGTH), margin;
+            "distance of the outline from the convex hull of the joints, more than half of `hole`"),
+        key!("hole" { required = "add hole = 20, the diameter of the hole under each joint" }: positive(unit::LENGTH), hole;
+            "diameter of the hole under each joint"),
+        key!("height": positive(unit::LENGTH), height;
+            "height of the lowest joint centre above the face of the plate; without it that of a ball as wide as the housing on the edge of the hole"),
+        key!("material": TEXT, material;
+            "`aluminium`, `steel`, `stainless_steel`, `cast_iron`, `titanium`, `brass`, `pom` or `plywood`, whose densities are known, or another name beside `density`"),
+        key!("density": positive(unit::NONE), density;
+            "kg/m^3; `units` is then a unit of length that is known"),
+        key!("edge_distance" { default = "0" }: not_negative(unit::LENGTH), edge_distance;
+            "least distance of the edge of a hole from the outline"),
+        key!("hole_distance" { default = "0" }: not_negative(unit::LENGTH), hole_distance;
+            "least distance of the edges of two holes"),
+        key!("foot": positive(unit::LENGTH), foot; "diameter of the round foot of a joint; feet keep apart"),
+        key!("bolts": table(&BOLTS), bolts; "the bolts of each joint, on a circle about its centre"),
     ],
     ..Table::EMPTY
 };
@@ -102,8 +60,8 @@ const PLATE_KIND: Kind = table(&PLATE);
 
 pub(super) static PLATES: Table<Plates> = Table {
     keys: &[
-        key!("base", PLATE_KIND, "of the base", |_, _| (), |of| PLATE.put(of.base.as_ref()?)),
-        key!("platform", PLATE_KIND, "of the platform", |_, _| (), |of| PLATE.put(of.platform.as_ref()?)),
+        key!("base": PLATE_KIND, |_, _| (), |of| PLATE.put(of.base.as_ref()?); "of the base"),
+        key!("platform": PLATE_KIND, |_, _| (), |of| PLATE.put(of.platform.as_ref()?); "of the platform"),
     ],
     rules: r#"{"minProperties": 1}"#,
     ..Table::EMPTY

@@ -28,10 +28,10 @@ const ONE_ROTATION: &str = r#"{
 pub(super) static POSE: Table<Pose> = Table {
     definition: "pose",
     keys: &[
-        key!("position", vector(unit::LENGTH), POSITION, |_, _| (), |of| Some(of.position.json())),
-        key!("rpy_deg", vector(unit::DEGREES), RPY),
-        key!("quat_wxyz", QUATERNION, QUAT),
-        key!("rotation", ROWS, ROTATION, |_, _| (), |of| Some(rows(of.rotation.matrix()))),
+        key!("position": vector(unit::LENGTH), |_, _| (), |of| Some(of.position.json()); POSITION),
+        key!("rpy_deg": vector(unit::DEGREES); RPY),
+        key!("quat_wxyz": QUATERNION; QUAT),
+        key!("rotation": ROWS, |_, _| (), |of| Some(rows(of.rotation.matrix())); ROTATION),
     ],
     rules: ONE_ROTATION,
     ..Table::EMPTY
@@ -41,20 +41,29 @@ pub(super) static POSE: Table<Pose> = Table {
 pub(super) static HOME: Table<DesignModel> = Table {
     definition: "home_pose",
     keys: &[
-        key!("position", quantities(3, unit::LENGTH), POSITION, |_, _| (), |of| Some(
+        key!("position": quantities(3, unit::LENGTH),
+            |_, _| (),
+            |of| Some(
             match of.written_home() {
                 Some(written) => stored::quantities(&written.position),
                 None => of.home?.position.json(),
             }
-        )),
-        key!("rpy_deg", quantities(3, unit::DEGREES), RPY, |_, _| (), |of| {
+        );
+            POSITION),
+        key!("rpy_deg": quantities(3, unit::DEGREES),
+            |_, _| (),
+            |of| {
             of.written_home()?.rpy_deg.as_ref().map(|angles| stored::quantities(angles))
-        }),
-        key!("quat_wxyz", QUATERNION, QUAT),
-        key!("rotation", ROWS, ROTATION, |_, _| (), |of| {
+        };
+            RPY),
+        key!("quat_wxyz": QUATERNION; QUAT),
+        key!("rotation": ROWS,
+            |_, _| (),
+            |of| {
             let has_angles = of.written_home().is_some_and(|written| written.rpy_deg.is_some());
             of.home.filter(|_| !has_angles).map(|home| rows(home.rotation.matrix()))
-        }),
+        };
+            ROTATION),
     ],
     rules: ONE_ROTATION,
     ..Table::EMPTY

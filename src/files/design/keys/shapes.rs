@@ -25,8 +25,8 @@ pub(super) struct ShapeKeys {
 pub(super) static BOX: Table<ShapeKeys> = Table {
     definition: "box",
     keys: &[
-        key!("center", vector(unit::LENGTH), "", center; required = ADD),
-        key!("size", numbers(&EDGES, unit::LENGTH), "", size; required = ADD),
+        key!("center" { required = ADD }: vector(unit::LENGTH), center; ""),
+        key!("size" { required = ADD }: numbers(&EDGES, unit::LENGTH), size; ""),
     ],
     ..Table::EMPTY
 };
@@ -34,8 +34,8 @@ pub(super) static BOX: Table<ShapeKeys> = Table {
 pub(super) static SPHERE: Table<ShapeKeys> = Table {
     definition: "sphere",
     keys: &[
-        key!("center", vector(unit::LENGTH), "", center; required = ADD),
-        key!("diameter", positive(unit::LENGTH), "", diameter; required = ADD),
+        key!("center" { required = ADD }: vector(unit::LENGTH), center; ""),
+        key!("diameter" { required = ADD }: positive(unit::LENGTH), diameter; ""),
     ],
     ..Table::EMPTY
 };
@@ -43,9 +43,9 @@ pub(super) static SPHERE: Table<ShapeKeys> = Table {
 pub(super) static CAPSULE: Table<ShapeKeys> = Table {
     definition: "capsule",
     keys: &[
-        key!("from", vector(unit::LENGTH), "", from; required = ADD),
-        key!("to", vector(unit::LENGTH), "", to; required = ADD),
-        key!("diameter", positive(unit::LENGTH), "", diameter; required = ADD),
+        key!("from" { required = ADD }: vector(unit::LENGTH), from; ""),
+        key!("to" { required = ADD }: vector(unit::LENGTH), to; ""),
+        key!("diameter" { required = ADD }: positive(unit::LENGTH), diameter; ""),
     ],
     ..Table::EMPTY
 };

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use serde_json::{Value as Json, json};
 
 use super::found::Found;
+use super::optimize::Mode;
 use crate::design::construction::Spelling;
 use crate::design::{WrittenNumber, construction::CoordinatePlane};
 use machine::requirements::{
@@ -142,6 +143,7 @@ words! {
     HolePattern: Self::ALL, Self::name;
     JointType: [Self::Ball, Self::Universal, Self::Flexure], Self::name;
     KeptSymmetry: Self::ALL, Self::code;
+    Mode: Self::ALL, Self::name;
     ListedFrom: [Self::Home, Self::Base], Self::name;
     MassUnit: Self::ALL, Self::label;
     Objective: Self::ALL, Self::code;

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::found::element_span;
-use super::kind::{HALF_WIDTHS, list, numbers, own, table, unit, word};
+use super::kind::{HALF_WIDTHS, Kind, list, numbers, own, table, unit, word};
 use super::poses::{POSE, poses};
 use super::stored::{Item, Stored, Word};
 use super::{Code, Found, TEXT, Table, key};
@@ -12,67 +12,44 @@ use crate::design::violation::Findings;
 use crate::design::{Trajectory, Workspace};
 use machine::requirements::{ListedFrom, Region};
 
+const HALF_ANGLES: Kind = own(
+    r#"{"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number", "minimum": 0, "maximum": 180}}"#,
+    unit::DEGREES,
+);
+
 pub(super) static WORKSPACE: Table<Workspace> = Table {
     keys: &[
-        key!(
-            "translation",
-            numbers(&HALF_WIDTHS, unit::LENGTH),
-            "half widths around home, base frame",
-            translation;
-            default = "[0, 0, 0]"
-        ),
-        key!(
-            "rotation_deg",
-            own(r#"{"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number", "minimum": 0, "maximum": 180}}"#, unit::DEGREES),
-            "half widths of the components of the rotation vector, degrees",
+        key!("translation" { default = "[0, 0, 0]" }: numbers(&HALF_WIDTHS, unit::LENGTH), translation;
+            "half widths around home, base frame"),
+        key!("rotation_deg" { default = "[0, 0, 0]" }: HALF_ANGLES,
             |found, to| {
                 found.kind = numbers(&HALF_WIDTHS, unit::DEGREES);
                 found.fill(&mut to.rotation_deg);
             },
             |of| of.rotation_deg.written();
-            default = "[0, 0, 0]"
-        ),
-        key!(
-            "grid",
-            own(r#"{"enum": [1, 2, 3, 4, 5]}"#, unit::NONE),
-            "points for each axis, evenly from minus to plus the half width",
-            |found, to| to.grid = grid(found).unwrap_or(to.grid),
-            |of| Some(json!(of.grid));
-            default = "2"
-        ),
-        key!(
-            "region",
-            word(Region::words),
-            "a box, or translations in an ellipsoid with the half widths as half axes and rotation vectors in another",
+            "half widths of the components of the rotation vector, degrees"),
+        key!("grid" { default = "2" }: own(r#"{"enum": [1, 2, 3, 4, 5]}"#, unit::NONE),
+            |found, to| to.grid = grid(found).unwrap_or(to.grid), |of| Some(json!(of.grid));
+            "points for each axis, evenly from minus to plus the half width"),
+        key!("region" { default = r#""box""# }: word(Region::words),
             |found, to| to.region = region(found),
             |of| Some(of.region.json()).filter(|_| of.region != Region::default());
-            default = r#""box""#
-        ),
-        key!(
-            "poses",
-            list(&table(&POSE)),
-            "single poses, measured from `relative_to`",
+            "a box, or translations in an ellipsoid with the half widths as half axes and rotation vectors in another"),
+        key!("poses": list(&table(&POSE)),
             |found, to| to.poses = poses(found),
             |of| {
                 let poses = of.poses.iter().map(|pose| json!(POSE.write(pose)));
                 (!of.poses.is_empty()).then(|| poses.collect())
-            }
-        ),
-        key!(
-            "trajectory",
-            TEXT,
-            "CSV file beside the design, one pose a line: `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`; passed in this order, measured from `relative_to`",
+            };
+            "single poses, measured from `relative_to`"),
+        key!("trajectory": TEXT,
             |found, to| to.trajectory = found.text().map(|file| Trajectory { file, poses: Vec::new() }),
-            |of| Some(json!(of.trajectory.as_ref()?.file))
-        ),
-        key!(
-            "relative_to",
-            word(ListedFrom::words),
-            "what poses and trajectory are measured from: home, (R, p) meaning (R R_home, p_home + p), so that they move with it, or the base frame",
+            |of| Some(json!(of.trajectory.as_ref()?.file));
+            "CSV file beside the design, one pose a line: `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`; passed in this order, measured from `relative_to`"),
+        key!("relative_to" { default = r#""base""# }: word(ListedFrom::words),
             |found, to| found.fill(&mut to.listed_from),
             |of| Some(of.listed_from.json()).filter(|_| of.listed_from != ListedFrom::default());
-            default = r#""base""#
-        ),
+            "what poses and trajectory are measured from: home, (R, p) meaning (R R_home, p_home + p), so that they move with it, or the base frame"),
     ],
     ..Table::EMPTY
 };
