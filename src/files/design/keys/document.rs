@@ -51,11 +51,11 @@ pub(super) static TOP: Table<DesignModel> = Table {
         key!("legs" { required = "add `legs = [[\"A1\", \"B1\"], ...]` with six pairs base-platform above the first [table]" }: list_of(6, &list_of(2, &TEXT)),
             |_, _| (), |of| Some(json!(of.leg_names().map(|(a, b)| [a, b])));
             "`[base joint, platform joint]` in leg order; in TOML above the first table"),
-        key!("parameters": table(&PARAMETERS), |_, _| (), |of| parameters(of);
+        key!("parameters": table(&PARAMETERS), |_, _| (), parameters;
             "numbers and expressions that expressions of joints and of other parameters name"),
-        key!("base" { required = "add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`" }: table(&BODY), |_, _| (), |of| joints_of(of, Body::Base);
+        key!("base" { required = "add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`" }: table(&BODY), |_, _| (), |of| Some(joints_of(of, Body::Base));
             "joints in the base frame, each as `[x, y, z]` or as a construction"),
-        key!("platform" { required = "add [platform] with joints such as `B1 = [0.0, 0.0, 0.0]`" }: table(&BODY), |_, _| (), |of| joints_of(of, Body::Platform);
+        key!("platform" { required = "add [platform] with joints such as `B1 = [0.0, 0.0, 0.0]`" }: table(&BODY), |_, _| (), |of| Some(joints_of(of, Body::Platform));
             "joints in the platform frame, each as `[x, y, z]` or as a construction"),
         key!("cranks": table(&CRANKS), |_, _| (), |of| Some(cranks::written(of.constructions.cranks.as_ref()?, of.base_names()));
             "cranks and rods of a design whose drive is rotary: what holds for all, and tables named by base joints for what is different at one"),
@@ -347,14 +347,14 @@ fn parameters(of: &DesignModel) -> Option<Json> {
     Some(parameters.collect::<Map<_, _>>()).filter(|list| !list.is_empty()).map(Json::Object)
 }
 
-fn joints_of(of: &DesignModel, body: Body) -> Option<Json> {
+fn joints_of(of: &DesignModel, body: Body) -> Json {
     let (points, names) = (of.manipulator().joints(body), of.joint_names(body));
     let joint = |(j, p): (usize, &Point3<f64>)| match of.constructions.of(body, j) {
         None => json!(p.coords.as_slice()),
         Some(made) => constructions::written(made, names),
     };
     let joints = names.iter().cloned().zip(points.iter().enumerate().map(joint));
-    Some(Json::Object(joints.collect()))
+    Json::Object(joints.collect())
 }
 
 /// A list of tables; nothing where it is empty.
