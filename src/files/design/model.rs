@@ -27,6 +27,8 @@ pub struct DesignModel {
     pub source: Option<String>,
     /// Free text.
     pub description: Option<String>,
+    /// The revision of the design, as its drawings and parts name it.
+    pub revision: Option<String>,
     /// Leg lengths that belong to the design, those of a published example for instance.
     pub lengths: Option<LegLengths>,
     /// The pose the platform is built for.
@@ -250,6 +252,7 @@ impl DesignModel {
             units: units.into(),
             source: None,
             description: None,
+            revision: None,
             lengths: None,
             home: None,
             workspace: Workspace::default(),

@@ -42,6 +42,7 @@ pub(super) static TOP: Table<DesignModel> = Table {
         key!("mass_units": word(MassUnit::words), mass_units; "unit of all masses; kilograms where none is named"),
         key!("source": TEXT, source; "where the numbers come from"),
         key!("description": TEXT, description; "free text"),
+        key!("revision": TEXT, revision; "of the design, as its drawings and parts name it"),
         key!("drive" { default = r#""prismatic""# }: own(r#"{"enum": ["prismatic", "rotary"]}"#, unit::NONE),
             |_, _| (), |of| of.has_cranks().then(|| json!("rotary"));
             "`prismatic`: legs change their lengths; `rotary`: the legs are rods of constant length on cranks, the base joints are the centres of the cranks, and `[cranks]` is required"),
@@ -360,4 +361,23 @@ fn joints_of(of: &DesignModel, body: Body) -> Json {
 /// A list of tables; nothing where it is empty.
 fn all<T>(list: &[T], write: impl Fn(&T) -> Map<String, Json>) -> Option<Json> {
     (!list.is_empty()).then(|| list.iter().map(|item| Json::Object(write(item))).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Format, SCHEMA, parse};
+
+    #[test]
+    fn a_text_above_the_first_table_is_read_suggested_written_and_described_by_its_entry() {
+        let text = include_str!("../../../../designs/rbt-octahedral.toml");
+        let design = parse(&format!("revision = \"B\"\n{text}"), Format::Toml).unwrap().0;
+        assert_eq!(design.revision.as_deref(), Some("B"));
+        assert_eq!(parse(&design.to_toml(), Format::Toml).unwrap().0, design);
+        assert_eq!(parse(&design.to_json(), Format::Json).unwrap().0, design);
+        assert_eq!(design.in_units("in").unwrap().revision, design.revision);
+        let slip = parse(&format!("revison = \"B\"\n{text}"), Format::Toml).unwrap_err().remove(0);
+        assert_eq!((slip.code, slip.help.as_str()), (Code::UnknownKey, "did you mean `revision`?"));
+        assert!(SCHEMA.contains("as its drawings and parts name it"));
+    }
 }
