@@ -75,7 +75,7 @@ mod tests {
     fn the_schema_is_that_of_design_files_and_open() {
         let mut generator = SchemaGenerator::default();
         let own = DesignRecord::json_schema(&mut generator).to_value();
-        let file: Value = serde_json::from_str(SCHEMA).unwrap();
+        let file: Value = serde_json::from_str(&SCHEMA).unwrap();
         assert_eq!(file["additionalProperties"], false, "the file itself is closed");
         assert!(own.get("additionalProperties").is_none(), "open");
         assert_eq!(own["required"], file["required"]);

@@ -8,29 +8,28 @@ mod edit;
 #[cfg(test)]
 mod fixtures;
 mod json_text;
+mod keys;
 mod likeness;
 mod masses;
 mod model;
 mod outline;
 #[cfg(test)]
 mod requirements_tests;
-mod save;
 mod scale;
-mod schema;
 pub mod spanned;
 mod table;
 #[cfg(test)]
 mod tests;
 mod toml_text;
 mod tree;
-mod validate;
 mod violation;
 mod workspace;
 
 pub use construction::Origin;
-use construction::{Construction, Constructions, LinePlace, WrittenNumber};
+use construction::{Constructions, WrittenNumber};
 pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
 pub use edit::{JointError, Written};
+pub use keys::SCHEMA;
 pub use likeness::{likeness, nearest_word};
 pub use masses::JudgedForces;
 pub use model::{
@@ -39,7 +38,6 @@ pub use model::{
 };
 pub use outline::{HexapodSizes, InvalidOutline, octahedral_toml, with_lengths};
 pub use scale::{NotScaled, micrometres, unit_of_millimetres};
-pub use schema::SCHEMA;
 pub use table::{
     DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidPointTable, InvalidRigSheet, InvalidSeries,
     InvalidSheet, PointTable, RigSheet, SeriesKind, SeriesRow, SheetDialect, SheetLegs, TimeSeries,
@@ -149,7 +147,7 @@ fn read(
         return Err(report.into_violations());
     }
     let root = tree::read(text, format, &mut report);
-    let design = root.and_then(|root| validate::design(&root, &mut report, takes_cranks));
+    let design = root.and_then(|root| keys::design(&root, &mut report, takes_cranks));
     match design {
         Some(mut design) if report.is_clean() => {
             let warnings = report.into_warnings();

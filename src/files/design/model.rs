@@ -27,6 +27,8 @@ pub struct DesignModel {
     pub source: Option<String>,
     /// Free text.
     pub description: Option<String>,
+    /// The revision of the design, as its drawings and parts name it.
+    pub revision: Option<String>,
     /// Leg lengths that belong to the design, those of a published example for instance.
     pub lengths: Option<LegLengths>,
     /// The pose the platform is built for.
@@ -119,9 +121,14 @@ impl CalibratedNumber {
     /// What it is called: `base.A1.x`, `offset.3`.
     #[must_use]
     pub fn name(&self, design: &DesignModel) -> String {
-        match *self {
+        self.name_among([design.base_names(), design.platform_names()])
+    }
+
+    /// The same among these names of the joints of base and platform.
+    pub(super) fn name_among(self, joints: [&[String]; 2]) -> String {
+        match self {
             Self::Coordinate { body, joint, axis } => {
-                format!("{body}.{}.{}", design.joint_names(body)[joint], ["x", "y", "z"][axis])
+                format!("{body}.{}.{}", joints[body.index()][joint], ["x", "y", "z"][axis])
             }
             Self::Offset(leg) => format!("offset.{}", leg + 1),
         }
@@ -245,6 +252,7 @@ impl DesignModel {
             units: units.into(),
             source: None,
             description: None,
+            revision: None,
             lengths: None,
             home: None,
             workspace: Workspace::default(),

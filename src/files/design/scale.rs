@@ -1,12 +1,10 @@
 //! A design in another unit of length: every length of it multiplied by the same fraction.
 
-use nalgebra::{Point3, Vector3};
+use serde_json::{Map, Value as Json, json};
 use thiserror::Error;
 
-use super::model::NotBuilt;
-use super::{Construction, DesignModel, LinePlace, WrittenNumber};
-use machine::requirements::{Envelope, Housing, KeepOutShape, LegBody, LengthLimits, Quantity, Reserve};
-use platform::manipulator::{Body, InvalidLengths, InvalidManipulator, LegLengths, Manipulator};
+use super::keys::{FILE, Form, Kind, Shape};
+use super::{DesignModel, Format, WrittenNumber, parse_with_cranks};
 
 /// Units by label with their lengths in micrometres, which are whole numbers; the inch is 25.4 mm exactly.
 const UNITS: [(&str, u64); 6] =
@@ -32,21 +30,12 @@ pub enum NotScaled {
     /// The poses of its trajectory stand in a file of their own.
     #[error("the trajectory {0} is a file of its own, which would keep the old unit")]
     Trajectory(String),
-    /// The scaled joints are too large or too small for doubles.
-    #[error(transparent)]
-    Manipulator(#[from] InvalidManipulator),
-    /// So are the lengths.
-    #[error(transparent)]
-    Lengths(#[from] InvalidLengths),
     /// A construction that is too long with the factor.
     #[error("a construction cannot be scaled: {0}")]
     Construction(String),
-}
-
-impl From<NotBuilt> for NotScaled {
-    fn from(why: NotBuilt) -> Self {
-        Self::Construction(why.to_string())
-    }
+    /// The scaled numbers make no design: they are too large or too small for doubles.
+    #[error("{0}")]
+    Design(String),
 }
 
 /// The fraction by which lengths are multiplied, in lowest terms.
@@ -74,17 +63,29 @@ impl LengthRatio {
         x * self.times as f64 / self.over as f64
     }
 
-    fn vector(self, v: Vector3<f64>) -> Vector3<f64> {
-        v.map(|x| self.of(x))
+    /// A number whose unit has this power of the unit of length.
+    fn of_power(self, x: f64, power: i8) -> f64 {
+        let ratio = if power < 0 { self.inverse() } else { self };
+        (0..power.unsigned_abs()).fold(x, |x, _| ratio.of(x))
     }
 
-    fn point(self, p: Point3<f64>) -> Point3<f64> {
-        p.map(|x| self.of(x))
+    /// All numbers of a value.
+    fn numbers(self, value: &mut Json, power: i8) {
+        match value {
+            Json::Number(x) if power != 0 => {
+                *value = json!(x.as_f64().map(|x| self.of_power(x, power)));
+            }
+            Json::Array(list) => list.iter_mut().for_each(|item| self.numbers(item, power)),
+            _ => {}
+        }
     }
 
     /// The same number with the fraction written behind it: what was exact stays exact.
-    fn written(self, number: &WrittenNumber) -> Result<WrittenNumber, NotScaled> {
-        let text = number.spelled();
+    fn written(self, number: &Json) -> Result<Json, NotScaled> {
+        let text = match number {
+            Json::String(text) => text.clone(),
+            number => format!("{:?}", number.as_f64().unwrap_or_default()),
+        };
         let is_zero = text.parse::<f64>().is_ok_and(|x| x == 0.0);
         if is_zero {
             return Ok(number.clone());
@@ -97,12 +98,60 @@ impl LengthRatio {
                 scaled.push_str(&factor.to_string());
             }
         }
-        WrittenNumber::text(&scaled).map_err(|slip| NotScaled::Construction(slip.message))
+        WrittenNumber::text(&scaled).map_err(|slip| NotScaled::Construction(slip.message))?;
+        Ok(Json::String(scaled))
+    }
+}
+
+impl LengthRatio {
+    /// A value of a kind.
+    fn scale(self, value: &mut Json, kind: &Kind) -> Result<(), NotScaled> {
+        match (kind.form, value) {
+            (Form::Quantity(_), _) if kind.unit == 0 => {}
+            (Form::Quantity(None), value) => *value = self.written(value)?,
+            // three plain numbers are doubles
+            (Form::Quantity(Some(_)), Json::Array(list)) if list.iter().any(Json::is_string) => {
+                for item in list {
+                    *item = self.written(item)?;
+                }
+            }
+            (Form::Table(shape), Json::Object(keys)) => self.table(keys, shape)?,
+            (Form::List(kind, _), Json::Array(list)) => {
+                list.iter_mut().try_for_each(|item| self.scale(item, kind))?;
+            }
+            (Form::Either(kinds), value) => {
+                if let Some(kind) = kinds.iter().find(|kind| fits(value, kind)) {
+                    self.scale(value, kind)?;
+                }
+            }
+            (_, value) => self.numbers(value, kind.unit),
+        }
+        Ok(())
+    }
+
+    fn table(self, keys: &mut Map<String, Json>, shape: &dyn Shape) -> Result<(), NotScaled> {
+        for (key, value) in keys {
+            if let Some(kind) = shape.kind(key) {
+                self.scale(value, &kind)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a value may be of a kind.
+fn fits(value: &Json, kind: &Kind) -> bool {
+    match (kind.form, value) {
+        (Form::Table(shape), Json::Object(keys)) => keys.keys().all(|key| shape.kind(key).is_some()),
+        (Form::Table(_), _) | (_, Json::Object(_)) => false,
+        (Form::List(..) | Form::Quantity(Some(_)), value) => value.is_array(),
+        _ => true,
     }
 }
 
 impl DesignModel {
-    /// The same design with its lengths in another unit. Parameters stay, since they may be angles; the constructions that use them get the factor.
+    /// The same design with its lengths in another unit. Parameters stay, since they may be angles; the constructions
+    /// that use them get the factor.
     ///
     /// # Errors
     /// [`NotScaled`].
@@ -112,192 +161,25 @@ impl DesignModel {
         if let Some(trajectory) = &self.workspace.trajectory {
             return Err(NotScaled::Trajectory(trajectory.file.clone()));
         }
-        let m = self.manipulator();
-        let joints = |body: Body| m.joints(body).iter().map(|p| ratio.point(*p)).collect();
-        let scaled = Manipulator::try_new(joints(Body::Base), joints(Body::Platform), m.pairs())?;
-        let mut constructions = self.current_constructions();
-        for made in constructions.joints.iter_mut().flatten().flatten() {
-            scale_construction(made, ratio)?;
-        }
-        for coordinate in constructions.home.iter_mut().flat_map(|home| &mut home.position) {
-            *coordinate = ratio.written(coordinate)?;
-        }
-        if let Some(cranks) = &mut constructions.cranks {
-            for crank in std::iter::once(&mut cranks.shared).chain(cranks.own.iter_mut().flatten()) {
-                for length in crank.length.iter_mut().chain(&mut crank.rod_length) {
-                    *length = ratio.written(length)?;
-                }
-            }
-            cranks.drives.max_torque = cranks.drives.max_torque.map(|t| ratio.of(t));
-        }
-        let home_is_written = constructions.home.is_some();
-        let mut out = self.clone();
-        out.units = units.trim().to_string();
-        out.manipulator = scaled;
-        out = out.with_constructions(constructions)?;
-        if let Some(lengths) = self.lengths {
-            out.lengths = Some(LegLengths::try_new(lengths.get().map(|l| ratio.of(l)))?);
-        }
-        let home = out.home.iter_mut().filter(|_| !home_is_written);
-        for pose in home.chain(&mut out.workspace.poses) {
-            pose.position = ratio.vector(pose.position);
-        }
-        out.workspace.translation = ratio.vector(out.workspace.translation);
-        if let Some(table) = &mut out.calibration {
-            for x in table.offsets.iter_mut().chain(table.offset_deviations.iter_mut().flatten()) {
-                *x = ratio.of(*x);
-            }
-            let joints = table.base_deviations.iter_mut().chain(&mut table.platform_deviations);
-            for deviation in joints.flatten() {
-                *deviation = ratio.vector(*deviation);
-            }
-        }
-        out.scale_requirements(ratio);
+        let mut keys = self.document();
+        ratio.table(&mut keys, FILE)?;
+        keys.insert("units".to_owned(), json!(units.trim()));
+        let text = Json::Object(keys).to_string();
+        let (mut out, _) = parse_with_cranks(&text, Format::Json)
+            .map_err(|list| NotScaled::Design(list.first().map_or_else(String::new, ToString::to_string)))?;
+        // nothing in these two has a length, and a name of both bodies may stand for the joint of one
+        (out.written, out.search) = (self.written.clone(), self.search.clone());
         Ok(out)
     }
-
-    fn scale_requirements(&mut self, ratio: LengthRatio) {
-        let length = |x: &mut Option<f64>| *x = x.map(|x| ratio.of(x));
-        let housing = |x: &mut Option<Housing>| {
-            *x = x.map(|h| match h {
-                Housing::Sphere(d) => Housing::Sphere(ratio.of(d)),
-                Housing::Box(edges) => Housing::Box(ratio.vector(edges)),
-            });
-        };
-        length(&mut self.optimize.min_joint_distance);
-        length(&mut self.optimize.characteristic_length);
-        let hardware = &mut self.hardware;
-        housing(&mut hardware.base_housing);
-        housing(&mut hardware.platform_housing);
-        hardware.base_joint_housing.iter_mut().for_each(housing);
-        hardware.platform_joint_housing.iter_mut().for_each(housing);
-        length(&mut hardware.joint_diameter);
-        length(&mut hardware.leg_clearance);
-        length(&mut hardware.max_leg_speed);
-        length(&mut hardware.screw_lead);
-        // torques are force units times the unit of length
-        hardware.base_bending.iter_mut().for_each(length);
-        hardware.platform_bending.iter_mut().for_each(length);
-        for joint in [&mut hardware.base_universal, &mut hardware.platform_universal].into_iter().flatten() {
-            joint.offset = ratio.of(joint.offset);
-        }
-        hardware.leg_stiffness = hardware.leg_stiffness.map(|k| ratio.inverse().of(k));
-        if let Some(masses) = &mut hardware.leg_masses {
-            for part in [&mut masses.cylinder, &mut masses.rod] {
-                part.center = ratio.of(part.center);
-                part.inertia = ratio.of(ratio.of(part.inertia));
-            }
-        }
-        hardware.leg_body = hardware.leg_body.map(|body| LegBody {
-            diameter: ratio.of(body.diameter),
-            rod: body.rod.map(|(length, diameter)| (ratio.of(length), ratio.of(diameter))),
-        });
-        hardware.leg_length = hardware.leg_length.map(|limits| match limits {
-            LengthLimits::Range(least, greatest) => LengthLimits::Range(ratio.of(least), ratio.of(greatest)),
-            LengthLimits::Stroke { dead, stroke } => {
-                LengthLimits::Stroke { dead: ratio.of(dead), stroke: ratio.of(stroke) }
-            }
-        });
-        if let Some(speed) = &mut self.speed {
-            speed.linear = ratio.of(speed.linear);
-        }
-        if let Some(wanted) = &mut self.stiffness {
-            wanted.linear = wanted.linear.map(|k| ratio.inverse().of(k));
-            wanted.angular = wanted.angular.map(|k| ratio.of(k));
-        }
-        for envelope in [&mut self.envelopes.base, &mut self.envelopes.platform, &mut self.envelopes.machine]
-        {
-            *envelope = envelope.map(|e| match e {
-                Envelope::Cylinder { radius, center } => {
-                    Envelope::Cylinder { radius: ratio.of(radius), center: center.map(|x| ratio.of(x)) }
-                }
-                Envelope::Box { min, max } => Envelope::Box { min: ratio.point(min), max: ratio.point(max) },
-            });
-        }
-        for grid in self.holes.iter_mut().flatten().flatten() {
-            (grid.pitch, grid.origin) = (ratio.of(grid.pitch), grid.origin.map(|x| ratio.of(x)));
-            grid.circles = grid.circles.scaled(|x| ratio.of(x));
-        }
-        for plate in [&mut self.plates.base, &mut self.plates.platform].into_iter().flatten() {
-            for x in [
-                &mut plate.thickness,
-                &mut plate.margin,
-                &mut plate.hole,
-                &mut plate.edge_distance,
-                &mut plate.hole_distance,
-            ] {
-                *x = ratio.of(*x);
-            }
-            length(&mut plate.height);
-            length(&mut plate.foot);
-            if let Some(bolts) = &mut plate.bolts {
-                (bolts.circle, bolts.hole) = (ratio.of(bolts.circle), ratio.of(bolts.hole));
-            }
-        }
-        for (kind, reserve) in &mut self.reserves.kinds {
-            let Reserve::Amount(x) = reserve else { continue };
-            match kind.quantity() {
-                Quantity::Length | Quantity::Speed | Quantity::AngularStiffness | Quantity::Torque => {
-                    *x = ratio.of(*x);
-                }
-                Quantity::LinearStiffness => *x = ratio.inverse().of(*x),
-                Quantity::Angle | Quantity::Force | Quantity::Frequency | Quantity::AngularSpeed => {}
-            }
-        }
-        if let Some(payload) = &mut self.payload {
-            payload.center = ratio.point(payload.center);
-            payload.inertia = payload.inertia.map(|m| m.map(|x| ratio.of(ratio.of(x))));
-            payload.shape = payload.shape.map(|shape| scaled_shape(&shape, ratio));
-        }
-        for load in &mut self.loads {
-            load.torque = ratio.vector(load.torque);
-            load.at = ratio.point(load.at);
-        }
-        for keep_out in &mut self.keep_outs {
-            keep_out.shape = scaled_shape(&keep_out.shape, ratio);
-        }
-    }
-}
-
-fn scaled_shape(shape: &KeepOutShape, ratio: LengthRatio) -> KeepOutShape {
-    match *shape {
-        KeepOutShape::Box { center, size } => {
-            KeepOutShape::Box { center: ratio.point(center), size: ratio.vector(size) }
-        }
-        KeepOutShape::Sphere { center, diameter } => {
-            KeepOutShape::Sphere { center: ratio.point(center), diameter: ratio.of(diameter) }
-        }
-        KeepOutShape::Capsule { from, to, diameter } => KeepOutShape::Capsule {
-            from: ratio.point(from),
-            to: ratio.point(to),
-            diameter: ratio.of(diameter),
-        },
-    }
-}
-
-fn scale_construction(made: &mut Construction, ratio: LengthRatio) -> Result<(), NotScaled> {
-    match made {
-        Construction::Coordinates(list) => {
-            for x in list {
-                *x = ratio.written(x)?;
-            }
-        }
-        Construction::OnLine { at: LinePlace::Offset(x), .. } => *x = ratio.written(x)?,
-        Construction::Polar { radius, z, .. } => {
-            *radius = ratio.written(radius)?;
-            if let Some(z) = z {
-                *z = ratio.written(z)?;
-            }
-        }
-        Construction::OnLine { .. } | Construction::Turned { .. } | Construction::Mirrored { .. } => {}
-    }
-    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{Format, parse};
+    use crate::design::parse;
+    use machine::requirements::{KeepOutShape, LengthLimits};
+    use nalgebra::Point3;
+    use platform::manipulator::Body;
 
     const TEXT: &str = include_str!("../../../designs/symmetric-hexapod.toml");
 

@@ -356,7 +356,7 @@ pub(super) fn of_mark(mark: &str) -> Option<String> {
 /// The table behind `<!-- keys of design [TABLES] -->`: the keys at the top of a design file, or those of some of its tables. `None` where one is not a table.
 pub(super) fn of_design(mark: &str) -> Option<String> {
     let mut names = mark.split(' ');
-    let mut schema: Value = serde_json::from_str(SCHEMA).ok()?;
+    let mut schema: Value = serde_json::from_str(&SCHEMA).ok()?;
     if names.next() != Some("design") {
         return None;
     }

@@ -104,14 +104,6 @@ impl WrittenNumber {
         &self.written
     }
 
-    /// As it is written, without quotes.
-    pub(super) fn spelled(&self) -> String {
-        match &self.written {
-            Spelling::Number(x) => format!("{x:?}"),
-            Spelling::Text(text) => text.clone(),
-        }
-    }
-
     pub(super) fn expression(&self) -> &Expression {
         &self.tree
     }

@@ -11,7 +11,7 @@ use super::{
     WrittenNumber, exact_double,
 };
 use crate::design::Code;
-use crate::design::validate::nearest_help;
+use crate::design::keys::nearest_help;
 use num::real::{NoReal, RealNumber};
 use platform::manipulator::Body;
 

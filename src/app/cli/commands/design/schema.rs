@@ -25,7 +25,7 @@ fn names() -> Vec<&'static str> {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let schema = match records::schema(&args.of) {
         Some(schema) => schema,
-        None => serde_json::from_str(SCHEMA)
+        None => serde_json::from_str(&SCHEMA)
             .map_err(|e| Failure::internal(format!("the schema of designs is not JSON: {e}")))?,
     };
     let text = format!("{:#}\n", Value::Object(schema.clone()));

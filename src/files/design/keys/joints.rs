@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Point3;
 
 use super::constructions::{self, Places};
-use super::{nearest, numbers, shown};
+use super::found::{self, nearest, numbers, shown};
 use crate::design::construction::{Construction, Constructions};
 use crate::design::tree::{Entry, Node, Span, Value};
 use crate::design::violation::Findings;
@@ -97,7 +97,7 @@ pub(super) fn body(report: &mut Findings<'_>, which: Body, entry: &Entry) -> Opt
         report.refuse(Code::WrongType, &entry.node.span, message, help);
         return None;
     }
-    let entries = super::table(report, &entry.node, &format!("[{which}]"))?;
+    let entries = found::table(report, &entry.node, &format!("[{which}]"))?;
     let mut body = NamedJoints {
         body: which,
         span: entry.key_span.clone(),

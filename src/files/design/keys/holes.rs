@@ -1,21 +1,111 @@
 //! `[holes]`: grids on which the joints of the plates can be put.
 
-use super::tables::positive;
-use super::{check_keys, nearest_help, number, numbers, shown, table, text};
-use crate::design::Code;
+use serde::Serialize;
+use serde_json::{Map, Value as Json, json};
+
+use super::found::{check_keys, nearest_help, number, shown, table};
+use super::kind::{Kind, Numbers, Shape, any, numbers, own, positive, table as table_of, unit, word};
+use super::stored::{Stored, Word};
+use super::{Code, Found, Table, key};
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern};
+use platform::manipulator::Body;
 
-/// The plates, base first.
-pub(super) const PLATE_KEYS: [&str; 2] = ["base", "platform"];
-/// The keys of a grid.
-pub(super) const GRID_KEYS: [&str; 8] =
-    ["pattern", "pitch", "first_radius", "radii", "step_deg", "count", "origin", "angle_deg"];
 /// Most holes on a circle.
 const MOST_HOLES: f64 = 1e6;
 /// Share by which a step may miss a whole number of holes.
 const WHOLE: f64 = 1e-9;
+
+static ORIGIN: Numbers = Numbers::coordinates(2, "coordinates x, y of a hole");
+const LENGTHS: Kind = own(
+    r##"{"oneOf": [{"$ref": "#/$defs/positive"}, {"type": "array", "minItems": 1, "maxItems": 16, "items": {"$ref": "#/$defs/positive"}}]}"##,
+    unit::LENGTH,
+);
+
+const COUNTS: Kind = own(
+    r#"{"oneOf": [
+        {"type": "integer", "minimum": 1, "maximum": 1000000},
+        {"type": "array", "minItems": 1, "maxItems": 16, "items": {"type": "integer", "minimum": 1, "maximum": 1000000}}
+    ]}"#,
+    unit::NONE,
+);
+
+/// A grid, as it is written.
+#[derive(Default)]
+struct GridKeys {
+    pattern: Option<HolePattern>,
+    pitch: Option<f64>,
+    first_radius: Option<f64>,
+    radii: Option<Vec<f64>>,
+    counts: Vec<u32>,
+    origin: Option<[f64; 2]>,
+    angle_deg: Option<f64>,
+}
+
+static GRID: Table<GridKeys> = Table {
+    definition: "hole_grid",
+    keys: &[
+        key!("pattern" { default = r#""square""# }: word(HolePattern::words),
+            |found, to| to.pattern = pattern(found), |of| of.pattern.unwrap_or_default().written();
+            ""),
+        key!("pitch": positive(unit::LENGTH), pitch;
+            "distance of neighbouring holes, or of the rings of a polar grid"),
+        key!("first_radius": positive(unit::LENGTH), first_radius;
+            "radius of the innermost ring of a polar grid"),
+        key!("radii": LENGTHS,
+            |found, to| to.radii = radii(found.report, found.entry), |of| list(of.radii.as_ref()?);
+            "radii of bolt circles"),
+        key!("step_deg": Kind { unit: unit::DEGREES, ..LENGTHS };
+            "angle between neighbouring holes of a ring or of each bolt circle; a whole number of them makes 360"),
+        key!("count": COUNTS,
+            |_, _| (),
+            |of| match of.pattern? {
+                HolePattern::Polar => Some(json!(of.counts.first()?)),
+                _ => list(&of.counts),
+            };
+            "number of holes of a ring or of each bolt circle, instead of step_deg"),
+        key!("origin" { default = "[0, 0]" }: numbers(&ORIGIN, unit::LENGTH).placed(), origin;
+            "a hole, or the centre of the circles"),
+        key!("angle_deg" { default = "0" }: any(unit::DEGREES).placed(), angle_deg; "turn of the grid"),
+    ],
+    ..Table::EMPTY
+};
+
+/// The keys of `[holes]` beside those of a grid for both plates.
+pub(super) static HOLES: Table<[Option<Grid>; 2]> = Table {
+    keys: &[
+        key!("base": table_of(&GRID),
+            |_, _| (), |of| GRID.put(&GridKeys::from(of[0].as_ref()?));
+            "of the base alone: keys instead of the common ones, or with pattern instead of all of them"),
+        key!("platform": table_of(&GRID),
+            |_, _| (),
+            |of| GRID
+            .put(&GridKeys::from(of[1].as_ref()?));
+            "of the platform alone, likewise"),
+    ],
+    rules: r#"{"minProperties": 1}"#,
+    ..Table::EMPTY
+};
+
+/// `[holes]`: the keys of a grid for both plates, and grids of single plates.
+pub(super) struct HolesShape;
+
+pub(super) static HOLES_SHAPE: HolesShape = HolesShape;
+
+impl Shape for HolesShape {
+    fn kind(&self, key: &str) -> Option<Kind> {
+        HOLES.kind(key).or_else(|| GRID.kind(key))
+    }
+
+    fn schema(&self, definitions: &mut Map<String, Json>) -> Json {
+        let mut out = HOLES.schema(definitions);
+        for key in GRID.names() {
+            out["properties"][key] = json!({"$ref": format!("#/$defs/hole_grid/properties/{key}")});
+        }
+        out
+    }
+}
 
 /// The keys that a grid of a pattern can have.
 fn keys_of(pattern: HolePattern) -> &'static [&'static str] {
@@ -33,11 +123,11 @@ pub(super) fn holes(report: &mut Findings<'_>, top: &[Entry]) -> Option<[Option<
     let place = "[holes]";
     let entry = find(top, "holes")?;
     let entries = table(report, &entry.node, place)?;
-    let known: Vec<&str> = PLATE_KEYS.into_iter().chain(GRID_KEYS).collect();
+    let known: Vec<&str> = HOLES.names().into_iter().chain(GRID.names()).collect();
     check_keys(report, entries, &known, place);
-    let is_common = |e: &&Entry| GRID_KEYS.contains(&e.key.as_str());
+    let is_common = |e: &&Entry| GRID.kind(&e.key).is_some();
     let common: Vec<&Entry> = entries.iter().filter(is_common).collect();
-    let plates = PLATE_KEYS.map(|key| find(entries, key));
+    let plates = Body::BOTH.map(|body| find(entries, body.name()));
     if common.is_empty() && plates.iter().all(Option::is_none) {
         let help = "add pitch = 25 for both plates, or [holes.base] for one";
         report.refuse(Code::MissingKey, &entry.key_span, format!("{place} has no grid"), help);
@@ -54,7 +144,7 @@ pub(super) fn holes(report: &mut Findings<'_>, top: &[Entry]) -> Option<[Option<
         Some(plate) => {
             let place = format!("`{}` of {place}", plate.key);
             let own = table(report, &plate.node, &place)?;
-            check_keys(report, own, &GRID_KEYS, &place);
+            check_keys(report, own, &GRID.names(), &place);
             let own: Vec<&Entry> = own.iter().filter(is_common).collect();
             let stated = |key: &str| own.iter().any(|e| e.key == key);
             // another pattern has other keys: none of the common ones is meant for it
@@ -73,9 +163,11 @@ fn is_stated(stated: &impl Fn(&str) -> bool, key: &str) -> bool {
 
 fn grid(report: &mut Findings<'_>, list: &[&Entry], span: &Span, place: &str) -> Option<Grid> {
     let entries: Vec<Entry> = list.iter().map(|e| (*e).clone()).collect();
+    let mut grid = GridKeys::default();
+    GRID.fill(report, &entries, place, &mut grid, |key| key == "pattern");
     let pattern = match find(&entries, "pattern") {
         None => HolePattern::default(),
-        Some(e) => pattern(report, e)?,
+        Some(_) => grid.pattern?,
     };
     let keys = keys_of(pattern);
     let whose = format!("a {} grid", pattern.name());
@@ -83,47 +175,55 @@ fn grid(report: &mut Findings<'_>, list: &[&Entry], span: &Span, place: &str) ->
         let message = format!("`{}` is not a key of {whose}", shown(&e.key));
         report.refuse(Code::UnknownKey, &e.key_span, message, nearest_help("its keys", &e.key, keys));
     }
-    let mut needed = |key: &str, help: &str| {
+    for (key, help) in [
+        ("pitch", "add pitch = 25, the distance of neighbouring holes or rings"),
+        ("first_radius", "add first_radius = 100, the radius of the innermost ring"),
+        ("radii", "add radii = [100, 150], the radii of the bolt circles"),
+    ] {
         if keys.contains(&key) && find(&entries, key).is_none() {
-            let message = format!("{place} has no `{key}`");
-            report.refuse(Code::MissingKey, span, message, help);
+            report.refuse(Code::MissingKey, span, format!("{place} has no `{key}`"), help);
         }
+    }
+    GRID.fill(report, &entries, place, &mut grid, |key| key != "pattern" && keys.contains(&key));
+    let first = || Some(vec![grid.first_radius?]);
+    let (radii, count) = match pattern {
+        HolePattern::Square | HolePattern::Triangular => (None, None),
+        HolePattern::Polar => (first(), Some(1)),
+        HolePattern::BoltCircle => (grid.radii.clone(), grid.radii.as_ref().map(Vec::len)),
     };
-    needed("pitch", "add pitch = 25, the distance of neighbouring holes or rings");
-    needed("first_radius", "add first_radius = 100, the radius of the innermost ring");
-    needed("radii", "add radii = [100, 150], the radii of the bolt circles");
-    let origin = match find(&entries, "origin") {
-        None => Some([0.0; 2]),
-        Some(e) => {
-            let what = format!("`origin` of {place}");
-            numbers::<2>(report, &e.node, &what, Code::CoordinateCount, "coordinates x, y of a hole")
-        }
-    };
-    let angle_deg = match find(&entries, "angle_deg") {
-        None => Some(0.0),
-        Some(e) => number(report, &e.node, &format!("`angle_deg` of {place}")),
-    };
+    let counts = count.and_then(|count| counts(report, &entries, count, (span, place)));
     let circles = match pattern {
         HolePattern::Square | HolePattern::Triangular => Some(HoleCircles::NONE),
-        HolePattern::Polar => {
-            let counts = counts(report, &entries, 1, (span, place));
-            let radius = positive(report, &entries, "first_radius");
-            radius.zip(counts).and_then(|(radius, counts)| {
-                HoleCircles::new(&[HoleCircle { radius, holes: *counts.first()? }])
-            })
-        }
-        HolePattern::BoltCircle => radii(report, &entries).and_then(|radii| {
-            let counts = counts(report, &entries, radii.len(), (span, place))?;
-            let list: Vec<HoleCircle> = radii
-                .iter()
-                .zip(counts)
-                .map(|(radius, holes)| HoleCircle { radius: *radius, holes })
-                .collect();
-            HoleCircles::new(&list)
+        HolePattern::Polar | HolePattern::BoltCircle => radii.zip(counts).and_then(|(radii, counts)| {
+            let circle = |(radius, holes)| HoleCircle { radius, holes };
+            HoleCircles::new(&radii.into_iter().zip(counts).map(circle).collect::<Vec<_>>())
         }),
     };
-    let pitch = if keys.contains(&"pitch") { positive(report, &entries, "pitch") } else { Some(0.0) };
-    Some(Grid { pattern, pitch: pitch?, circles: circles?, origin: origin?, angle_deg: angle_deg? })
+    let known = |key: &str, value: Option<f64>| value.or(Some(0.0).filter(|_| find(&entries, key).is_none()));
+    Some(Grid {
+        pattern,
+        pitch: known("pitch", grid.pitch)?,
+        circles: circles?,
+        origin: grid.origin.or(Some([0.0; 2]).filter(|_| find(&entries, "origin").is_none()))?,
+        angle_deg: known("angle_deg", grid.angle_deg)?,
+    })
+}
+
+impl From<&Grid> for GridKeys {
+    fn from(g: &Grid) -> Self {
+        let circles = g.circles.as_slice();
+        let is_bolts = g.pattern == HolePattern::BoltCircle;
+        let first = circles.first().filter(|_| g.pattern == HolePattern::Polar);
+        Self {
+            pattern: Some(g.pattern),
+            pitch: Some(g.pitch).filter(|_| !is_bolts),
+            first_radius: first.map(|circle| circle.radius),
+            radii: is_bolts.then(|| circles.iter().map(|circle| circle.radius).collect()),
+            counts: circles.iter().map(|circle| circle.holes).collect(),
+            origin: Some(g.origin),
+            angle_deg: Some(g.angle_deg),
+        }
+    }
 }
 
 /// The numbers of a value that is a number or a list of them, with their nodes.
@@ -138,8 +238,7 @@ fn one_or_more<'a>(report: &mut Findings<'_>, entry: &'a Entry) -> Option<Vec<(f
 }
 
 /// `radii`.
-fn radii(report: &mut Findings<'_>, entries: &[Entry]) -> Option<Vec<f64>> {
-    let entry = find(entries, "radii")?;
+fn radii(report: &mut Findings<'_>, entry: &Entry) -> Option<Vec<f64>> {
     let all = one_or_more(report, entry)?;
     if all.is_empty() || all.len() > HoleCircles::MOST {
         let message = format!("`radii` has {} numbers", all.len());
@@ -206,13 +305,16 @@ fn counts(
     Some((0..circles).map(|k| found[if found.len() == 1 { 0 } else { k }]).collect())
 }
 
-fn pattern(report: &mut Findings<'_>, entry: &Entry) -> Option<HolePattern> {
-    let word = text(report, entry)?;
-    let found = HolePattern::ALL.into_iter().find(|p| p.name() == word);
-    if found.is_none() {
-        let message = format!("`{}` is no pattern of holes", shown(&word));
-        let help = nearest_help("patterns", &word, &HolePattern::ALL.map(HolePattern::name));
-        report.refuse(Code::UnknownKey, &entry.node.span, message, help);
+fn pattern(found: &mut Found<'_, '_>) -> Option<HolePattern> {
+    let word = found.text()?;
+    let pattern = HolePattern::of(&word);
+    if pattern.is_none() {
+        let help = nearest_help("patterns", &word, &HolePattern::words());
+        found.refuse(Code::UnknownKey, format!("`{}` is no pattern of holes", shown(&word)), help);
     }
-    found
+    pattern
+}
+
+fn list<T: Serialize>(list: &[T]) -> Option<Json> {
+    (!list.is_empty()).then(|| json!(list))
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Unit, Vector3};
 
+use super::hardware::is_normal;
 use super::joint_models::check_axes;
-use super::tables::is_normal;
 use crate::design::DesignModel;
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
@@ -45,7 +45,8 @@ pub(super) fn named(node: &Node) -> [bool; 6] {
     }
 }
 
-/// The normal of the greatest triangle of the joints, towards the other body at home on the base, away from it on the platform.
+/// The normal of the greatest triangle of the joints, towards the other body at home on the base, away from it on the
+/// platform.
 fn normal(design: &DesignModel, body: Body) -> Unit<Vector3<f64>> {
     let (m, home) = (design.manipulator(), design.home_or_default());
     let lines: Vector3<f64> = m.legs().iter().map(|l| home.transform(&l.platform) - l.base).sum();

@@ -1,18 +1,24 @@
 //! `base_joint`, `platform_joint` and `screw_lead` of `[hardware]`: what kind of joints a body has.
 
 use nalgebra::{Unit, Vector3};
+use serde_json::Value as Json;
 
 use super::axes::named;
-use super::tables::{angle_to_half_turn, axis, housing, joint_axes, not_negative, positive};
-use super::{check_keys, element_span, number, numbers, shown, table, text};
-use crate::design::Code;
-use crate::design::tree::{Entry, Node, Value, find};
+use super::found::{check_keys, element_span, numbers, table};
+use super::hardware::{HOUSING, axis};
+use super::kind::{
+    Kind, Range, Shape, angle, either, list_of, not_negative, own, positive, table as table_of, unit, vector,
+    word,
+};
+use super::stored::{Item, Stored, Word};
+use super::{Code, Found, Table, key};
+use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
-use machine::requirements::{Hardware, Housing, JointAxes, UniversalJoint};
+use machine::requirements::{Hardware, Housing, JointAxes, JointType, UniversalJoint};
 use platform::manipulator::Body;
 
 /// What the joints of a body are, leg by leg.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct JointModel {
     pub(super) universal: Option<UniversalJoint>,
     pub(super) bending: [Option<f64>; 6],
@@ -23,8 +29,11 @@ pub(super) struct JointModel {
 }
 
 /// What a table says of the joint of one leg, or of those of all.
-#[derive(Debug, Clone, Copy, Default)]
-struct JointTable {
+#[derive(Default, Clone, Copy)]
+struct JointKeys {
+    model: Option<JointType>,
+    /// The table is about all legs.
+    is_of_all: bool,
     /// Of universal joints.
     first_axes: Option<[Unit<Vector3<f64>>; 6]>,
     limits_deg: Option<[f64; 2]>,
@@ -34,27 +43,72 @@ struct JointTable {
     housing: Option<Housing>,
 }
 
-pub(super) const KEYS: [&str; 7] =
-    ["model", "first_axis", "angle_deg", "offset", "housing", "swing_deg", "bending_stiffness"];
+/// One table for all joints of a body, or six in leg order.
+pub(super) const JOINT_MODELS: Kind = either(&JOINT_KINDS);
+static JOINT_KINDS: [Kind; 2] = [ONE_JOINT, list_of(6, &ONE_JOINT_KIND)];
+static ONE_JOINT_KIND: Kind = ONE_JOINT;
+const ONE_JOINT: Kind = table_of(&JOINT);
 
-/// The keys of a model besides its name.
-fn keys_of(model: &str) -> Option<&'static [&'static str]> {
-    match model {
-        "ball" => Some(&KEYS[4..6]),
-        "universal" => Some(&KEYS[1..6]),
-        "flexure" => Some(&KEYS[4..]),
-        _ => None,
+const TWO_ANGLES: Kind = own(
+    r#"{
+        "type": "array",
+        "minItems": 2,
+        "maxItems": 2,
+        "prefixItems": [
+            {"type": "number", "exclusiveMinimum": 0, "maximum": 180},
+            {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 90}
+        ],
+        "items": false
+    }"#,
+    unit::DEGREES,
+);
+
+static JOINT: Table<JointKeys> = Table {
+    definition: "joint_model",
+    keys: &[
+        key!("model" { required = "add model = \"universal\", \"flexure\" or \"ball\"" }: word(JointType::words), model;
+            "`ball`: turns freely in a cone; `universal`: two axes, the first fixed in the body, the second at a right angle to it and to the leg; `flexure`: bends about its centre, within the cone of the swing"),
+        key!("first_axis": either(&[vector(unit::NONE), list_of(6, &vector(unit::NONE))]),
+            |found, to| to.first_axes = first_axes(found, to.is_of_all),
+            |of| Some(first_axes_json(&of.first_axes?));
+            "universal: direction of the first axis in the frame of the body, one for all joints or six in leg order, in a list of tables one; required"),
+        key!("angle_deg": TWO_ANGLES,
+            |found, to| to.limits_deg = limits(found.report, found.entry), |of| of.limits_deg.written();
+            "universal: greatest angles about the first and about the second axis, either way, degrees; none when absent"),
+        key!("offset" { default = "0" }: not_negative(unit::LENGTH),
+            |found, to| found.fill(&mut to.offset), |of| Some(of.offset).filter(|x| *x != 0.0).written();
+            "universal: distance of the two axes, which meet when it is 0"),
+        key!("housing": HOUSING, housing;
+            "the room that the joint takes up, in place of that of the body: a diameter, or edge lengths of a box along the axes of the body"),
+        key!("swing_deg": angle(Range::HalfTurn), swing_deg;
+            "greatest angle between the leg and the axis of the joint, in place of that of the body (`base_swing_deg`, `platform_swing_deg`)"),
+        key!("bending_stiffness": positive(unit::TORQUE), bending;
+            "flexure: torque over angle, force units times design units per radian; required"),
+    ],
+    ..Table::EMPTY
+};
+
+/// Whether joints of a model have a key.
+fn has_key(model: JointType, key: &str) -> bool {
+    match key {
+        "model" | "housing" | "swing_deg" => true,
+        "bending_stiffness" => model == JointType::Flexure,
+        _ => model == JointType::Universal,
     }
 }
 
-/// The joints of a body, and its axes, which need joints that are measured from them.
-pub(super) fn joint_model(report: &mut Findings<'_>, entries: &[Entry], body: Body) -> JointModel {
+/// The joints of a body with their axes, which need joints that are measured from them.
+pub(super) fn with_axes(
+    report: &mut Findings<'_>,
+    entries: &[Entry],
+    body: Body,
+    (found, given): (JointModel, Option<JointAxes>),
+) -> JointModel {
     let [table_key, axes_key, swing_key] = body.of((
         ["base_joint", "base_axes", "base_swing_deg"],
         ["platform_joint", "platform_axes", "platform_swing_deg"],
     ));
     let joint = find(entries, table_key);
-    let found = joint.and_then(|e| models(report, e, table_key)).unwrap_or_default();
     let axes = find(entries, axes_key);
     let swing = find(entries, swing_key);
     let own_swing = found.swing_deg.iter().any(Option::is_some);
@@ -71,22 +125,17 @@ pub(super) fn joint_model(report: &mut Findings<'_>, entries: &[Entry], body: Bo
         report.refuse(Code::MissingKey, &e.key_span, message, help);
     }
     let Some(universal) = found.universal else { return found };
-    // faults of the axes are reported where swing reads them
-    let axes = match axes {
-        Some(e) if swing.is_none() => joint_axes(report, e).map(|axes| (e, axes)),
-        Some(e) => quiet_axes(e).map(|axes| (e, axes)),
-        None => None,
-    };
     // normals are known later
-    if let Some((e, axes)) = axes.filter(|(e, _)| !named(&e.node).contains(&true)) {
-        check_axes(report, e, axes, &universal);
+    if let (Some(e), Some(given)) = (axes.filter(|e| !named(&e.node).contains(&true)), given) {
+        check_axes(report, e, given, &universal);
     }
-    let axes = axes.map_or(JointAxes::Home, |(_, axes)| axes);
+    let axes = given.unwrap_or(JointAxes::Home);
     JointModel { universal: Some(UniversalJoint { axes, ..universal }), ..found }
 }
 
 /// One table for all joints, or six in leg order.
-fn models(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointModel> {
+pub(super) fn models(found: &mut Found<'_, '_>) -> Option<JointModel> {
+    let (report, entry, key) = (&mut *found.report, found.entry, &found.entry.key);
     let Value::Array(list) = &entry.node.value else {
         let place = format!("`{key}` of [hardware]");
         let one = model(report, &entry.node, &entry.key_span, &place, true)?;
@@ -108,7 +157,7 @@ fn models(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointMo
         report.refuse(Code::WrongType, &entry.node.span, message, help);
         return None;
     }
-    let mut all = [JointTable::default(); 6];
+    let mut all = [JointKeys::default(); 6];
     let mut are_read = true;
     for (i, node) in list.iter().enumerate() {
         let place = format!("`{key}` of leg {} in [hardware]", i + 1);
@@ -137,20 +186,15 @@ fn models(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointMo
     })
 }
 
-/// Axes that do not meet are those of all six joints of a body: the lengths of its drives are computed for all legs in one way.
-fn one_offset(report: &mut Findings<'_>, list: &[Node], all: &[JointTable; 6]) {
+/// Axes that do not meet are those of all six joints of a body: the lengths of its drives are computed for all legs
+/// in one way.
+fn one_offset(report: &mut Findings<'_>, list: &[Node], all: &[JointKeys; 6]) {
     let Some(offset) = all.iter().map(|joint| joint.offset).find(|x| *x != 0.0) else { return };
     if let Some(i) = all.iter().position(|joint| joint.offset.to_bits() != offset.to_bits()) {
         let message = format!("leg {} has a joint without the `offset` of {offset} of the others", i + 1);
         let help = "give all six joints of the body the model \"universal\" with the same `offset`, or none an offset";
         report.refuse(Code::ConflictingKeys, &list[i].span, message, help);
     }
-}
-
-/// Axes that have been read before.
-fn quiet_axes(entry: &Entry) -> Option<JointAxes> {
-    let mut nobody = Findings::new("");
-    joint_axes(&mut nobody, entry)
 }
 
 /// Universal joints have axes that are known and that are not their first axes.
@@ -176,73 +220,55 @@ pub(super) fn check_axes(report: &mut Findings<'_>, entry: &Entry, axes: JointAx
     }
 }
 
-/// A table of joints; `of_all`: it is about all legs.
+/// A table of joints.
 fn model(
     report: &mut Findings<'_>,
     node: &Node,
-    span: &std::ops::Range<usize>,
+    span: &Span,
     place: &str,
-    of_all: bool,
-) -> Option<JointTable> {
+    is_of_all: bool,
+) -> Option<JointKeys> {
     let entries = table(report, node, place)?;
-    check_keys(report, entries, &KEYS, place);
-    let Some(word) = find(entries, "model") else {
-        let help = "add model = \"universal\", \"flexure\" or \"ball\"";
-        report.refuse(Code::MissingKey, span, format!("`model` of {place} is missing"), help);
-        return None;
+    check_keys(report, entries, &JOINT.names(), place);
+    let mut keys = JointKeys { is_of_all, ..JointKeys::default() };
+    let missing = |report: &mut Findings<'_>, key: &str, help: &str| {
+        let is_missing = find(entries, key).is_none();
+        if is_missing {
+            report.refuse(Code::MissingKey, span, format!("`{key}` of {place} is missing"), help);
+        }
+        is_missing
     };
-    let name = text(report, word)?;
-    let Some(own) = keys_of(&name) else {
-        let message = format!("`model` is \"{}\"", shown(&name));
-        report.refuse(
-            Code::WrongType,
-            &word.node.span,
-            message,
-            "write \"ball\", \"universal\" or \"flexure\"",
-        );
+    if missing(report, "model", JOINT.keys[0].required) {
         return None;
-    };
-    for other in
-        entries.iter().filter(|e| KEYS[1..].contains(&e.key.as_str()) && !own.contains(&e.key.as_str()))
-    {
-        let message = format!("`{}` is no key of joints whose model is \"{name}\"", other.key);
+    }
+    JOINT.fill(report, entries, place, &mut keys, |key| key == "model");
+    let model = keys.model?;
+    for other in entries.iter().filter(|e| JOINT.kind(&e.key).is_some() && !has_key(model, &e.key)) {
+        let message = format!("`{}` is no key of joints whose model is \"{}\"", other.key, model.name());
         report.refuse(Code::ConflictingKeys, &other.key_span, message, "remove it, or change the model");
     }
-    let swing_deg = angle_to_half_turn(report, entries, "swing_deg");
-    let housing = housing(report, entries, "housing");
-    let found = JointTable { swing_deg, housing, ..JointTable::default() };
-    Some(match name.as_str() {
-        "universal" => {
-            let Some(first) = find(entries, "first_axis") else {
-                let help =
-                    "add first_axis = [x, y, z], in the frame of the body, or six vectors in leg order";
-                let message = format!("`first_axis` of {place} is missing");
-                report.refuse(Code::MissingKey, span, message, help);
-                return None;
-            };
-            let first_axes =
-                if of_all { first_axes(report, first)? } else { [axis(report, &first.node, &first.key)?; 6] };
-            JointTable {
-                first_axes: Some(first_axes),
-                limits_deg: find(entries, "angle_deg").and_then(|e| limits(report, e)),
-                offset: not_negative(report, entries, "offset").unwrap_or_default(),
-                ..found
-            }
+    JOINT.fill(report, entries, place, &mut keys, |key| key != "model" && has_key(model, key));
+    match model {
+        JointType::Universal => {
+            let help = "add first_axis = [x, y, z], in the frame of the body, or six vectors in leg order";
+            missing(report, "first_axis", help);
+            keys.first_axes?;
         }
-        "flexure" => {
-            if find(entries, "bending_stiffness").is_none() {
-                let message = format!("`bending_stiffness` of {place} is missing");
-                let help = "add it, in force units times design units per radian";
-                report.refuse(Code::MissingKey, span, message, help);
-            }
-            JointTable { bending: positive(report, entries, "bending_stiffness"), ..found }
+        JointType::Flexure => {
+            let help = "add it, in force units times design units per radian";
+            missing(report, "bending_stiffness", help);
         }
-        _ => found,
-    })
+        JointType::Ball => {}
+    }
+    Some(keys)
 }
 
 /// One direction for all joints, or six in leg order.
-fn first_axes(report: &mut Findings<'_>, entry: &Entry) -> Option<[Unit<Vector3<f64>>; 6]> {
+fn first_axes(found: &mut Found<'_, '_>, is_of_all: bool) -> Option<[Unit<Vector3<f64>>; 6]> {
+    let (report, entry) = (&mut *found.report, found.entry);
+    if !is_of_all {
+        return axis(report, &entry.node, &entry.key).map(|one| [one; 6]);
+    }
     let is_list = |node: &Node| matches!(node.value, Value::Array(_));
     match &entry.node.value {
         Value::Array(list) if list.len() == 6 && list.iter().all(is_list) => {
@@ -276,23 +302,18 @@ fn limits(report: &mut Findings<'_>, entry: &Entry) -> Option<[f64; 2]> {
     Some(limits)
 }
 
-/// `screw_lead`, which couples the turn of one universal joint against the other to the length.
-pub(super) fn screw_lead(
-    report: &mut Findings<'_>,
-    entries: &[Entry],
-    joints: [&JointModel; 2],
-) -> Option<f64> {
-    let entry = find(entries, "screw_lead")?;
-    let lead = number(report, &entry.node, "`screw_lead`")?;
+/// `screw_lead` couples the turn of one universal joint against the other to the length.
+pub(super) fn check_screw_lead(report: &mut Findings<'_>, entries: &[Entry], joints: [&JointModel; 2]) {
+    let Some(entry) = find(entries, "screw_lead") else { return };
     if joints.iter().any(|joint| !joint.universal.is_some_and(|j| j.is_of_all())) {
         let message = "`screw_lead` is about legs with universal joints at both ends";
         let help = "ball joints leave the turn of a leg about itself free, so that it has no lead: give `base_joint` and `platform_joint` the model \"universal\", or remove `screw_lead`";
         report.refuse(Code::MissingKey, &entry.key_span, message, help);
     }
-    Some(lead)
 }
 
-/// Refuses joints that are not ideal where what is asked for takes the length of a drive for the distance of its joints.
+/// Refuses joints that are not ideal where what is asked for takes the length of a drive for the distance of its
+/// joints.
 pub(super) fn refuse_coupled(report: &mut Findings<'_>, top: &[Entry], hardware: &Hardware, takes: bool) {
     if takes || !hardware.is_coupled() {
         return;
@@ -301,4 +322,51 @@ pub(super) fn refuse_coupled(report: &mut Findings<'_>, top: &[Entry], hardware:
     let message = "the joints are not ideal (`offset` of universal joints or `screw_lead`), and what is asked for takes the length of a drive for the distance of its joints";
     let help = "`equipod ik`, `fk --near`, `assess`, `export --to c` and `design convert` take such joints; without `offset` and `screw_lead` the file has the machine with ideal joints";
     report.refuse(Code::NotIdeal, &entry.key_span, message, help);
+}
+
+/// The joints of a body; nothing where all are balls with one limit and the housing of the body.
+pub(super) fn written(h: &Hardware, body: Body) -> Option<Json> {
+    let universal = h.universal(body);
+    let swing = body.of((h.base_swing, h.platform_swing));
+    let (bending, housings) =
+        body.of(((h.base_bending, h.base_joint_housing), (h.platform_bending, h.platform_joint_housing)));
+    let joint = |leg: usize, first_axes: Option<[Unit<Vector3<f64>>; 6]>| {
+        let model = h.joint_kind(body, leg);
+        let own = universal.filter(|_| model == JointType::Universal);
+        JointKeys {
+            model: Some(model),
+            is_of_all: false,
+            first_axes,
+            limits_deg: own.and_then(|joint| joint.limits_deg[leg]),
+            offset: own.map_or(0.0, |joint| joint.offset),
+            bending: bending[leg],
+            // the limit of all legs stands beside the table
+            swing_deg: swing
+                .filter(|s| s.common_deg().is_none())
+                .map(|s| s.limits_deg[leg])
+                .filter(|deg| *deg < 180.0),
+            housing: housings[leg],
+        }
+    };
+    let first = |leg: usize| universal?.first_axes[leg];
+    let six: [Json; 6] =
+        std::array::from_fn(|leg| Json::Object(JOINT.write(&joint(leg, first(leg).map(|axis| [axis; 6])))));
+    let mut alike = six.clone();
+    alike.iter_mut().filter_map(Json::as_object_mut).for_each(|keys| {
+        keys.shift_remove("first_axis");
+    });
+    if alike.iter().any(|joint| *joint != alike[0]) || swing.is_some_and(|s| s.common_deg().is_none()) {
+        return Some(six.to_vec().into());
+    }
+    if h.joint_kind(body, 0) == JointType::Ball && housings[0].is_none() {
+        return None;
+    }
+    let all: Option<Vec<_>> = (0..6).map(first).collect();
+    JOINT.put(&joint(0, all.and_then(|all| all.try_into().ok())))
+}
+
+/// One direction where all are the same.
+fn first_axes_json(axes: &[Unit<Vector3<f64>>; 6]) -> Json {
+    let list = axes.map(|axis| axis.into_inner().json());
+    if list.iter().all(|axis| *axis == list[0]) { list[0].clone() } else { list.to_vec().into() }
 }

@@ -2,10 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use serde_json::{Value as Json, json};
+
 use super::cranks::CrankPlaces;
+use super::found::{LARGEST, check_keys, nearest_help, number, shown, table};
 use super::joints::NamedJoints;
-use super::{LARGEST, check_keys, nearest_help, number, shown, table};
-use crate::design::Code;
+use super::kind::{
+    Kind, Shape, either, list_of, quantities, quantity as quantity_of, table as table_of, unit, word,
+};
+use super::stored::{self, Word};
+use super::{Code, TEXT, Table, key};
 use crate::design::construction::expression::{Slip, function_names, is_name};
 use crate::design::construction::resolve::{Joints, Owner};
 use crate::design::construction::{
@@ -14,9 +20,96 @@ use crate::design::construction::{
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 
-/// Keys of joints that are given as tables; the first of each decides what the others are.
-const FORMS: [&[&str]; 4] =
-    [&["on", "t", "offset"], &["radius", "angle_deg", "z"], &["turn", "deg"], &["mirror", "plane"]];
+/// A point on the line of two joints.
+static ON_LINE: Table<()> = Table {
+    keys: &[
+        key!("on": list_of(2, &TEXT);
+            ""),
+        key!("t": quantity_of(unit::NONE); "share of the way from the first joint to the second"),
+        key!("offset": quantity_of(unit::LENGTH); "length from the first joint towards the second"),
+    ],
+    rules: r#"{
+        "required": ["on"],
+        "oneOf": [{"required": ["t"]}, {"required": ["offset"]}],
+        "description": "a point on the line of two joints of the same body"
+    }"#,
+    ..Table::EMPTY
+};
+
+/// A point in polar coordinates.
+static POLAR: Table<()> = Table {
+    keys: &[
+        key!("radius": quantity_of(unit::LENGTH); ""),
+        key!("angle_deg": quantity_of(unit::DEGREES); "from the x axis towards the y axis"),
+        key!("z": quantity_of(unit::LENGTH); "0 when absent"),
+    ],
+    rules: r#"{"required": ["radius", "angle_deg"]}"#,
+    ..Table::EMPTY
+};
+
+/// A rotated copy.
+static TURNED: Table<()> = Table {
+    keys: &[
+        key!("turn": TEXT; ""),
+        key!("deg": quantity_of(unit::DEGREES); "about the z axis of the frame of the body"),
+    ],
+    rules: r#"{"required": ["turn", "deg"], "description": "a joint of the same body, turned"}"#,
+    ..Table::EMPTY
+};
+
+/// A mirrored copy.
+static MIRRORED: Table<()> = Table {
+    keys: &[key!("mirror": TEXT; ""), key!("plane": word(CoordinatePlane::words); "")],
+    rules: r#"{"required": ["mirror", "plane"], "description": "a joint of the same body, mirrored in a plane of two axes"}"#,
+    ..Table::EMPTY
+};
+
+/// Tables of joints; the first key of each decides what the others are.
+static FORMS: [&Table<()>; 4] = [&ON_LINE, &POLAR, &TURNED, &MIRRORED];
+
+static JOINT: Kind = either(&[
+    quantities(3, unit::LENGTH),
+    table_of(&ON_LINE),
+    table_of(&POLAR),
+    table_of(&TURNED),
+    table_of(&MIRRORED),
+]);
+
+/// The joints of a body by name.
+pub(super) static BODY: Table<()> =
+    Table { definition: "body", named: Some(&JOINT), rules: r#"{"minProperties": 1}"#, ..Table::EMPTY };
+
+static PARAMETER: Kind = quantity_of(unit::NONE);
+
+/// `[parameters]` by name.
+pub(super) static PARAMETERS: Table<()> = Table {
+    named: Some(&PARAMETER),
+    rules: r#"{"propertyNames": {"pattern": "^[A-Za-z_][A-Za-z0-9_]*$"}}"#,
+    ..Table::EMPTY
+};
+
+/// A joint as it is written.
+pub(super) fn written(made: &Construction, names: &[String]) -> Json {
+    let name = |j: &usize| &names[*j];
+    match made {
+        Construction::Coordinates(list) => stored::quantities(list),
+        Construction::OnLine { through, at: LinePlace::Share(t) } => {
+            json!({"on": through.each_ref().map(name), "t": t.json()})
+        }
+        Construction::OnLine { through, at: LinePlace::Offset(offset) } => {
+            json!({"on": through.each_ref().map(name), "offset": offset.json()})
+        }
+        Construction::Polar { radius, angle_deg, z } => {
+            let mut out = json!({"radius": radius.json(), "angle_deg": angle_deg.json()});
+            if let Some(z) = z {
+                out["z"] = z.json();
+            }
+            out
+        }
+        Construction::Turned { joint, deg } => json!({"turn": name(joint), "deg": deg.json()}),
+        Construction::Mirrored { joint, plane } => json!({"mirror": name(joint), "plane": plane.name()}),
+    }
+}
 
 /// Where something that may be at fault stands.
 #[derive(Debug, Clone, Default)]
@@ -154,9 +247,9 @@ fn form(
     what: &str,
     names: &BTreeMap<String, usize>,
 ) -> Option<(Construction, Vec<Span>)> {
-    let Some(keys) = FORMS.into_iter().find(|keys| find(entries, keys[0]).is_some()) else {
-        let first = entries.iter().find(|e| FORMS.iter().all(|keys| !keys.contains(&e.key.as_str())));
-        let kinds = FORMS.map(|keys| keys[0]);
+    let Some(form) = FORMS.into_iter().find(|form| find(entries, form.keys[0].name).is_some()) else {
+        let first = entries.iter().find(|e| FORMS.iter().all(|form| form.kind(&e.key).is_none()));
+        let kinds = FORMS.map(|form| form.keys[0].name);
         let (span, help) = match first {
             Some(e) if !report.is_full() => (&e.key_span, nearest_help("known keys", &e.key, &kinds)),
             _ => (&node.span, format!("begin with one of {}", kinds.join(", "))),
@@ -164,7 +257,8 @@ fn form(
         report.refuse(Code::MissingKey, span, format!("{what} has none of {}", kinds.join(", ")), help);
         return None;
     };
-    check_keys(report, entries, keys, what);
+    let keys = form.names();
+    check_keys(report, entries, &keys, what);
     let span = |key: &str| find(entries, key).map_or_else(|| node.span.clone(), |e| e.node.span.clone());
     let mut number_of = |key: &str, optional: bool| match find(entries, key) {
         Some(e) => quantity(report, &e.node, &format!("`{key}` of {what}")).map(Some),

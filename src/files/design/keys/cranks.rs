@@ -1,9 +1,15 @@
 //! `drive` and `[cranks]`: rods on cranks in place of legs that change their lengths.
 
+use serde_json::{Map, Value as Json, json};
+
 use super::constructions::{Places, quantity, three_quantities};
+use super::found::{check_keys, nearest_help, shown, table, text};
 use super::joints::{Legs, NamedJoints};
-use super::tables::positive;
-use super::{check_keys, nearest_help, shown, table, text};
+use super::kind::{
+    Joined, Kind, Range, angle, positive, quantities, quantity as quantity_of, table as table_of, unit, word,
+};
+use super::stored::{self, Item, Stored, Word};
+use super::{Found, TEXT, Table, key};
 use crate::design::construction::{
     Constructions, CoordinatePlane, CrankCopy, CrankLimits, PARTS, WrittenCrank, WrittenCranks, WrittenNumber,
 };
@@ -12,13 +18,112 @@ use crate::design::violation::Findings;
 use crate::design::{Code, DesignModel};
 use machine::rotary::Elbow;
 
+/// A crank as it is written, with the places of its numbers and the names of all base joints.
+#[derive(Default)]
+struct CrankKeys {
+    written: WrittenCrank,
+    places: Places,
+    names: Vec<String>,
+}
+
 /// Keys of all cranks and of single ones.
-pub(super) const CRANK_KEYS: [&str; 6] = ["length", "rod_length", "axis", "zero", "elbow", "angle_deg"];
+static CRANK: Table<CrankKeys> = Table {
+    keys: &[
+        key!("length": quantity_of(unit::LENGTH),
+            |found, to| to.written.length = one(found, &mut to.places, 0),
+            |of| of.written.length.as_ref().map(WrittenNumber::json);
+            "of each crank, from its centre to its tip"),
+        key!("rod_length": quantity_of(unit::LENGTH),
+            |found, to| to.written.rod_length = one(found, &mut to.places, 1),
+            |of| of.written.rod_length.as_ref().map(WrittenNumber::json);
+            "of each rod, from the tip to the platform joint"),
+        key!("axis": quantities(3, unit::NONE),
+            |found, to| to.written.axis = three(found, &mut to.places, 2),
+            |of| of.written.axis.as_ref().map(|list| stored::quantities(list));
+            "direction of the axis, base frame; angles count about it by the right hand"),
+        key!("zero": quantities(3, unit::NONE),
+            |found, to| to.written.zero = three(found, &mut to.places, 5),
+            |of| of.written.zero.as_ref().map(|list| stored::quantities(list));
+            "direction of the tip at the angle 0, base frame; what of it is along the axis is left out"),
+        key!("elbow": word(Elbow::words),
+            |found, to| to.written.elbow = elbow(found), |of| of.written.elbow.written();
+            "the side that the crank stays on: the greater or the smaller of the two angles around the one at which the tip is nearest to the platform joint"),
+        key!("angle_deg": quantities(2, unit::DEGREES),
+            |found, to| to.written.angle_deg = range(found, &mut to.places),
+            |of| of.written.angle_deg.as_ref().map(|list| stored::quantities(list));
+            "`[least, greatest]` angle, degrees; none when absent"),
+    ],
+    ..Table::EMPTY
+};
+
 /// Keys of single cranks that are copies.
-pub(super) const COPY_KEYS: [&str; 4] = ["turn", "deg", "mirror", "plane"];
+static COPY: Table<CrankKeys> = Table {
+    keys: &[
+        key!("turn": TEXT, |_, _| (), |of| of.copy(0);
+            "the base joint of another crank: this one has its values, with axis and zero turned about the z axis of the base frame"),
+        key!("deg": quantity_of(unit::DEGREES), |_, _| (), |of| of.copy(1); "with `turn`"),
+        key!("mirror": TEXT, |_, _| (), |of| of.copy(2);
+            "the base joint of another crank: this one has its values, with zero mirrored and axis mirrored and reversed, so that equal angles are mirror images"),
+        key!("plane": word(CoordinatePlane::words), |_, _| (), |of| of.copy(3); "with `mirror`"),
+    ],
+    rules: r#"{"dependentRequired": {"turn": ["deg"], "deg": ["turn"], "mirror": ["plane"], "plane": ["mirror"]}}"#,
+    ..Table::EMPTY
+};
+
+impl CrankKeys {
+    /// The values of `turn`, `deg`, `mirror` and `plane`.
+    fn copy(&self, key: usize) -> Option<Json> {
+        let values = match self.written.copy.as_ref()? {
+            CrankCopy::Turned { crank, deg } => {
+                [Some(json!(self.names[*crank])), Some(deg.json()), None, None]
+            }
+            CrankCopy::Mirrored { crank, plane } => {
+                [None, None, Some(json!(self.names[*crank])), Some(plane.json())]
+            }
+        };
+        values.into_iter().nth(key)?
+    }
+}
+
 /// Keys of all cranks together.
-pub(super) const DRIVE_KEYS: [&str; 5] =
-    ["max_torque", "max_speed_deg", "least_transmission_deg", "tip_swing_deg", "platform_swing_deg"];
+static LIMITS: Table<CrankLimits> = Table {
+    keys: &[
+        key!("max_torque": positive(unit::TORQUE), max_torque;
+            "greatest torque of a crank, force units times design units"),
+        key!("max_speed_deg": positive(unit::DEGREES), max_speed_deg;
+            "greatest speed of a crank, degrees per second"),
+        key!("least_transmission_deg": angle(Range::Below(90)), least_transmission_deg;
+            "least transmission angle of a crank, degrees: the angle whose sine is that part of a push along the rod which turns the crank; 0 when absent"),
+        key!("tip_swing_deg": angle(Range::Below(90)), tip_swing_deg;
+            "how far the joint at the tip lets a rod lean out of the plane in which its crank turns, degrees"),
+        key!("platform_swing_deg": angle(Range::Below(180)), platform_swing_deg;
+            "how far the joint at the platform lets a rod swing from its direction at home, degrees"),
+    ],
+    ..Table::EMPTY
+};
+
+static ONE_CRANK: Joined = Joined { definition: "crank", shapes: &[&CRANK, &COPY], named: None };
+static ONE_CRANK_KIND: Kind = table_of(&ONE_CRANK);
+/// `[cranks]`: what holds for all cranks, and single ones by the names of their base joints.
+pub(super) static CRANKS: Joined =
+    Joined { definition: "", shapes: &[&CRANK, &LIMITS], named: Some(&ONE_CRANK_KIND) };
+
+/// The table as it is written.
+pub(super) fn written(cranks: &WrittenCranks, names: &[String]) -> Json {
+    let keys = |crank: &WrittenCrank| {
+        let (written, names) = (crank.clone(), names.to_vec());
+        CrankKeys { written, places: Places::default(), names }
+    };
+    let mut out = CRANK.write(&keys(&cranks.shared));
+    out.extend(LIMITS.write(&cranks.drives));
+    for (name, own) in names.iter().zip(&cranks.own) {
+        let Some(own) = own else { continue };
+        let own: Map<_, _> = CRANK.write(&keys(own)).into_iter().chain(COPY.write(&keys(own))).collect();
+        out.insert(name.clone(), Json::Object(own));
+    }
+    Json::Object(out)
+}
+
 /// What is about legs that change their lengths.
 const OF_LENGTHS: [&str; 7] =
     ["lengths", "hardware", "envelope", "plates", "keep_out", "optimize", "calibration"];
@@ -95,7 +200,7 @@ pub(super) fn cranks(
     let mut places =
         CrankPlaces { key: e.key_span.clone(), own: vec![None; names.len()], ..CrankPlaces::default() };
     let mut own = vec![None; names.len()];
-    let all_keys = || CRANK_KEYS.into_iter().chain(DRIVE_KEYS);
+    let all_keys = || CRANK.names().into_iter().chain(LIMITS.names());
     for entry in entries.iter().filter(|e| !all_keys().any(|key| key == e.key)) {
         if let Some(j) = joint(&entry.key) {
             (own[j], places.own[j]) = single(report, entry, &names).unzip();
@@ -110,35 +215,17 @@ pub(super) fn cranks(
     let shared;
     (shared, places.shared) = numbers(report, &e.node, entries, "all cranks");
     places.shared.whole = e.key_span.clone();
-    let drives = CrankLimits {
-        max_torque: positive(report, entries, DRIVE_KEYS[0]),
-        max_speed_deg: positive(report, entries, DRIVE_KEYS[1]),
-        least_transmission_deg: angle_below(report, entries, DRIVE_KEYS[2], 90.0),
-        tip_swing_deg: angle_below(report, entries, DRIVE_KEYS[3], 90.0),
-        platform_swing_deg: angle_below(report, entries, DRIVE_KEYS[4], 180.0),
-    };
+    let mut drives = CrankLimits::default();
+    LIMITS.fill(report, entries, "[cranks]", &mut drives, |_| true);
     places.unread = report.count() > before;
     Some((WrittenCranks { shared, own, drives, values: Vec::new() }, places))
-}
-
-/// A positive angle of less than so many degrees.
-fn angle_below(report: &mut Findings<'_>, entries: &[Entry], key: &str, most: f64) -> Option<f64> {
-    let angle = positive(report, entries, key)?;
-    if angle < most {
-        return Some(angle);
-    }
-    if let Some(e) = find(entries, key) {
-        let message = format!("`{key}` is {angle} degrees");
-        report.refuse(Code::OutOfRange, &e.node.span, message, format!("give an angle below {most} degrees"));
-    }
-    None
 }
 
 /// A table of one crank.
 fn single(report: &mut Findings<'_>, entry: &Entry, names: &[&str]) -> Option<(WrittenCrank, Places)> {
     let what = format!("the crank {}", shown(&entry.key));
     let entries = table(report, &entry.node, &what)?;
-    let known: Vec<&str> = CRANK_KEYS.into_iter().chain(COPY_KEYS).collect();
+    let known: Vec<&str> = CRANK.names().into_iter().chain(COPY.names()).collect();
     check_keys(report, entries, &known, &what);
     let (mut written, mut places) = numbers(report, &entry.node, entries, &what);
     places.whole = entry.key_span.clone();
@@ -146,56 +233,59 @@ fn single(report: &mut Findings<'_>, entry: &Entry, names: &[&str]) -> Option<(W
     Some((written, places))
 }
 
-/// What is said of one crank or of all.
+/// Numbers and the side of one crank or of all.
 fn numbers(report: &mut Findings<'_>, node: &Node, entries: &[Entry], what: &str) -> (WrittenCrank, Places) {
-    let mut places = Places { whole: node.span.clone(), parts: vec![node.span.clone(); PARTS] };
-    let mut one = |report: &mut Findings<'_>, key: &str, part: usize| {
-        let e = find(entries, key)?;
-        places.parts[part] = e.node.span.clone();
-        quantity(report, &e.node, &format!("`{key}` of {what}"))
-    };
-    let (length, rod_length) = (one(report, CRANK_KEYS[0], 0), one(report, CRANK_KEYS[1], 1));
-    let mut three = |report: &mut Findings<'_>, key: &str, first: usize| {
-        let e = find(entries, key)?;
-        let label = format!("`{key}` of {what}");
-        let (list, parts) = three_quantities(report, &e.node, &label, ("component", "components"))?;
-        places.parts.splice(first..first + 3, parts);
-        Some(list)
-    };
-    let (axis, zero) = (three(report, CRANK_KEYS[2], 2), three(report, CRANK_KEYS[3], 5));
-    let angle_deg = find(entries, CRANK_KEYS[5]).and_then(|e| {
-        let (range, parts) = range(report, &e.node, what)?;
-        places.parts.splice(8..10, parts);
-        Some(range)
-    });
-    let elbow = find(entries, CRANK_KEYS[4]).and_then(|e| {
-        let word = text(report, e)?;
-        let known = Elbow::BOTH.into_iter().find(|elbow| elbow.name() == word);
-        if known.is_none() {
-            let message = format!("`elbow` of {what} is \"{}\"", shown(&word));
-            let help = "write \"plus\" for the greater of the two angles that hold a pose, \"minus\" for the smaller one";
-            report.refuse(Code::WrongType, &e.node.span, message, help);
-        }
-        known
-    });
-    (WrittenCrank { length, rod_length, axis, zero, angle_deg, elbow, copy: None }, places)
+    let places = Places { whole: node.span.clone(), parts: vec![node.span.clone(); PARTS] };
+    let mut keys = CrankKeys { places, ..CrankKeys::default() };
+    CRANK.fill(report, entries, what, &mut keys, |_| true);
+    (keys.written, keys.places)
 }
 
-fn range(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<([WrittenNumber; 2], [Span; 2])> {
+fn label(found: &Found<'_, '_>) -> String {
+    format!("`{}` of {}", found.entry.key, found.place)
+}
+
+fn one(found: &mut Found<'_, '_>, places: &mut Places, part: usize) -> Option<WrittenNumber> {
+    places.parts[part] = found.entry.node.span.clone();
+    let what = label(found);
+    quantity(found.report, &found.entry.node, &what)
+}
+
+fn three(found: &mut Found<'_, '_>, places: &mut Places, first: usize) -> Option<[WrittenNumber; 3]> {
+    let what = label(found);
+    let nouns = ("component", "components");
+    let (list, parts) = three_quantities(found.report, &found.entry.node, &what, nouns)?;
+    places.parts.splice(first..first + 3, parts);
+    Some(list)
+}
+
+fn elbow(found: &mut Found<'_, '_>) -> Option<Elbow> {
+    let word = found.text()?;
+    let elbow = Elbow::of(&word);
+    if elbow.is_none() {
+        let message = format!("{} is \"{}\"", label(found), shown(&word));
+        let help = "write \"plus\" for the greater of the two angles that hold a pose, \"minus\" for the smaller one";
+        found.refuse(Code::WrongType, message, help);
+    }
+    elbow
+}
+
+fn range(found: &mut Found<'_, '_>, places: &mut Places) -> Option<[WrittenNumber; 2]> {
     let help = "write angle_deg = [least, greatest]";
+    let (node, what) = (&found.entry.node, found.place);
     let Value::Array(list) = &node.value else {
         let message = format!("`angle_deg` of {what} is {}, not a pair of angles", node.value.kind());
-        report.refuse(Code::WrongType, &node.span, message, help);
+        found.refuse(Code::WrongType, message, help);
         return None;
     };
     let [least, most] = list.as_slice() else {
         let message = format!("`angle_deg` of {what} has {} angles instead of two", list.len());
-        report.refuse(Code::CoordinateCount, &node.span, message, help);
+        found.refuse(Code::CoordinateCount, message, help);
         return None;
     };
-    let read = [least, most].map(|e| quantity(report, e, &format!("an angle of {what}")));
-    let [a, b] = read;
-    Some(([a?, b?], [least.span.clone(), most.span.clone()]))
+    let [a, b] = [least, most].map(|e| quantity(found.report, e, &format!("an angle of {what}")));
+    places.parts.splice(8..10, [least.span.clone(), most.span.clone()]);
+    Some([a?, b?])
 }
 
 /// `turn` with `deg`, or `mirror` with `plane`.

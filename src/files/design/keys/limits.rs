@@ -1,0 +1,120 @@
+//! `[limits]`: what has to remain of each limit.
+
+use serde_json::{Map, Value as Json, json};
+
+use super::found::{check_keys, shown, table};
+use super::kind::{Form, Kind, Range, Shape, either, not_negative, own, table as table_of, unit};
+use super::stored::Item;
+use super::{Code, Found, Table, key};
+use crate::design::tree::{Entry, Value, find};
+use crate::design::violation::Findings;
+use machine::requirements::{Quantity, Reserve, Reserves, TermKind};
+
+/// The reserve of every limit that has none of its own.
+const ALL: &str = "all";
+
+const PERCENT: Kind = own(r##"{"$ref": "#/$defs/percent"}"##, unit::NONE);
+
+/// The names of the rows of `assess`.
+struct ByKind;
+
+static BY_KIND: ByKind = ByKind;
+
+impl Shape for ByKind {
+    fn kind(&self, key: &str) -> Option<Kind> {
+        if key == ALL {
+            return Some(PERCENT);
+        }
+        let kind = TermKind::ALL.into_iter().find(|kind| kind.code() == key)?;
+        Some(not_negative(match kind.quantity() {
+            Quantity::Length => unit::LENGTH,
+            Quantity::Speed => unit::SPEED,
+            Quantity::AngularStiffness | Quantity::Torque => unit::TORQUE,
+            Quantity::LinearStiffness => unit::STIFFNESS,
+            Quantity::Force => unit::FORCE,
+            Quantity::Angle | Quantity::AngularSpeed => unit::DEGREES,
+            Quantity::Frequency => unit::NONE,
+        }))
+    }
+
+    fn schema(&self, _: &mut Map<String, Json>) -> Json {
+        let reserve = |kind: TermKind| (kind.code().to_owned(), json!({"$ref": "#/$defs/reserve"}));
+        let mut properties = Map::from_iter([(ALL.to_owned(), json!({"$ref": "#/$defs/percent"}))]);
+        properties.extend(TermKind::ALL.map(reserve));
+        json!({"type": "object", "properties": properties, "additionalProperties": false})
+    }
+}
+
+pub(super) static LIMITS: Table<Reserves> = Table {
+    keys: &[key!("reserve": either(&[PERCENT, table_of(&BY_KIND)]),
+        reserve, written;
+        "one percentage for all limits, or amounts and percentages by the names of the rows of assess")],
+    ..Table::EMPTY
+};
+
+/// `[limits]`.
+pub(super) fn reserves(report: &mut Findings<'_>, top: &[Entry]) -> Reserves {
+    let mut reserves = Reserves::default();
+    if let Some(entry) = find(top, "limits") {
+        LIMITS.read(report, &entry.node, "[limits]", &mut reserves);
+    }
+    reserves
+}
+
+fn reserve(found: &mut Found<'_, '_>, to: &mut Reserves) {
+    if !matches!(found.entry.node.value, Value::Table(_)) {
+        to.all = percent(found);
+        return;
+    }
+    let place = "`reserve`";
+    let own = table(found.report, &found.entry.node, place).unwrap_or_default();
+    let known: Vec<&str> = TermKind::ALL.map(TermKind::code).into_iter().chain([ALL]).collect();
+    check_keys(found.report, own, &known, place);
+    for entry in own {
+        let kind = Kind::new(Form::Number(Range::NotNegative), unit::NONE);
+        let mut found = Found { report: &mut *found.report, entry, place, kind };
+        if entry.key == ALL {
+            to.all = percent(&mut found);
+        }
+        let Some(kind) = TermKind::ALL.into_iter().find(|kind| kind.code() == entry.key) else { continue };
+        let reserve = if matches!(entry.node.value, Value::Text(_)) {
+            percent(&mut found).map(Reserve::Percent)
+        } else {
+            found.number().map(Reserve::Amount)
+        };
+        to.kinds.extend(reserve.map(|reserve| (kind, reserve)));
+    }
+}
+
+/// `"5%"`.
+fn percent(found: &mut Found<'_, '_>) -> Option<f64> {
+    let (key, help) = (&found.entry.key, "write a percentage in quotes, such as \"5%\"");
+    if !matches!(found.entry.node.value, Value::Text(_)) {
+        let message = format!("`{key}` is {}, not a percentage", found.entry.node.value.kind());
+        found.refuse(Code::WrongType, message, help);
+        return None;
+    }
+    let word = found.text()?;
+    let value = word.trim().strip_suffix('%').and_then(|x| x.trim().parse::<f64>().ok());
+    let value = value.filter(|x| (0.0..100.0).contains(x));
+    if value.is_none() {
+        let help = format!("{help}, from 0% to less than 100%");
+        found.refuse(Code::OutOfRange, format!("`{key}` is \"{}\"", shown(&word)), help);
+    }
+    value
+}
+
+/// One percentage where it is all that is said, else a table in the order of the names.
+fn written(reserves: &Reserves) -> Option<Json> {
+    let percent = |x: f64| json!(format!("{x}%"));
+    if reserves.kinds.is_empty() {
+        return reserves.all.map(percent);
+    }
+    let own = reserves.kinds.iter().map(|(kind, reserve)| match reserve {
+        Reserve::Percent(x) => (kind.code(), percent(*x)),
+        Reserve::Amount(x) => (kind.code(), x.json()),
+    });
+    let mut all: Vec<_> = own.chain(reserves.all.map(|x| (ALL, percent(x)))).collect();
+    all.sort_by_key(|(name, _)| *name);
+    Some(all.into_iter().map(|(name, value)| (name.to_owned(), value)).collect::<Map<_, _>>().into())
+}

@@ -1,0 +1,183 @@
+//! `[speed]`, `[stiffness]`, `[[loads]]` and `[[keep_out]]`: how fast and stiff the platform has to be, what it has
+//! to hold, and what is in the way of its legs.
+
+use nalgebra::{Point3, Vector3};
+
+use super::found::shown;
+use super::kind::{Kind, not_negative, positive, table as table_of, unit, vector, word};
+use super::shapes::{BOX, CAPSULE, SPHERE, shape, written};
+use super::stored::Word;
+use super::{Code, TEXT, Table, key};
+use crate::design::scale::micrometres;
+use crate::design::tree::{Entry, Value, find};
+use crate::design::violation::Findings;
+use machine::requirements::{Hardware, KeepOut, KeepOutShape, Load, PlatformSpeed, PlatformStiffness};
+use platform::manipulator::Body;
+
+pub(super) static SPEED: Table<PlatformSpeed> = Table {
+    keys: &[
+        key!("linear": not_negative(unit::SPEED), linear; "of the platform origin, design units per second"),
+        key!("angular_deg": not_negative(unit::DEGREES), angular_deg; "degrees per second"),
+    ],
+    ..Table::EMPTY
+};
+
+/// `[speed]`.
+pub(super) fn speed(report: &mut Findings<'_>, top: &[Entry]) -> Option<PlatformSpeed> {
+    let mut speed = PlatformSpeed::default();
+    SPEED.read(report, &find(top, "speed")?.node, "[speed]", &mut speed)?;
+    Some(speed)
+}
+
+pub(super) static STIFFNESS: Table<PlatformStiffness> = Table {
+    keys: &[
+        key!("linear": positive(unit::STIFFNESS), linear;
+            "least stiffness against a force through the platform origin in the softest direction, the platform free to turn, force units per design unit"),
+        key!("angular": positive(unit::TORQUE), angular;
+            "least stiffness against a torque about the softest axis, the platform origin free to move, force units times design units per radian"),
+        key!("natural_frequency": positive(unit::NONE), natural_frequency;
+            "least natural frequency of `[payload]` and legs, hertz; `units` is then a unit of length that is known"),
+    ],
+    ..Table::EMPTY
+};
+
+/// `[stiffness]`, which is about legs whose stiffness is known, and about known masses in known units where it asks
+/// for a natural frequency.
+pub(super) fn stiffness(
+    report: &mut Findings<'_>,
+    top: &[Entry],
+    hardware: &Hardware,
+    units: Option<&str>,
+) -> Option<PlatformStiffness> {
+    let (entry, mut wanted) = (find(top, "stiffness")?, PlatformStiffness::default());
+    let entries = STIFFNESS.read(report, &entry.node, "[stiffness]", &mut wanted)?;
+    if hardware.leg_stiffness.is_none() {
+        let message = "[stiffness] needs the stiffness of a leg";
+        let help = "add `leg_stiffness` to [hardware], force units per design unit";
+        report.refuse(Code::MissingKey, &entry.key_span, message, help);
+    }
+    if let (Some(entry), Some(units)) = (find(entries, "natural_frequency"), units) {
+        let place = "`natural_frequency` of [stiffness]";
+        let payload = find(top, "payload").map(|e| &e.node.value);
+        if !matches!(payload, Some(Value::Table(payload)) if find(payload, "inertia").is_some()) {
+            let message = format!("{place} needs the mass and the inertia that vibrate");
+            let help = "add [payload] with `mass`, `center` and `inertia`";
+            report.refuse(Code::MissingKey, &entry.key_span, message, help);
+        }
+        if micrometres(units).is_none() {
+            let message = format!("{place} needs a known unit of length, not \"{}\"", shown(units));
+            let help = "write units = \"mm\", \"m\" or \"in\", for instance";
+            report.refuse(Code::WrongType, &entry.key_span, message, help);
+        }
+    }
+    Some(wanted)
+}
+
+const FIXED_TO: Kind = word(Body::words);
+
+pub(super) static LOAD: Table<Load> = Table {
+    keys: &[
+        key!("name": TEXT, name; "for answers"),
+        key!("force" { default = "[0, 0, 0]" }: vector(unit::FORCE), force; "force units"),
+        key!("torque" { default = "[0, 0, 0]" }: vector(unit::TORQUE), torque;
+            "force units times design units"),
+        key!("at" { default = "[0, 0, 0]" }: vector(unit::LENGTH), at;
+            "where the force acts, platform frame"),
+        key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
+            "whose directions force and torque have; a weight has those of the base"),
+    ],
+    ..Table::EMPTY
+};
+
+/// Reads each table of a list of tables, which begins with a value for the tables of its place.
+fn read_all<'e, M>(
+    report: &mut Findings<'_>,
+    top: &'e [Entry],
+    (key, keys): (&str, &Table<M>),
+    begin: impl Fn(usize) -> M,
+) -> Vec<(M, &'e [Entry])> {
+    let Some(entry) = find(top, key) else { return Vec::new() };
+    let Value::Array(list) = &entry.node.value else {
+        let message = format!("`{key}` is {}, not a list of tables", entry.node.value.kind());
+        report.refuse(Code::WrongType, &entry.node.span, message, format!("write [[{key}]] above each"));
+        return Vec::new();
+    };
+    let place = format!("[[{key}]]");
+    let mut out = Vec::new();
+    for node in list {
+        let mut item = begin(out.len() + 1);
+        let entries = keys.read(report, node, &place, &mut item);
+        out.extend(entries.map(|entries| (item, entries)));
+    }
+    out
+}
+
+/// `[[loads]]`.
+pub(super) fn loads(report: &mut Findings<'_>, top: &[Entry]) -> Vec<Load> {
+    let begin = |i: usize| Load {
+        name: format!("load {i}"),
+        force: Vector3::zeros(),
+        torque: Vector3::zeros(),
+        at: Point3::origin(),
+        fixed_to: Body::Base,
+        legs: None,
+    };
+    read_all(report, top, ("loads", &LOAD), begin).into_iter().map(|(load, _)| load).collect()
+}
+
+/// A table of `[[keep_out]]`.
+pub(super) struct KeepOutKeys {
+    name: String,
+    fixed_to: Body,
+    shape: Option<KeepOutShape>,
+}
+
+pub(super) static KEEP_OUT: Table<KeepOutKeys> = Table {
+    keys: &[
+        key!("name": TEXT, name; "for answers"),
+        key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
+            "in whose frame it is and with which body it moves"),
+        key!("box": table_of(&BOX),
+            |found, to| to.shape = shape(found), |of| written(of.shape.as_ref(), "box");
+            "edges along the axes of the frame"),
+        key!("sphere": table_of(&SPHERE),
+            |found, to| to.shape = shape(found),
+            |of| written(
+            of.shape.as_ref(),
+            "sphere"
+        );
+            "a ball"),
+        key!("capsule": table_of(&CAPSULE),
+            |found, to| to.shape = shape(found), |of| written(of.shape.as_ref(), "capsule");
+            "all points within half the diameter of a line"),
+    ],
+    rules: r#"{"oneOf": [{"required": ["box"]}, {"required": ["sphere"]}, {"required": ["capsule"]}]}"#,
+    ..Table::EMPTY
+};
+
+impl From<&KeepOut> for KeepOutKeys {
+    fn from(k: &KeepOut) -> Self {
+        Self { name: k.name.clone(), fixed_to: k.fixed_to, shape: Some(k.shape) }
+    }
+}
+
+/// `[[keep_out]]`.
+pub(super) fn keep_outs(report: &mut Findings<'_>, top: &[Entry]) -> Vec<KeepOut> {
+    let begin = |i: usize| KeepOutKeys { name: format!("keep-out {i}"), fixed_to: Body::Base, shape: None };
+    let mut out = Vec::new();
+    for (KeepOutKeys { name, fixed_to, shape }, entries) in
+        read_all(report, top, ("keep_out", &KEEP_OUT), begin)
+    {
+        let shapes =
+            entries.iter().filter(|e| ["box", "sphere", "capsule"].contains(&e.key.as_str())).count();
+        if shapes != 1 {
+            let span = find(top, "keep_out").map_or(0..0, |e| e.key_span.clone());
+            let message = format!("{} has {shapes} shapes", shown(&name));
+            let help = "give one of box = { center, size }, sphere = { center, diameter }, capsule = { from, to, diameter }";
+            report.refuse(Code::MissingKey, &span, message, help);
+        } else if let Some(shape) = shape {
+            out.push(KeepOut { name, fixed_to, shape });
+        }
+    }
+    out
+}
