@@ -5,13 +5,11 @@ use std::fmt::Write as _;
 use super::{Found, Judged, paths};
 use crate::app::cli::output::Answer;
 use ask::Design;
-use platform::geom::Region;
 use platform::manipulator::LegLengths;
 use records::{
-    JudgedPoseRecord, Number, PoseQuaternionRecord, RegionWord, RegularBoxRecord, RegularityRecord,
-    RegularityWord, ScaledPoseRecord, SingularitiesAnswer,
+    JudgedPoseRecord, Number, PoseQuaternionRecord, RegularBoxRecord, RegularityRecord, RegularityWord,
+    ScaledPoseRecord, SingularitiesAnswer,
 };
-use synthesis::singularity::BoxOptions;
 
 fn judged(j: &Judged) -> JudgedPoseRecord {
     JudgedPoseRecord {
@@ -19,13 +17,6 @@ fn judged(j: &Judged) -> JudgedPoseRecord {
         determinant: Number(j.determinant),
         inverse_condition: Number(j.inverse_condition),
         four_planes: j.four_planes.map(|d| d.map(Number)),
-    }
-}
-
-fn region(options: &BoxOptions) -> RegionWord {
-    match options.region {
-        Region::Box => RegionWord::Box,
-        Region::Ellipsoid => RegionWord::Ellipsoid,
     }
 }
 
@@ -43,7 +34,7 @@ pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> An
         regular_box: RegularBoxRecord {
             translation: found.options.translation,
             rotation_deg: found.options.rotation_deg,
-            region: region(&found.options),
+            region: found.options.region,
             proved_scale: Number(regular.proved),
             singular_within: regular
                 .refuted
