@@ -212,27 +212,29 @@ impl PathEnd {
     }
 }
 
-/// What one homotopy path did.
+/// What a path of the homotopy did.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
 pub struct PathReport {
-    /// Index of the start solution.
+    /// Index of the start point.
     pub start: usize,
     /// Where it ended.
     pub end: PathEnd,
-    /// Index into [`FkSolutions::roots`] when the end is a certified pose.
+    /// Index into `solutions`, from 0.
     pub root: Option<usize>,
-    /// Index of the mirror image of that root where base and platform are planar and one path of each pair of mirror images was
-    /// tracked, 20 of 40; `None` where the paths were all tracked. The same as `root` when the pose is its own image.
+    /// Index of the mirror image, where one path stands for two.
+    // base and platform are planar, and one path of each pair of mirror images was tracked, 20 of 40; the same as
+    // `root` when the pose is its own image
     pub mirror_root: Option<usize>,
     /// Accepted steps.
     pub steps: u32,
     /// Rejected steps.
     pub rejections: u32,
-    /// Winding number found by the endgame, 1 for a regular end, 0 when not determined.
+    /// Winding number, 1 for a regular end, 0 where it is not determined.
     pub winding: u32,
-    /// `|e.e| / |e|^2` at the end.
+    /// |e.e| / |e|^2 at the end.
     pub isotropy: f64,
-    /// How often the path had to be tracked again with tighter steps.
+    /// How often it had to be tracked again with smaller steps.
     pub retracked: u32,
 }
 
@@ -255,12 +257,13 @@ pub enum RejectionReason {
     NotFinite,
 }
 
-/// A candidate that was not accepted, with the reason.
+/// A candidate that is no root.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "RejectedRecord", transform = num::nullable))]
 pub struct Rejected {
     /// Why.
     pub reason: RejectionReason,
-    /// The candidate's residual.
+    /// Its error in the leg equations, over the squared size.
     pub residual: f64,
 }
 

@@ -27,6 +27,8 @@ pub mod jet;
 pub mod linalg;
 pub mod modular;
 pub mod names;
+#[cfg(feature = "serde")]
+mod number;
 pub mod octuple;
 pub mod parallel;
 pub mod poly;
@@ -40,6 +42,8 @@ pub mod stream;
 pub mod surd;
 pub mod vector_unit;
 
+#[cfg(feature = "serde")]
+pub use number::{Number, nullable};
 pub use seed::Purpose;
 pub use seed::Rng;
 pub use stream::Cancel;

@@ -35,26 +35,31 @@ pub struct FamilyTopology {
     pub next: Vec<usize>,
 }
 
-/// How many there are; every number is computed.
+/// How many members the class has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "CountsRecord")
+)]
 pub struct FamilyCounts {
-    /// Patterns of six independent points of the hexagon.
+    /// Patterns of kept and moved legs.
     pub patterns: usize,
-    /// Patterns up to the six symmetries that keep base and platform apart.
+    /// Patterns up to the symmetries of the hexagon that keep base and platform apart.
     pub classes: usize,
-    /// Patterns up to all twelve symmetries.
+    /// Patterns up to all symmetries of the hexagon.
     pub classes_exchange: usize,
-    /// Graphs of shared joints up to isomorphism, the octahedral one and the one without shared joints included.
+    /// Ways in which legs share joints, the octahedral one included.
     pub topologies: usize,
-    /// The same, with exchange of base and platform.
+    /// The same where base and platform may be exchanged.
     pub topologies_exchange: usize,
-    /// Topologies reached by offsets introduced one at a time, the octahedral one included.
+    /// Topologies that are reached by offsets introduced one at a time.
     pub sequential_topologies: usize,
-    /// The same, with exchange of base and platform.
+    /// The same where base and platform may be exchanged.
     pub sequential_topologies_exchange: usize,
-    /// Patterns reached by offsets introduced one at a time.
+    /// Patterns that are reached by offsets introduced one at a time.
     pub sequential_patterns: usize,
-    /// Patterns reached by moves that each split a shared joint.
+    /// Patterns that split joints only.
     pub splitting_patterns: usize,
 }
 

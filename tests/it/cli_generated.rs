@@ -103,10 +103,7 @@ fn the_tables_of_options_and_fields_in_the_documents_are_fresh() {
         let out = equipod(&["reference", path]);
         let page = std::fs::read_to_string(path).unwrap();
         assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
-        assert!(
-            out.stdout == page.as_bytes(),
-            "stale; new: equipod reference {path} > page && mv page {path}"
-        );
+        assert!(out.stdout == page.as_bytes(), "{path} is stale: run .ci/generate");
     }
     // it finds a stale table, a command without a table and a table without a command
     let page = std::fs::read_to_string("docs/cli.md").unwrap();

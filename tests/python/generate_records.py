@@ -34,7 +34,7 @@ ANSWERS = {
 FILE = pathlib.Path(__file__).parents[2] / "src/app/python/equipod/records.py"
 HEAD = '''"""Answers as typed records: the fields of `equipod COMMAND --json`, by the same names.
 
-Made from the schemas of the answers by `tests/python/generate_records.py`; do not edit. What may be absent from a document is None, and so is what is null in it.
+Made from the schemas of the answers by `.ci/generate`; do not edit. What may be absent from a document is None, and so is what is null in it.
 """
 
 from __future__ import annotations
@@ -229,7 +229,7 @@ def main():
     text = generated(arguments)
     if "--check" in sys.argv:
         if FILE.read_text() != text:
-            sys.exit(f"{FILE.name} is not what the schemas say: run tests/python/generate_records.py")
+            sys.exit(f"{FILE.name} is not what the schemas say: run .ci/generate")
         return
     FILE.write_text(text)
 

@@ -56,13 +56,26 @@ impl RoundingChoices {
     }
 }
 
-/// The two ways to round.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Which rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "VariantWord")]
 pub enum RoundingWay {
     /// All joints exactly on the sides of two triangles.
     Exact,
     /// All joints on holes next to where they are wanted.
     Nearest,
+}
+
+impl RoundingWay {
+    /// The word: `"exact"` or `"nearest"`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Nearest => "nearest",
+        }
+    }
 }
 
 impl RoundingWay {

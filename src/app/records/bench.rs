@@ -3,17 +3,16 @@
 use std::collections::BTreeMap;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::Serialize;
 
 use super::Number;
 use ask::bench::{
-    BenchReport, Class, ErrorStatistics, LengthsFrom, NoiseLevel, Plan, ReferenceTimes, Spread, TimeSplit,
+    BenchReport, Class, ErrorStatistics, LengthsFrom, NoiseLevel, Plan, ReferenceTimes, TimeSplit,
     WrongAnswer, problem,
 };
 
 /// The answer of `bench`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum BenchAnswer {
     /// One class.
@@ -25,7 +24,7 @@ pub enum BenchAnswer {
 }
 
 /// The run of one class.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchOneAnswer {
     /// The class.
     #[serde(flatten)]
@@ -39,7 +38,7 @@ pub struct BenchOneAnswer {
 const METHODS: [&str; 5] = ["auto", "octic", "homotopy", "template", "trilateration"];
 
 /// The runs of several classes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchSumsAnswer {
     /// Sums; times and residual: the worst.
     #[serde(flatten)]
@@ -67,7 +66,7 @@ impl BenchAnswer {
 }
 
 /// Problems counted and timed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchCountsRecord {
     /// The class, or what was asked for.
     pub class: String,
@@ -90,7 +89,7 @@ pub struct BenchCountsRecord {
     /// Largest residual of a claim, in twice the precision.
     pub worst_residual: Number,
     /// Times of known computations on this machine.
-    pub reference_us: ReferenceRecord,
+    pub reference_us: ReferenceTimes,
 }
 
 impl BenchCountsRecord {
@@ -106,7 +105,7 @@ impl BenchCountsRecord {
             median_us: Number(r.median_us),
             p99_us: Number(r.p99_us),
             worst_residual: Number(r.worst_residual),
-            reference_us: references.into(),
+            reference_us: *references,
         }
     }
 
@@ -125,34 +124,19 @@ impl BenchCountsRecord {
             median_us: worst(|c| c.median_us),
             p99_us: worst(|c| c.p99_us),
             worst_residual: worst(|c| c.worst_residual),
-            reference_us: references.into(),
+            reference_us: *references,
         }
     }
 }
 
-/// Two computations of every linear algebra, in microseconds or as what times are multiples of.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ReferenceRecord {
-    /// Generalised eigenvalues of a random 69 x 69 pair.
-    pub qz69: Number,
-    /// Eigenvalues of a random 40 x 40 matrix.
-    pub eig40: Number,
-}
-
-impl From<&ReferenceTimes> for ReferenceRecord {
-    fn from(r: &ReferenceTimes) -> Self {
-        Self { qz69: Number(r.qz69), eig40: Number(r.eig40) }
-    }
-}
-
 /// Random problems of a class, solved and validated.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchClassRecord {
     /// Counts and times.
     #[serde(flatten)]
     pub counts: BenchCountsRecord,
     /// The median over the references.
-    pub ratio_to_reference: ReferenceRecord,
+    pub ratio_to_reference: ReferenceTimes,
     /// Index of the first problem.
     pub first: u64,
     /// Threads; each problem was solved on one.
@@ -180,11 +164,11 @@ pub struct BenchClassRecord {
     /// Mean time of a solver call.
     pub mean_us: Number,
     /// Medians of its parts.
-    pub split_us: TimeSplitRecord,
+    pub split_us: TimeSplit,
     /// Of the whole run.
     pub total_s: Number,
     /// Error measure, decimal logarithm.
-    pub epsilon: ErrorStatisticsRecord,
+    pub epsilon: ErrorStatistics,
     /// Problems whose answer is not right.
     pub failures: Vec<BenchFailureRecord>,
 }
@@ -195,9 +179,9 @@ impl BenchClassRecord {
     pub fn new(r: &BenchReport, references: &ReferenceTimes) -> Self {
         Self {
             counts: BenchCountsRecord::new(r, references),
-            ratio_to_reference: ReferenceRecord {
-                qz69: Number(r.median_us / references.qz69),
-                eig40: Number(r.median_us / references.eig40),
+            ratio_to_reference: ReferenceTimes {
+                qz69: r.median_us / references.qz69,
+                eig40: r.median_us / references.eig40,
             },
             first: r.plan.first,
             threads: r.plan.threads,
@@ -212,9 +196,9 @@ impl BenchClassRecord {
             silent_failures: r.silent_failures,
             rechecked: r.rechecked,
             mean_us: Number(r.mean_us),
-            split_us: (&r.split).into(),
+            split_us: r.split,
             total_s: Number(r.seconds),
-            epsilon: (&r.epsilon).into(),
+            epsilon: r.epsilon,
             failures: r.failures.iter().map(|f| BenchFailureRecord::new(&r.plan, f)).collect(),
         }
     }
@@ -224,15 +208,6 @@ impl BenchClassRecord {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 #[serde(transparent)]
 pub struct Histogram(pub BTreeMap<usize, u64>);
-
-impl<'de> Deserialize<'de> for Histogram {
-    /// Keys of objects are texts, also inside enums that have no tag, where `serde` cannot know that these are numbers.
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let counts = BTreeMap::<String, u64>::deserialize(from)?;
-        let counted = |(n, problems): (String, u64)| Ok((n.parse().map_err(D::Error::custom)?, problems));
-        counts.into_iter().map(counted).collect::<Result<_, _>>().map(Self)
-    }
-}
 
 impl JsonSchema for Histogram {
     fn schema_name() -> std::borrow::Cow<'static, str> {
@@ -250,52 +225,8 @@ impl JsonSchema for Histogram {
     }
 }
 
-/// Medians of the parts of a solver call and of its validation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct TimeSplitRecord {
-    /// The solver call without certification.
-    pub solve: Number,
-    /// Certification of the roots, made once more on its own.
-    pub certify: Number,
-    /// Validation; not part of the solver's time.
-    pub validate: Number,
-}
-
-impl From<&TimeSplit> for TimeSplitRecord {
-    fn from(s: &TimeSplit) -> Self {
-        Self { solve: Number(s.solve), certify: Number(s.certify), validate: Number(s.validate) }
-    }
-}
-
-/// The error measure of Martyushev over the problems.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ErrorStatisticsRecord {
-    /// The median.
-    pub median: Number,
-    /// The mean.
-    pub mean: Number,
-    /// The largest.
-    pub max: Number,
-    /// Share of the problems above -5.
-    pub above_minus_5: Number,
-    /// Share of the problems above -6.
-    pub above_minus_6: Number,
-}
-
-impl From<&ErrorStatistics> for ErrorStatisticsRecord {
-    fn from(e: &ErrorStatistics) -> Self {
-        Self {
-            median: Number(e.median),
-            mean: Number(e.mean),
-            max: Number(e.max),
-            above_minus_5: Number(e.above_minus_5),
-            above_minus_6: Number(e.above_minus_6),
-        }
-    }
-}
-
 /// A problem whose answer is not right, written out so that it can be solved elsewhere.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchFailureRecord {
     /// Index of the problem.
     pub problem: u64,
@@ -310,13 +241,13 @@ pub struct BenchFailureRecord {
     /// What the solver said of its own answer.
     pub solver: String,
     /// Base ends of the legs, in their order.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub base: Option<[[Number; 3]; 6]>,
     /// Platform ends of the legs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub platform: Option<[[Number; 3]; 6]>,
     /// Their squared lengths.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub squared_lengths: Option<[Number; 6]>,
 }
 
@@ -339,7 +270,7 @@ impl BenchFailureRecord {
 }
 
 /// How far poses move when leg lengths are disturbed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseAnswer {
     /// What was asked for.
     pub class: String,
@@ -352,69 +283,18 @@ pub struct NoiseAnswer {
 }
 
 /// What noise does to a class.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseRowRecord {
     /// The class.
     pub class: String,
     /// From little noise to much.
-    pub levels: Vec<NoiseLevelRecord>,
+    pub levels: Vec<NoiseLevel>,
 }
 
 impl NoiseRowRecord {
     /// The record of a class.
     #[must_use]
     pub fn new(class: Class, levels: &[NoiseLevel]) -> Self {
-        Self { class: class.name().into_owned(), levels: levels.iter().map(NoiseLevelRecord::from).collect() }
-    }
-}
-
-/// What one level of noise does.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct NoiseLevelRecord {
-    /// Relative error of the leg lengths.
-    pub sigma: Number,
-    /// Problems without a real pose.
-    pub without_real_pose: u64,
-    /// Angle of the rotation to the nearest real pose; null: no problem has one.
-    pub rotation_rad: Option<SpreadRecord>,
-    /// Angle between the position vectors.
-    pub position_rad: Option<SpreadRecord>,
-}
-
-impl From<&NoiseLevel> for NoiseLevelRecord {
-    fn from(l: &NoiseLevel) -> Self {
-        Self {
-            sigma: Number(l.sigma),
-            without_real_pose: l.without_pose,
-            rotation_rad: l.rotation.as_ref().map(SpreadRecord::from),
-            position_rad: l.position.as_ref().map(SpreadRecord::from),
-        }
-    }
-}
-
-/// How angles spread over problems, radians.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SpreadRecord {
-    /// A quarter of the values is at most this.
-    pub lower_quartile: Number,
-    /// Half of them.
-    pub median: Number,
-    /// Three quarters.
-    pub upper_quartile: Number,
-    /// 99 of a hundred.
-    pub p99: Number,
-    /// All.
-    pub max: Number,
-}
-
-impl From<&Spread> for SpreadRecord {
-    fn from(s: &Spread) -> Self {
-        Self {
-            lower_quartile: Number(s.lower_quartile),
-            median: Number(s.median),
-            upper_quartile: Number(s.upper_quartile),
-            p99: Number(s.p99),
-            max: Number(s.max),
-        }
+        Self { class: class.name().into_owned(), levels: levels.to_vec() }
     }
 }

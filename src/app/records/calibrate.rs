@@ -1,14 +1,14 @@
 //! Answers about a machine calibrated from measurements.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::{Number, PoseQuaternionRecord, PoseRecord};
+use super::{Number, PoseQuaternionRecord};
 use ask::Design;
 use ask::calibrating::{carried, unknown_names};
 use machine::calibration::{
-    Calibration, CalibrationStatus, CarriedFrames, FrameMotion, LegModel, Loss, LossUnit, MeasurementNoise,
-    NoiseSource, Observability, Outlier, PoseDeviation, ResidualSpread, StartName, UnobservableChange,
+    Calibration, CalibrationStatus, CarriedFrames, ChiSquare, LegModel, Loss, LossUnit, MeasurementNoise,
+    NoiseSource, Observability, Outlier, PoseDeviation, ResidualSpread, Starts, UnobservableChange,
     pose_deviation,
 };
 use num::shown::fixed;
@@ -16,7 +16,7 @@ use platform::geom::Pose;
 use platform::manipulator::Body;
 
 /// The answer of `calibrate`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CalibrateAnswer {
     /// The name of the design.
     pub name: String,
@@ -35,7 +35,7 @@ pub struct CalibrateAnswer {
 }
 
 /// How a calibration ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CalibrateOutcome {
     /// All unknowns are identified, and nothing speaks against the model.
@@ -62,7 +62,7 @@ impl From<CalibrationStatus> for CalibrateOutcome {
 }
 
 /// What was found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CalibrationRecord {
     /// Poses measured.
     pub poses: usize,
@@ -71,13 +71,13 @@ pub struct CalibrationRecord {
     /// The frames of joints, deviations and covariance.
     pub frames: CalibrationFrames,
     /// The motions from the frames of the measurements to those of the design; null: joints are in the frames of the measurements.
-    pub motions: Option<FrameMotionsRecord>,
+    pub motions: Option<CarriedFrames>,
     /// How uncertain measurements are.
     pub noise: NoiseRecord,
     /// How far measurements cost.
     pub loss: LossRecord,
     /// Where the fit began.
-    pub start: StartRecord,
+    pub start: Starts,
     /// Whether its steps ended where they must.
     pub converged: bool,
     /// Steps in all.
@@ -103,7 +103,7 @@ pub struct CalibrationRecord {
     /// Lines of measurements without which the unknowns are not determined.
     pub indispensable: Vec<usize>,
     /// Agreement of the residuals with the noise.
-    pub chi_square: ChiSquareRecord,
+    pub chi_square: ChiSquare,
     /// Measurements that do not belong to the others, the farthest first.
     pub outliers: Vec<OutlierRecord>,
     /// Two legs, from 1, whose measured lengths look exchanged: they are five times nearer to the design when they change places; null: none do.
@@ -111,7 +111,7 @@ pub struct CalibrationRecord {
 }
 
 /// The frames of calibrated joints.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CalibrationFrames {
     /// Those of the measured poses.
@@ -120,38 +120,8 @@ pub enum CalibrationFrames {
     Design,
 }
 
-/// Two rigid motions.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FrameMotionsRecord {
-    /// Of the base.
-    pub base: FrameMotionRecord,
-    /// Of the platform.
-    pub platform: FrameMotionRecord,
-}
-
-impl From<&CarriedFrames> for FrameMotionsRecord {
-    fn from(frames: &CarriedFrames) -> Self {
-        Self { base: (&frames.base).into(), platform: (&frames.platform).into() }
-    }
-}
-
-/// The rigid motion with which measured joints are nearest to those of the design: a point x of the measurements is at R x + p.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FrameMotionRecord {
-    /// The motion.
-    pub motion: PoseRecord,
-    /// Root mean square of the distances that remain, design units.
-    pub rms: Number,
-}
-
-impl From<&FrameMotion> for FrameMotionRecord {
-    fn from(found: &FrameMotion) -> Self {
-        Self { motion: (&found.motion).into(), rms: Number(found.rms) }
-    }
-}
-
 /// Standard deviations of measurements.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseRecord {
     /// Where they come from.
     pub source: NoiseSource,
@@ -175,7 +145,7 @@ impl NoiseRecord {
 }
 
 /// How much far measurements cost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct LossRecord {
     /// The loss.
     pub loss: Loss,
@@ -183,21 +153,8 @@ pub struct LossRecord {
     pub of: LossUnit,
 }
 
-/// Where the fit began, and what came of the other start.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct StartRecord {
-    /// The start whose end was taken.
-    pub taken: StartName,
-    /// Whether both starts ended at the same machine; null: only one was tried.
-    pub agree: Option<bool>,
-    /// Sum of the losses, or the estimated deviation of a length, from the nominal joints: the less, the better; null: not tried.
-    pub nominal: Option<Number>,
-    /// The same from the linear equations for squared lengths, which need no design; null: not tried, or the poses do not determine them.
-    pub closed_form: Option<Number>,
-}
-
 /// A joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CalibratedJointRecord {
     /// Its body.
     pub body: Body,
@@ -212,7 +169,7 @@ pub struct CalibratedJointRecord {
 }
 
 /// The offset of a leg.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct CalibratedOffsetRecord {
     /// From 1.
     pub leg: usize,
@@ -223,7 +180,7 @@ pub struct CalibratedOffsetRecord {
 }
 
 /// A covariance matrix.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CovarianceRecord {
     /// Names of rows and columns: `base.A1.x`, `offset.3`.
     pub unknowns: Vec<String>,
@@ -232,7 +189,7 @@ pub struct CovarianceRecord {
 }
 
 /// Standard deviations of poses computed from lengths, by what the calibration does not know, with all correlations; the noise of these lengths comes on top.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ComputedPosesRecord {
     /// Poses looked at: those of the workspace at which the requirements of the design are met.
     pub poses: usize,
@@ -274,7 +231,7 @@ impl ComputedPosesRecord {
 }
 
 /// Which changes of the machine the measurements see, and how well.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ObservabilityRecord {
     /// Directions identified.
     pub rank: usize,
@@ -295,7 +252,7 @@ pub struct ObservabilityRecord {
 }
 
 /// A change of joints and offsets that changes no measured length, or hardly.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct UnobservableRecord {
     /// Joints that move, the farthest first.
     pub joints: Vec<JointShiftRecord>,
@@ -304,7 +261,7 @@ pub struct UnobservableRecord {
 }
 
 /// How a joint moves.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointShiftRecord {
     /// Its body.
     pub body: Body,
@@ -315,7 +272,7 @@ pub struct JointShiftRecord {
 }
 
 /// How an offset changes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OffsetShiftRecord {
     /// From 1.
     pub leg: usize,
@@ -351,7 +308,7 @@ impl UnobservableRecord {
 }
 
 /// Sizes of residuals, design units.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResidualsRecord {
     /// Root mean square.
     pub rms: Number,
@@ -364,7 +321,7 @@ pub struct ResidualsRecord {
 }
 
 /// The largest residual.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct GreatestResidualRecord {
     /// Line of the table of measurements.
     pub line: usize,
@@ -396,19 +353,8 @@ fn line(lines: &[usize], measurement: usize) -> usize {
     lines.get(measurement).copied().unwrap_or(measurement + 1)
 }
 
-/// Agreement of residuals with the noise.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ChiSquareRecord {
-    /// Sum of the squares of whitened residuals.
-    pub value: Number,
-    /// Numbers less unknowns identified.
-    pub degrees_of_freedom: usize,
-    /// The probability of a larger value, were model and noise right; null: the noise is estimated from the same residuals.
-    pub probability: Option<Number>,
-}
-
 /// A measurement that does not belong to the others.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OutlierRecord {
     /// Line of the table of measurements.
     pub line: usize,
@@ -435,7 +381,7 @@ impl OutlierRecord {
 }
 
 /// A pose to measure next.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NextPoseRecord {
     /// The pose, in the frames of the design where joints are carried to them, else in those of the measurements.
     pub pose: PoseQuaternionRecord,
@@ -465,15 +411,10 @@ impl CalibrationRecord {
             poses: found.weights.len(),
             unknowns: found.unknowns.count(),
             frames: if frames.is_some() { CalibrationFrames::Design } else { CalibrationFrames::Measured },
-            motions: frames.map(FrameMotionsRecord::from),
+            motions: frames.cloned(),
             noise: NoiseRecord::new(&found.noise, found.noise_source),
             loss: LossRecord { loss, of },
-            start: StartRecord {
-                taken: found.starts.taken,
-                agree: found.starts.agree,
-                nominal: found.starts.nominal.map(Number),
-                closed_form: found.starts.closed_form.map(Number),
-            },
+            start: found.starts,
             converged: found.converged,
             steps: found.steps,
             joints: joints(design, found, &model, &deviation),
@@ -495,11 +436,7 @@ impl CalibrationRecord {
             left_out: residuals(&found.left_out),
             check: None,
             indispensable: found.indispensable.iter().map(|k| line(lines, *k)).collect(),
-            chi_square: ChiSquareRecord {
-                value: Number(found.chi_square.value),
-                degrees_of_freedom: found.chi_square.freedoms,
-                probability: found.chi_square.probability.map(Number),
-            },
+            chi_square: found.chi_square,
             outliers: found.outliers.iter().map(|o| OutlierRecord::new(o, lines)).collect(),
             exchanged_legs: found.exchanged.map(|legs| legs.map(|leg| leg + 1)),
         }

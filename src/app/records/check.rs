@@ -1,11 +1,11 @@
 //! Answers on whether a design is architecturally singular, why, and how far from a singular one it is.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::fk::PoseCountRecord;
 use super::pose::leg_numbers;
-use super::{NamedPoints, Number, PoseRecord, SingularEvidenceWord};
+use super::{NamedPoints, Number, PoseRecord};
 use ask::CheckReport;
 use ask::Design;
 use files::design::{DesignExactness, Exactness};
@@ -14,12 +14,12 @@ use fk::solve::pose_count::CommonPoints;
 use platform::geom::BestLine;
 use platform::manipulator::{Body, LegLengths, Level};
 use synthesis::singularity::{
-    Architecture, Assembly, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound,
-    RationalPose,
+    Architecture, Assembly, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound, RationalPose,
+    SingularEvidence,
 };
 
 /// The answer of `check`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CheckAnswer {
     /// The name of the design.
     pub name: String,
@@ -32,7 +32,7 @@ pub struct CheckAnswer {
     /// Decided exactly, for the joints as the numbers they are; null where they are known between bounds only.
     pub singular_as_written: Option<bool>,
     /// What shows that the home pose of the design is singular; null: it is regular, or the design states none.
-    pub singular_home: Option<SingularEvidenceWord>,
+    pub singular_home: Option<SingularEvidence>,
     /// A short code of the reason; null: regular.
     pub reason: Option<String>,
     /// One sentence.
@@ -62,7 +62,7 @@ pub struct CheckAnswer {
     /// Finite poses, real and complex, for generic leg lengths.
     pub pose_count: PoseCountRecord,
     /// The points that six legs have in common, for generic lengths, by where they are; null where the poses are not isolated or not counted.
-    pub common_points: Option<CommonPointsRecord>,
+    pub common_points: Option<CommonPoints>,
     /// How many isolated finite poses no lengths exceed, by a theorem.
     pub pose_bound: PoseBoundRecord,
     /// The line that fits the joints of each body best, base first: a body whose joints all lie on one turns about it. A body with its joints in one place has none.
@@ -74,7 +74,7 @@ pub struct CheckAnswer {
 }
 
 /// A line that joints of a body lie nearly on, in the frame of the body, design units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct BestLineRecord {
     /// The body.
     pub body: Body,
@@ -109,7 +109,7 @@ impl From<&CheckReport> for CheckAnswer {
             architecturally_singular: c.is_singular(),
             level: c.verdict.level(),
             singular_as_written: a.is_singular(),
-            singular_home: c.singular_home.map(|home| home.evidence.into()),
+            singular_home: c.singular_home.map(|home| home.evidence),
             reason: c.verdict.reason().map(str::to_owned),
             explanation: explanation(c),
             proof: proof(a),
@@ -130,7 +130,7 @@ impl From<&CheckReport> for CheckAnswer {
                 .as_ref()
                 .map(|n| NearestSingularRecord::new(n, c.at_least, &c.design)),
             pose_count: (&c.pose_count).into(),
-            common_points: c.common_points.map(CommonPointsRecord::from),
+            common_points: c.common_points,
             pose_bound: c.pose_bound.into(),
             best_lines: Body::BOTH.into_iter().zip(c.best_lines).filter_map(BestLineRecord::of).collect(),
             singular_values: f.leg_vectors.map(Number),
@@ -144,28 +144,8 @@ impl From<&CheckReport> for CheckAnswer {
     }
 }
 
-/// Common points of six legs in the closure of the group, each with its multiplicity, counted modulo random primes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CommonPointsRecord {
-    /// Finite poses.
-    pub finite: usize,
-    /// Limits of poses whose quaternion e becomes isotropic: e.e = 0, e not 0. Null: not isolated, or not counted.
-    pub isotropic: Option<usize>,
-    /// Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not isolated, or not counted.
-    pub at_infinity: Option<usize>,
-    /// A bound on the probability that the numbers are others.
-    pub error_probability: f64,
-}
-
-impl From<CommonPoints> for CommonPointsRecord {
-    fn from(c: CommonPoints) -> Self {
-        let CommonPoints { finite, isotropic, at_infinity, error_probability } = c;
-        Self { finite, isotropic, at_infinity, error_probability }
-    }
-}
-
 /// A proved bound on the number of isolated finite poses, counted with multiplicity.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PoseBoundRecord {
     /// The bound.
     pub poses: usize,
@@ -237,7 +217,7 @@ fn proof_explanation(a: &Architecture) -> String {
 }
 
 /// How exactly the joints of a design are known, all together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointsRecord {
     /// The least exact of the joints decides.
     pub exactness: ExactnessWord,
@@ -269,7 +249,7 @@ impl From<&DesignExactness> for JointsRecord {
 }
 
 /// How exactly the joints of a design are known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ExactnessWord {
     /// All are three plain numbers: the doubles nearest to what is written.
@@ -283,7 +263,7 @@ pub enum ExactnessWord {
 }
 
 /// What proves a design regular or singular.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ProofWord {
     /// A pose with six independent leg lines.
@@ -297,7 +277,7 @@ pub enum ProofWord {
 }
 
 /// A pose with rational coordinates.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct WitnessRecord {
     /// The pose.
     #[serde(flatten)]
@@ -313,7 +293,7 @@ impl From<&RationalPose> for WitnessRecord {
 }
 
 /// A dependency of leg vectors: `sum c_i v_i = 0`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DependencyRecord {
     /// The legs in it, from 1.
     pub legs: Vec<usize>,
@@ -343,7 +323,7 @@ impl DependencyRecord {
 }
 
 /// A known kind of singular design.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CaseRecord {
     /// Which.
     pub case: String,
@@ -367,7 +347,7 @@ impl From<&Finding> for CaseRecord {
 }
 
 /// Joints on the sides of two triangles.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct GriffisDuffyRecord {
     /// The legs going round the hexagon, from 1.
     pub order: Vec<usize>,
@@ -390,7 +370,7 @@ pub struct GriffisDuffyRecord {
     /// By how much the lengths of the design miss the constant, relative; null without lengths.
     pub lengths_defect: Option<Number>,
     /// Whether the platform can be assembled with the lengths of the design.
-    pub assembly: Option<AssemblyRecord>,
+    pub assembly: Option<Assembly>,
 }
 
 impl GriffisDuffyRecord {
@@ -406,76 +386,13 @@ impl GriffisDuffyRecord {
             coefficients: g.coefficients().map(Number),
             constant: Number(g.constant()),
             lengths_defect: design.lengths.map(|l| Number(g.assembly_defect(&l.squared()))),
-            assembly: assembly.map(AssemblyRecord::from),
-        }
-    }
-}
-
-/// Whether a singular platform can be assembled.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "verdict", rename_all = "snake_case")]
-pub enum AssemblyRecord {
-    /// The lengths miss the condition.
-    Incompatible {
-        /// By how much, relative.
-        defect: Number,
-    },
-    /// The triangles of the legs do not close.
-    NoRealPose {},
-    /// No real pose was found.
-    Undecided {
-        /// Squared lengths of the octahedral platforms.
-        octahedral_squared_lengths: CornerLengthsRecord,
-    },
-    /// There is a real pose, and the platform moves.
-    Real {
-        /// The pose.
-        pose: PoseRecord,
-        /// Its residual.
-        residual: Number,
-        /// Squared lengths of the octahedral platforms.
-        octahedral_squared_lengths: CornerLengthsRecord,
-    },
-}
-
-impl From<&Assembly> for AssemblyRecord {
-    fn from(a: &Assembly) -> Self {
-        match a {
-            Assembly::Incompatible { defect } => Self::Incompatible { defect: Number(*defect) },
-            Assembly::NoTriangles => Self::NoRealPose {},
-            Assembly::NotFound { corners } => Self::Undecided { octahedral_squared_lengths: corners.into() },
-            Assembly::Real { pose, residual, corners } => Self::Real {
-                pose: pose.into(),
-                residual: Number(*residual),
-                octahedral_squared_lengths: corners.into(),
-            },
-        }
-    }
-}
-
-/// Squared lengths origin + x direction with x in the interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CornerLengthsRecord {
-    /// For x = 0.
-    pub origin: [Number; 6],
-    /// What x multiplies.
-    pub direction: [Number; 6],
-    /// Where x may be.
-    pub interval: [Number; 2],
-}
-
-impl From<&CornerLengths> for CornerLengthsRecord {
-    fn from(c: &CornerLengths) -> Self {
-        Self {
-            origin: c.origin.map(Number),
-            direction: c.direction.map(Number),
-            interval: c.interval.map(Number),
+            assembly: assembly.copied(),
         }
     }
 }
 
 /// The nearest singular design that was found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearestSingularRecord {
     /// Norm of the change of all joints, design units.
     pub distance: Number,
@@ -521,7 +438,7 @@ impl NearestSingularRecord {
 }
 
 /// The inverse condition number of the Jacobian at random poses.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ConditioningRecord {
     /// How many poses.
     pub poses: usize,

@@ -2,17 +2,17 @@
 
 use nalgebra::Point3;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{Number, leg_number};
 use platform::manipulator::{Leg, LegIndex};
 use synthesis::components::{
-    Component, Components, CubicPencil, Decision, ExactCurve, FlatPair, MovingPoint, NoExactCurve,
-    Parametrisation, PlaneCurve, SampledLeg, flat_name,
+    Component, Components, CubicPencil, CurvePart, Decision, ExactCurve, ExactPart, ExactPoint, FlatPair,
+    MovingPoint, NoExactCurve, Parametrisation, PlaneCurve, SampledLeg, flat_name,
 };
 
 /// The answer of `equivalents components`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComponentsAnswer {
     /// The name of the design.
     pub name: String,
@@ -37,7 +37,7 @@ pub struct ComponentsAnswer {
 }
 
 /// A dimension or rank and how it was decided.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DecisionRecord {
     /// What was asked.
     #[schemars(extend("enum" = [
@@ -93,7 +93,7 @@ fn point(p: &Point3<f64>) -> [Number; 3] {
 }
 
 /// A pair of flats that its legs span.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FlatPairRecord {
     /// The legs, from 1.
     pub legs: Vec<usize>,
@@ -132,7 +132,7 @@ impl From<&FlatPair> for FlatPairRecord {
 pub type Bilinear = Vec<[[Number; 3]; 3]>;
 
 /// A pair of planes with the curves of points that carry replaceable legs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PlanePairRecord {
     /// Its number in `pairs`, from 1.
     pub pair: usize,
@@ -151,7 +151,7 @@ pub struct PlanePairRecord {
 }
 
 /// A plane curve of points that carry replaceable legs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PlaneCurveRecord {
     /// The origin of plane coordinates, frame of the body.
     pub origin: [Number; 3],
@@ -166,7 +166,7 @@ pub struct PlaneCurveRecord {
     /// Rank of the equations at a generic point.
     pub generic_rank: usize,
     /// What it splits into.
-    pub parts: Vec<CurvePartRecord>,
+    pub parts: Vec<CurvePart>,
     /// Its singular points.
     pub singular_points: Vec<SingularPointRecord>,
     /// What was decided.
@@ -184,16 +184,7 @@ impl From<&PlaneCurve> for PlaneCurveRecord {
             coefficients: numbers(&c.coefficients),
             monomials: monomials(c.degree),
             generic_rank: c.generic_rank,
-            parts: c
-                .parts
-                .iter()
-                .map(|p| CurvePartRecord {
-                    kind: p.kind.as_str().into(),
-                    coefficients: numbers(&p.coefficients),
-                    multiplicity: p.multiplicity,
-                    measure: Number(p.measure),
-                })
-                .collect(),
+            parts: c.parts.clone(),
             singular_points: c
                 .singular_points
                 .iter()
@@ -226,22 +217,8 @@ fn monomials(degree: usize) -> Vec<String> {
     (0..=degree).flat_map(|n| (0..=n).map(move |k| term(n - k, k))).collect()
 }
 
-/// A part of a plane curve.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CurvePartRecord {
-    /// What it is.
-    #[schemars(extend("enum" = ["line", "conic", "conic_without_real_points", "conjugate_lines", "cubic", "higher"]))]
-    pub kind: String,
-    /// In the order of the monomials of its degree.
-    pub coefficients: Vec<Number>,
-    /// How often it counts.
-    pub multiplicity: usize,
-    /// What decided its kind.
-    pub measure: Number,
-}
-
 /// A singular point of a plane curve.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SingularPointRecord {
     /// In the frame of the body; null: at infinity.
     pub point: Option<[Number; 3]>,
@@ -257,7 +234,7 @@ pub struct SingularPointRecord {
 }
 
 /// The curve of the joints as rational numbers, or why there is none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExactCurveOutcome {
     /// The curve.
@@ -270,7 +247,7 @@ pub enum ExactCurveOutcome {
 }
 
 /// A plane curve with integer coefficients.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExactCurveRecord {
     /// The coordinates of the body that serve as plane coordinates.
     pub axes: [String; 2],
@@ -281,38 +258,11 @@ pub struct ExactCurveRecord {
     /// Integers as text.
     pub coefficients: Vec<String>,
     /// What it splits into over the complex numbers.
-    pub parts: Vec<ExactPartRecord>,
+    pub parts: Vec<ExactPart>,
     /// It has no singular point; null: not decided.
     pub smooth: Option<bool>,
     /// A singular point.
-    pub singular_point: Option<ExactPointRecord>,
-}
-
-/// A part of an exact curve.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ExactPartRecord {
-    /// What it is.
-    #[schemars(extend("enum" = [
-        "line", "two_conjugate_real_lines", "two_conjugate_complex_lines", "three_conjugate_real_lines",
-        "three_conjugate_lines_one_real", "conic", "conic_without_real_points", "cubic", "undecided"
-    ]))]
-    pub kind: String,
-    /// Its degree.
-    pub degree: usize,
-    /// Integers as text.
-    pub coefficients: Vec<String>,
-    /// How often it counts.
-    pub multiplicity: usize,
-}
-
-/// A rational point.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ExactPointRecord {
-    /// (w, x, y), integers as text.
-    pub coordinates: [String; 3],
-    /// What it is.
-    #[schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"]))]
-    pub kind: String,
+    pub singular_point: Option<ExactPoint>,
 }
 
 impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
@@ -321,29 +271,20 @@ impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
             Ok(curve) => curve,
             Err(reason) => return Self::None { reason: reason.to_string() },
         };
-        let part = |p: &synthesis::components::ExactPart| ExactPartRecord {
-            kind: p.kind.as_str().into(),
-            degree: p.degree,
-            coefficients: p.coefficients.clone(),
-            multiplicity: p.multiplicity,
-        };
         Self::Curve(ExactCurveRecord {
             axes: curve.axes.map(|k| ["x", "y", "z"][k].to_owned()),
             generic_rank: curve.generic_rank,
             degree: curve.degree,
             coefficients: curve.coefficients.clone(),
-            parts: curve.parts.iter().map(part).collect(),
+            parts: curve.parts.clone(),
             smooth: curve.smooth,
-            singular_point: curve.singular_point.as_ref().map(|p| ExactPointRecord {
-                coordinates: p.coordinates.clone(),
-                kind: p.kind.as_str().into(),
-            }),
+            singular_point: curve.singular_point.clone(),
         })
     }
 }
 
 /// A family of replaceable legs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComponentRecord {
     /// Its number, from 1.
     pub component: usize,
@@ -378,7 +319,7 @@ pub struct ComponentRecord {
 }
 
 /// Formulas of the legs of a family.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum ParametrisationRecord {
     /// Both ends are rational functions of the parameters.
@@ -409,7 +350,7 @@ pub enum ParametrisationRecord {
 }
 
 /// A term of homogeneous coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct MovingTermRecord {
     /// Of the parameters.
     pub exponents: [u8; 3],
@@ -454,7 +395,7 @@ impl From<&CubicPencil> for ParametrisationRecord {
 }
 
 /// The ends of a leg.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LegEndsRecord {
     /// Base frame.
     pub base: [Number; 3],
@@ -469,7 +410,7 @@ impl From<&Leg> for LegEndsRecord {
 }
 
 /// A leg drawn from a family.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SampledLegRecord {
     /// Its parameters.
     pub parameters: Vec<Number>,

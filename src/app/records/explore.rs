@@ -1,21 +1,21 @@
 //! Answers of `explore` and the files of its folder.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{
     AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
-    OptimalityWord, OptimizeAnswer, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord, VariableRecord,
-    VariantWord, VerdictWord,
+    OptimalityWord, OptimizeAnswer, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord, VerdictWord,
 };
 use ask::rounding::{DesignOnHoles, RoundingWay};
 use ask::{OptimizeStatus, Separation};
 use fk::FkSolutions;
 use machine::manufacture::{NoRounding, RoundedJoint};
+use optimize::dimensional::ChosenVariable;
 use verify::Verification;
 
 /// The poses of the original, with the lengths they belong to.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRunRecord {
     /// Leg lengths, design units.
     pub lengths: [f64; 6],
@@ -27,7 +27,7 @@ pub struct FkRunRecord {
 }
 
 /// Whose leg lengths poses belong to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LengthsOrigin {
     /// Those of the design.
@@ -37,7 +37,7 @@ pub enum LengthsOrigin {
 }
 
 /// The answer of `explore`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExploreAnswer {
     /// About an octahedral design.
@@ -47,7 +47,7 @@ pub enum ExploreAnswer {
 }
 
 /// The answer of `explore` about a design that is not octahedral.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExploreGeneralAnswer {
     /// Of the whole run.
     pub verdict: ExploreVerdict,
@@ -75,7 +75,7 @@ pub struct ExploreGeneralAnswer {
 }
 
 /// What a stage of `explore` did.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct StageRecord {
     /// Which.
     pub stage: StageWord,
@@ -84,7 +84,7 @@ pub struct StageRecord {
 }
 
 /// The stages of `explore` for a design that is not octahedral.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StageWord {
     /// The families of replaceable legs.
@@ -117,7 +117,7 @@ impl StageWord {
 }
 
 /// The families of replaceable legs in short.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamiliesFoundRecord {
     /// How many.
     pub count: usize,
@@ -126,7 +126,7 @@ pub struct FamiliesFoundRecord {
 }
 
 /// A search for equivalent platforms in short.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MovesFoundRecord {
     /// What came out.
     pub outcome: SearchWord,
@@ -137,7 +137,7 @@ pub struct MovesFoundRecord {
 }
 
 /// The nearest octahedral platform in short.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct NearestErrorRecord {
     /// The largest displacement of a leg end, design units.
     pub largest_displacement: Number,
@@ -161,7 +161,7 @@ impl From<&NearestRecord> for NearestErrorRecord {
 }
 
 /// The answer of `explore` about an octahedral design.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExploreOctahedralAnswer {
     /// Of the whole run.
     pub verdict: ExploreVerdict,
@@ -196,7 +196,7 @@ pub struct ExploreOctahedralAnswer {
 }
 
 /// Figures of a design and of the platform with separate joints made from it, in this order.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PriceRecord {
     /// Worst conditioning over the poses of the workspace, both by the characteristic length of the design.
     pub conditioning: [Number; 2],
@@ -247,7 +247,7 @@ fn digits(x: f64) -> String {
 }
 
 /// What became of the reserve that a design does not state.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DefaultReserveRecord {
     /// On every limit.
     pub percent: f64,
@@ -275,10 +275,10 @@ impl DefaultReserveRecord {
 }
 
 /// A platform with its joints on the holes that its design states, in short.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct OnHolesRecord {
     /// Which rounding was taken; null: there is none.
-    pub variant: Option<VariantWord>,
+    pub variant: Option<RoundingWay>,
     /// Turns by 120 degrees take both triangles with their joints to themselves.
     pub three_fold: bool,
     /// The farthest that a joint went to its hole.
@@ -316,7 +316,7 @@ impl From<&Result<DesignOnHoles, NoRounding>> for OnHolesRecord {
         };
         let farthest = |list: &Vec<RoundedJoint>| list.iter().map(|j| j.moved.norm()).fold(0.0, f64::max);
         Self {
-            variant: Some((*way).into()),
+            variant: Some(*way),
             three_fold,
             largest_displacement: joints.ok().map(farthest).map(Number),
             refitted: on.refitted.iter().map(|kind| kind.code().to_owned()).collect(),
@@ -327,7 +327,7 @@ impl From<&Result<DesignOnHoles, NoRounding>> for OnHolesRecord {
 }
 
 /// The verdict of `explore`: that of the comparison, or why there was none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ExploreVerdict {
     /// Every branch of offsets is proved to violate the limits, or no start met the requirements together.
@@ -361,7 +361,7 @@ impl ExploreVerdict {
 }
 
 /// How many platforms are equivalent to an octahedral one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamilySizeRecord {
     /// Patterns of legs.
     pub patterns: usize,
@@ -370,7 +370,7 @@ pub struct FamilySizeRecord {
 }
 
 /// The platform in short: the fields of the answer of `optimize` that say most.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct OptimizedRecord {
     /// What came of the search.
     pub status: OptimizeStatus,
@@ -379,7 +379,7 @@ pub struct OptimizedRecord {
     /// Value of the first objective.
     pub objective: Option<Number>,
     /// What was chosen, axes left out.
-    pub variables: Vec<VariableRecord>,
+    pub variables: Vec<ChosenVariable>,
     /// The numbers `t_i` in cyclic order; null: no offsets were chosen.
     pub offsets: Option<[Number; 6]>,
     /// `t_i d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
@@ -409,7 +409,7 @@ impl OptimizedRecord {
 }
 
 /// A verification in short.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ComparedRecord {
     /// Sets of lengths at which both designs were solved.
     pub sample_count: usize,
@@ -433,7 +433,7 @@ impl From<&Verification> for ComparedRecord {
 }
 
 /// Poses counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PoseTotalsRecord {
     /// Where the lengths come from.
     pub lengths_from: LengthsOrigin,

@@ -1,13 +1,13 @@
 //! Answers of `export`.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::{AssessAnswer, Number};
-use files::export::{Export, ExportFormat, SizeChoice};
+use super::AssessAnswer;
+use files::export::{Export, ExportFormat, LengthUnit, SizeChoice};
 
 /// The answer of `export`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExportAnswer {
     /// The name of the design.
     pub name: String,
@@ -16,11 +16,11 @@ pub struct ExportAnswer {
     /// What `assess` says of the design; null: it requires nothing.
     pub assessment: Option<AssessAnswer>,
     /// What one unit of the design is.
-    pub design_unit: LengthUnitRecord,
+    pub design_unit: LengthUnit,
     /// What became of each format.
     pub formats: Vec<FormatRecord>,
     /// The sizes that were chosen.
-    pub sizes: Vec<SizeRecord>,
+    pub sizes: Vec<SizeChoice>,
     /// Assumptions of the simulator's model about masses and units that the file leaves open; empty where no model was written.
     pub assumptions: Vec<String>,
 }
@@ -39,25 +39,16 @@ impl ExportAnswer {
             name: export.name.clone(),
             output,
             assessment,
-            design_unit: LengthUnitRecord { label: export.unit.label.into(), mm: export.unit.millimetres },
+            design_unit: export.unit,
             formats,
-            sizes: export.choices.iter().map(SizeRecord::from).collect(),
+            sizes: export.choices.clone(),
             assumptions,
         }
     }
 }
 
-/// A length unit.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LengthUnitRecord {
-    /// Its label.
-    pub label: String,
-    /// Millimetres.
-    pub mm: f64,
-}
-
 /// The files of a format.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FormatRecord {
     /// Its name.
     #[schemars(extend("enum" = ExportFormat::ALL.map(ExportFormat::name)))]
@@ -72,7 +63,7 @@ pub struct FormatRecord {
 }
 
 /// What became of a format.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FormatOutcome {
     /// It was written.
@@ -85,23 +76,4 @@ pub enum FormatOutcome {
         /// Why it cannot hold the design.
         refused: String,
     },
-}
-
-/// A size and where it comes from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SizeRecord {
-    /// What it is the size of.
-    pub what: String,
-    /// Its value in `unit`.
-    pub value: Number,
-    /// Design units, or kilograms.
-    pub unit: String,
-    /// Option, table or rule.
-    pub from: String,
-}
-
-impl From<&SizeChoice> for SizeRecord {
-    fn from(c: &SizeChoice) -> Self {
-        Self { what: c.what.clone(), value: Number(c.value), unit: c.unit.into(), from: c.from.into() }
-    }
 }

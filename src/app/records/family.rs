@@ -1,7 +1,7 @@
 //! Answers about every platform equivalent to an octahedral design.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::map::matrix;
 use super::{Number, leg_number};
@@ -14,7 +14,7 @@ use synthesis::{
 };
 
 /// The answer of `equivalents family`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FamilyAnswer {
     /// The name of the design.
     pub name: String,
@@ -23,13 +23,13 @@ pub struct FamilyAnswer {
     /// The edge of each side of the hexagon, design units.
     pub edge_lengths: Vec<Number>,
     /// How many there are.
-    pub counts: CountsRecord,
+    pub counts: FamilyCounts,
     /// The patterns, or the one that was asked for.
     pub patterns: Vec<PatternRecord>,
     /// The ways in which legs share joints.
     pub topologies: Vec<FamilyTopologyRecord>,
     /// The platform of the pattern at the offsets given, with `--offsets`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub instance: Option<InstanceRecord>,
 }
 
@@ -42,7 +42,7 @@ impl FamilyAnswer {
             name: name.into(),
             cyclic_order: o.order().map(leg_number).to_vec(),
             edge_lengths: edge_lengths(o).map(Number).to_vec(),
-            counts: family.counts().into(),
+            counts: family.counts(),
             patterns: members.iter().map(|m| PatternRecord::new(m, original)).collect(),
             topologies: family.topologies().iter().enumerate().map(FamilyTopologyRecord::from).collect(),
             instance: None,
@@ -50,47 +50,8 @@ impl FamilyAnswer {
     }
 }
 
-/// How many members the class has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct CountsRecord {
-    /// Patterns of kept and moved legs.
-    pub patterns: usize,
-    /// Patterns up to the symmetries of the hexagon that keep base and platform apart.
-    pub classes: usize,
-    /// Patterns up to all symmetries of the hexagon.
-    pub classes_exchange: usize,
-    /// Ways in which legs share joints, the octahedral one included.
-    pub topologies: usize,
-    /// The same where base and platform may be exchanged.
-    pub topologies_exchange: usize,
-    /// Topologies that are reached by offsets introduced one at a time.
-    pub sequential_topologies: usize,
-    /// The same where base and platform may be exchanged.
-    pub sequential_topologies_exchange: usize,
-    /// Patterns that are reached by offsets introduced one at a time.
-    pub sequential_patterns: usize,
-    /// Patterns that split joints only.
-    pub splitting_patterns: usize,
-}
-
-impl From<FamilyCounts> for CountsRecord {
-    fn from(c: FamilyCounts) -> Self {
-        Self {
-            patterns: c.patterns,
-            classes: c.classes,
-            classes_exchange: c.classes_exchange,
-            topologies: c.topologies,
-            topologies_exchange: c.topologies_exchange,
-            sequential_topologies: c.sequential_topologies,
-            sequential_topologies_exchange: c.sequential_topologies_exchange,
-            sequential_patterns: c.sequential_patterns,
-            splitting_patterns: c.splitting_patterns,
-        }
-    }
-}
-
 /// Which legs are kept and which are moved along which edge.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PatternRecord {
     /// Its name: V and the vertices kept, S and the sides of the moved ones.
     pub id: String,
@@ -122,7 +83,7 @@ pub struct PatternRecord {
 }
 
 /// One leg of a pattern.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PatternLegRecord {
     /// Its base joint.
     pub base: String,
@@ -134,7 +95,7 @@ pub struct PatternLegRecord {
 }
 
 /// Where a leg of a pattern stands on the hexagon.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum PatternPlace {
     /// Kept.
@@ -151,7 +112,7 @@ pub enum PatternPlace {
 }
 
 /// A joint that holds more than one leg.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SharedJointRecord {
     /// The body it is on.
     pub body: Body,
@@ -203,7 +164,7 @@ impl PatternRecord {
 }
 
 /// A way in which the legs of equivalent platforms share joints.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamilyTopologyRecord {
     /// Its number, from 1.
     pub topology: usize,
@@ -236,7 +197,7 @@ impl From<(usize, &synthesis::FamilyTopology)> for FamilyTopologyRecord {
 }
 
 /// The platform of a pattern at given offsets.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct InstanceRecord {
     /// The pattern.
     pub pattern: String,

@@ -6,25 +6,20 @@ mod pose_count;
 
 use num_complex::Complex64;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 pub use self::certificate::{CertificateRecord, DiscsRecord, EnclosureRecord};
-pub use self::closure::{
-    ClosurePolynomialRecord, ClosureRecord, SingularFactorRecord, TrilaterationStepRecord,
-};
+pub use self::closure::{ClosurePolynomialRecord, ClosureRecord, TrilaterationStepRecord};
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
 use super::{ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number};
 use fk::solve::pose_count::{CountedLengths, PoseSet};
-use fk::{
-    Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
-    SolutionSet,
-};
+use fk::{Completeness, FkRoot, FkSolutions, Method, PathReport, Reality, Rejected, SolutionSet};
 use machine::rotary::RotaryPlatform;
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, height_above_base};
 
 /// The answer of `fk`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FkAnswer {
     /// The lengths come from a CSV file: one record a row.
@@ -34,24 +29,24 @@ pub enum FkAnswer {
 }
 
 /// The poses with the lengths of each row of a file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRowsAnswer {
     /// In the order of the file.
     pub rows: Vec<FkRowRecord>,
 }
 
 /// One row of a file of lengths.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRowRecord {
     /// The line of the CSV file, from 1.
     pub line: usize,
     /// The time of the row, where the file has a column of times.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The six lengths, design units; those of the rods where angles of cranks were given.
     pub lengths: [f64; 6],
     /// The angles of the cranks, where these were given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
     /// The poses, or why there are none.
     #[serde(flatten)]
@@ -59,7 +54,7 @@ pub struct FkRowRecord {
 }
 
 /// What came of a row.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FkRowOutcome {
     /// It was solved.
@@ -69,38 +64,38 @@ pub enum FkRowOutcome {
 }
 
 /// Why a row has no poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RowFailure {
     /// The failure, as the command would have reported it for this row alone.
     pub error: FailureRecord,
 }
 
 /// The poses with one set of lengths, and what was asked for besides.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkOneAnswer {
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
     /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as doubles, to the platform, and certificates hold for these tips.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
     /// Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub within_limits: Option<bool>,
     /// The legs whose cranks are beyond their limits at these angles, from 1.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the tips as doubles are so far out that their rounding decides whether there are any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub symmetric_finite: Option<usize>,
     /// How the pose was followed, with `--near`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub near: Option<NearRecord>,
     /// What the corrections of joints that are not ideal came to; the lengths are then those of drives, and no certificate is given of a root.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveSolutionRecord>,
     /// The exact closure polynomial, with `--method trilateration`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub closure: Option<ClosureRecord>,
 }
 
@@ -131,7 +126,7 @@ impl FkOneAnswer {
 }
 
 /// All finite complex poses with given leg lengths, and whether these are all.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SolvedRecord {
     /// The method that found them.
     pub method: Method,
@@ -159,18 +154,18 @@ pub struct SolvedRecord {
     #[serde(flatten)]
     pub solution_set: SolutionSetRecord,
     /// The paths of the homotopy.
-    pub paths: Vec<PathRecord>,
+    pub paths: Vec<PathReport>,
     /// Candidates that are no roots.
-    pub rejected: Vec<RejectedRecord>,
+    pub rejected: Vec<Rejected>,
     /// Ends of paths without a certificate, near which there may be one pose, several or none: they are not among the solutions.
     pub unproved: Vec<SolutionRecord>,
     /// What null stands for, where a number is not finite.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
 /// Whether all poses are known to be listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CompletenessWord {
     /// By a theorem.
@@ -206,8 +201,8 @@ impl From<&FkSolutions> for SolvedRecord {
             pose_count: PoseCountRecord::of(s),
             solutions: s.roots.iter().map(SolutionRecord::from).collect(),
             solution_set: s.into(),
-            paths: s.paths.iter().map(PathRecord::from).collect(),
-            rejected: s.rejected.iter().map(RejectedRecord::from).collect(),
+            paths: s.paths.clone(),
+            rejected: s.rejected.clone(),
             unproved: s.unproved.iter().map(SolutionRecord::from).collect(),
             notes: Vec::new(),
         };
@@ -262,13 +257,13 @@ impl SolvedRecord {
 
     fn is_finite(&self) -> bool {
         self.solutions.iter().chain(&self.unproved).all(SolutionRecord::is_finite)
-            && self.paths.iter().all(|p| p.isotropy.0.is_finite())
-            && self.rejected.iter().all(|r| r.residual.0.is_finite())
+            && self.paths.iter().all(|p| p.isotropy.is_finite())
+            && self.rejected.iter().all(|r| r.residual.is_finite())
     }
 }
 
 /// What the finite poses form.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "solution_set", rename_all = "snake_case")]
 pub enum SolutionSetRecord {
     /// Nothing speaks against isolated poses.
@@ -325,7 +320,7 @@ impl From<&FkSolutions> for SolutionSetRecord {
 }
 
 /// A pose over the complex numbers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComplexPoseRecord {
     /// Rotation matrix, rows.
     #[serde(rename = "R")]
@@ -354,7 +349,7 @@ impl From<&ComplexPoseRecord> for ComplexPose {
 }
 
 /// A real pose in real numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct RealPoseRecord {
     /// Position of the platform origin, base frame, design units.
     pub position: [f64; 3],
@@ -371,12 +366,12 @@ pub struct RealPoseRecord {
     /// Whether none of the other real poses listed is nearer to home.
     pub nearest_home: bool,
     /// Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks: a machine gets to another side only through a pose with crank and rod in one plane with the axis.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub elbow_kept: Option<[bool; 6]>,
 }
 
 /// A side of the plane of the base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SideWord {
     /// The side where the platform is at home.
@@ -386,7 +381,7 @@ pub enum SideWord {
 }
 
 /// One pose with its evidence.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SolutionRecord {
     /// The pose.
     #[serde(flatten)]
@@ -394,7 +389,7 @@ pub struct SolutionRecord {
     /// Null: undecided.
     pub real: Option<bool>,
     /// The pose in real numbers, where it is real.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub real_pose: Option<RealPoseRecord>,
     /// Whether there is a certificate.
     pub certified: bool,
@@ -435,59 +430,5 @@ impl SolutionRecord {
         let (r, p) = (&self.pose.rotation, &self.pose.position);
         let pose = r.re.iter().chain(&r.im).flatten().chain(&p.re).chain(&p.im);
         pose.chain([&self.residual, &self.condition]).all(|x| x.0.is_finite())
-    }
-}
-
-/// What a path of the homotopy did.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PathRecord {
-    /// Index of the start point.
-    pub start: usize,
-    /// Where it ended.
-    pub end: PathEnd,
-    /// Index into `solutions`, from 0.
-    pub root: Option<usize>,
-    /// Index of the mirror image, where one path stands for two.
-    pub mirror_root: Option<usize>,
-    /// Accepted steps.
-    pub steps: u32,
-    /// Rejected steps.
-    pub rejections: u32,
-    /// Winding number, 1 for a regular end, 0 where it is not determined.
-    pub winding: u32,
-    /// |e.e| / |e|^2 at the end.
-    pub isotropy: Number,
-    /// How often it had to be tracked again with smaller steps.
-    pub retracked: u32,
-}
-
-impl From<&PathReport> for PathRecord {
-    fn from(p: &PathReport) -> Self {
-        Self {
-            start: p.start,
-            end: p.end,
-            root: p.root,
-            mirror_root: p.mirror_root,
-            steps: p.steps,
-            rejections: p.rejections,
-            winding: p.winding,
-            isotropy: Number(p.isotropy),
-            retracked: p.retracked,
-        }
-    }
-}
-
-/// A candidate that is no root.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RejectedRecord {
-    /// Why.
-    pub reason: RejectionReason,
-    /// Its error in the leg equations, over the squared size.
-    pub residual: Number,
-}
-
-impl From<&Rejected> for RejectedRecord {
-    fn from(r: &Rejected) -> Self {
-        Self { reason: r.reason, residual: Number(r.residual) }
     }
 }

@@ -1,10 +1,13 @@
 //! Every answer of the program as plain data: what `--json` prints, what the page and other programs read, and what the schemas describe.
 //!
-//! An answer of a command is a type whose name ends in `Answer`; its parts end in `Record`. They are made `From` the values of the library, hold no
-//! logic, and are read back by `serde`. The same value is printed as text by the command, as JSON by [`Document`], and described by [`schema()`]:
-//! no field is written in two places.
+//! An answer of a command is a type whose name ends in `Answer`. Its parts are values of the library, which write
+//! themselves (feature `serde` of their packages), or records: views that name joints, count legs from 1, or join
+//! several values. The same value is printed as text by the command, as JSON by [`Document`], and described by
+//! [`schema()`]: no field is written in two places. `.ci/generate` writes the tables of the documents and the records of
+//! Python from the schemas. Only what the program reads from its own folders is `Deserialize`.
 //!
-//! Numbers that may be infinite or not a number are [`Number`]s and `null` in JSON; a truth that may be undecided is an `Option<bool>` and `null` where it is.
+//! Numbers that may be infinite or not a number are `null` in JSON: [`Number`]s, or doubles under [`num::nullable`].
+//! A truth that may be undecided is an `Option<bool>` and `null` where it is.
 //! Units stand in the names of fields (`angle_deg`) where they are not those of the design; legs are counted from 1.
 
 #[cfg(feature = "lab")]
@@ -42,7 +45,6 @@ mod rounding;
 mod schema;
 mod selfmotion;
 mod singularities;
-mod statistics;
 #[cfg(feature = "sweep")]
 mod sweep;
 mod tolerances;
@@ -52,7 +54,7 @@ mod verify;
 mod written;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 #[cfg(feature = "lab")]
 pub use self::bench::*;
@@ -89,7 +91,6 @@ pub use self::rounding::*;
 pub use self::schema::*;
 pub use self::selfmotion::*;
 pub use self::singularities::*;
-pub use self::statistics::*;
 #[cfg(feature = "sweep")]
 pub use self::sweep::*;
 pub use self::tolerances::*;
@@ -97,12 +98,13 @@ pub use self::topologies::*;
 pub use self::uncertainty::{CorrelationsWord, PoseUncertaintyRecord};
 pub use self::verify::*;
 pub use self::written::*;
+pub use num::Number;
 
 /// The version of the dialect: a later version of the program may add fields to every object, and words to lists of words, under the same one.
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// One JSON document: an answer between what all answers have.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Document<T> {
     /// Always 1: the version of these definitions.
     #[schemars(extend("const" = SCHEMA_VERSION))]

@@ -1,14 +1,14 @@
 //! Answers on the squared length of a virtual leg at all poses while one leg length varies.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::Number;
 use files::plot::LocusMeeting;
 use fk::Method;
 
 /// The answer of `plot locus`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LocusAnswer {
     /// The leg that varies, from 1.
     pub leg: u8,
@@ -17,11 +17,11 @@ pub struct LocusAnswer {
     /// One for each length.
     pub rows: Vec<LocusRowRecord>,
     /// Where two real values meet, about.
-    pub meetings: Vec<LocusMeetingRecord>,
+    pub meetings: Vec<LocusMeeting>,
 }
 
 /// What was found at one length.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LocusRowRecord {
     /// Its number, from 0.
     pub step: usize,
@@ -38,7 +38,7 @@ pub struct LocusRowRecord {
 }
 
 /// What the poses at one length form.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LocusWord {
     /// Isolated poses.
@@ -65,7 +65,7 @@ impl LocusWord {
 }
 
 /// The squared length of the virtual leg at one pose.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LocusValueRecord {
     /// Its real part.
     pub re: Number,
@@ -77,21 +77,4 @@ pub struct LocusValueRecord {
     pub certified: bool,
     /// Paths, or roots of a polynomial, that end at the pose.
     pub multiplicity: u32,
-}
-
-/// Where two real values meet.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LocusMeetingRecord {
-    /// After this row, from 0.
-    pub after_step: usize,
-    /// About this length.
-    pub length: Number,
-    /// About this value.
-    pub value: Number,
-}
-
-impl From<&LocusMeeting> for LocusMeetingRecord {
-    fn from(m: &LocusMeeting) -> Self {
-        Self { after_step: m.after, length: Number(m.length), value: Number(m.value) }
-    }
 }

@@ -1,15 +1,15 @@
 //! Answers about the affine map between the squared leg lengths of two designs, and the frames in which they are compared.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{Number, PoseRecord, leg_number};
 use platform::manipulator::Level;
-use synthesis::alignment::{Alignment, AlignmentUndecided, Difference, Invariant, Motion, NearestMotion};
+use synthesis::alignment::{Alignment, AlignmentUndecided, Difference, Motion, NearestMotion};
 use synthesis::{AffineLegMap, LegCorrespondence, LegMapOutcome, Relation};
 
 /// The answer of `equivalents map`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MapAnswer {
     /// The map.
     #[serde(flatten)]
@@ -22,7 +22,7 @@ pub struct MapAnswer {
 }
 
 /// The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MapRecord {
     /// What the designs have to do with each other; null: undecided, exit 3.
     pub relation: Option<Relation>,
@@ -70,7 +70,7 @@ pub struct MapRecord {
 }
 
 /// Limits of the decision about a map.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct MapTolerancesRecord {
     /// Of `residual`.
     pub residual: f64,
@@ -117,7 +117,7 @@ impl From<&LegMapOutcome> for MapRecord {
 }
 
 /// Which leg of FROM each leg of TO is.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CorrespondenceRecord {
     /// The leg of FROM, from 1; null: none of them.
     pub legs: [Option<usize>; 6],
@@ -141,21 +141,21 @@ impl From<&LegCorrespondence> for CorrespondenceRecord {
 }
 
 /// What `--exchange`, `--align` and `--output` did with the second design.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 pub struct FramesRecord {
     /// Base and platform of the second design were exchanged first.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub exchanged: bool,
     /// The rigid motions that make the second design equivalent to the first, with `--align`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub alignment: Option<AlignmentRecord>,
     /// The file written.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,
 }
 
 /// The rigid motions that make one design equivalent to another.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct AlignmentRecord {
     /// One sentence with the numbers that decided.
     pub explanation: String,
@@ -169,7 +169,7 @@ pub struct AlignmentRecord {
 }
 
 /// What a search for rigid motions found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum AlignmentOutcome {
     /// These motions.
@@ -184,16 +184,16 @@ pub enum AlignmentOutcome {
     /// There is none.
     None {
         /// The number that shows it.
-        difference: DifferenceRecord,
+        difference: Difference,
         /// How near a motion comes.
-        nearest: Option<NearestMotionRecord>,
+        nearest: Option<NearestMotion>,
     },
     /// Not decided.
     Undecided {
         /// Why not.
         reason: AlignmentUndecided,
         /// How near a motion comes.
-        nearest: Option<NearestMotionRecord>,
+        nearest: Option<NearestMotion>,
     },
 }
 
@@ -212,7 +212,6 @@ impl AlignmentRecord {
 
 impl From<&Alignment> for AlignmentOutcome {
     fn from(a: &Alignment) -> Self {
-        let near = |n: &Option<NearestMotion>| n.as_ref().map(NearestMotionRecord::from);
         match a {
             Alignment::Found { motions, all, freedom } => Self::Found {
                 motions: motions.iter().map(MotionRecord::from).collect(),
@@ -220,17 +219,17 @@ impl From<&Alignment> for AlignmentOutcome {
                 freedom: *freedom,
             },
             Alignment::None { difference, nearest } => {
-                Self::None { difference: difference.into(), nearest: near(nearest) }
+                Self::None { difference: *difference, nearest: *nearest }
             }
             Alignment::Undecided { reason, nearest } => {
-                Self::Undecided { reason: *reason, nearest: near(nearest) }
+                Self::Undecided { reason: *reason, nearest: *nearest }
             }
         }
     }
 }
 
 /// A pair of rigid motions of the second design.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MotionRecord {
     /// Of its base.
     pub base: PoseRecord,
@@ -256,52 +255,8 @@ impl From<&Motion> for MotionRecord {
     }
 }
 
-/// The pair of rigid motions that comes nearest.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct NearestMotionRecord {
-    /// Of the base of the second design.
-    pub base: PoseRecord,
-    /// Of its platform.
-    pub platform: PoseRecord,
-    /// The residual it leaves.
-    pub residual: Number,
-}
-
-impl From<&NearestMotion> for NearestMotionRecord {
-    fn from(n: &NearestMotion) -> Self {
-        Self { base: (&n.base).into(), platform: (&n.platform).into(), residual: Number(n.residual) }
-    }
-}
-
-/// An invariant that tells two designs apart.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DifferenceRecord {
-    /// Which.
-    pub invariant: Invariant,
-    /// Its value for the first design.
-    pub a: Number,
-    /// Its value for the second.
-    pub b: Number,
-    /// By how much they differ.
-    pub gap: Number,
-    /// What a difference has to exceed.
-    pub bound: Number,
-}
-
-impl From<&Difference> for DifferenceRecord {
-    fn from(d: &Difference) -> Self {
-        Self {
-            invariant: d.invariant,
-            a: Number(d.in_a),
-            b: Number(d.in_b),
-            gap: Number(d.gap),
-            bound: Number(d.bound),
-        }
-    }
-}
-
 /// What was found for the second design taken otherwise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct OtherAlignmentRecord {
     /// Whether there are motions.
     pub status: AlignmentWord,
@@ -310,7 +265,7 @@ pub struct OtherAlignmentRecord {
 }
 
 /// Whether rigid motions were found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AlignmentWord {
     /// They were.

@@ -1,7 +1,7 @@
 //! Answers about the legs along a motion.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{MarginRecord, Number, PoseQuaternionRecord};
 use ask::Design;
@@ -10,7 +10,7 @@ use machine::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vib
 use synthesis::singularity::SingularEvidence;
 
 /// The answer of `motion`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MotionAnswer {
     /// The name of the design.
     pub name: String,
@@ -31,7 +31,7 @@ pub struct MotionAnswer {
 }
 
 /// Stiffness and natural motions at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct StiffnessRecord {
     /// The pose.
     pub pose: PoseQuaternionRecord,
@@ -47,7 +47,7 @@ pub struct StiffnessRecord {
 }
 
 /// A natural motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NaturalMotionRecord {
     /// Its frequency.
     pub frequency_hz: Number,
@@ -78,7 +78,7 @@ impl StiffnessRecord {
 }
 
 /// The legs along a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MotionRunRecord {
     /// The file of the trajectory, or the manoeuvre as it was asked for.
     pub motion: String,
@@ -91,7 +91,7 @@ pub struct MotionRunRecord {
     /// By leg; empty where a leg has no length at some instant, and where the legs are rods on cranks.
     pub legs: Vec<LegMotionRecord>,
     /// By leg, where the legs are rods on cranks; empty where a rod does not reach at some instant.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub cranks: Option<Vec<CrankMotionRecord>>,
     /// The least margin of each kind of requirement, force and speed by this motion.
     pub requirements: Vec<TimedMarginRecord>,
@@ -102,14 +102,14 @@ pub struct MotionRunRecord {
     /// That pose.
     pub singular_pose: Option<PoseQuaternionRecord>,
     /// What shows that it is singular.
-    pub singular_evidence: Option<SingularEvidenceWord>,
+    pub singular_evidence: Option<SingularEvidence>,
     /// When a rod first does not reach from its crank to the platform, where one does not.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unreached_at_s: Option<f64>,
 }
 
 /// Whether every pose of a motion is regular.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionRegularity {
     /// det J is proved to keep its sign on the whole motion, between the instants too.
@@ -118,41 +118,6 @@ pub enum MotionRegularity {
     Sampled,
     /// The motion passes a singular pose.
     Singular,
-}
-
-/// What shows that a pose is singular.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SingularEvidenceWord {
-    /// Proved: det J is zero in exact arithmetic on the joints and the rotation as written.
-    Zero,
-    /// det J has opposite signs before and after: proved for legs, by instants for rods on cranks.
-    SignChange,
-    /// det J is not above its rounding errors.
-    Rounding,
-}
-
-impl SingularEvidenceWord {
-    /// The words for a person.
-    #[must_use]
-    pub fn sentence(self) -> String {
-        match self {
-            Self::Zero => SingularEvidence::Zero,
-            Self::SignChange => SingularEvidence::SignChange,
-            Self::Rounding => SingularEvidence::Rounding,
-        }
-        .to_string()
-    }
-}
-
-impl From<SingularEvidence> for SingularEvidenceWord {
-    fn from(evidence: SingularEvidence) -> Self {
-        match evidence {
-            SingularEvidence::Zero => Self::Zero,
-            SingularEvidence::SignChange => Self::SignChange,
-            SingularEvidence::Rounding => Self::Rounding,
-        }
-    }
 }
 
 impl MotionRunRecord {
@@ -179,7 +144,7 @@ impl MotionRunRecord {
             },
             singular_at_s: found.singular.map(|at| at.time),
             singular_pose: found.singular.map(|at| PoseQuaternionRecord::from(&at.pose)),
-            singular_evidence: found.singular.map(|at| at.evidence.into()),
+            singular_evidence: found.singular.map(|at| at.evidence),
             unreached_at_s: found.unreached,
         }
     }
@@ -191,7 +156,7 @@ fn each<T>(found: &MotionReport, record: fn(usize, &LegExtremes) -> T) -> Vec<T>
 }
 
 /// A margin with its time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TimedMarginRecord {
     /// When the margin is least.
     pub time_s: f64,
@@ -205,79 +170,64 @@ impl TimedMarginRecord {
     }
 }
 
-/// A value with its time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ExtremeRecord {
-    /// With its sign.
-    pub value: Number,
-    /// When.
-    pub time_s: f64,
-}
-
-impl From<Extreme> for ExtremeRecord {
-    fn from(found: Extreme) -> Self {
-        Self { value: Number(found.value), time_s: found.time }
-    }
-}
-
 /// A leg along a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LegMotionRecord {
     /// From 1.
     pub leg: usize,
     /// Least length.
-    pub shortest: ExtremeRecord,
+    pub shortest: Extreme,
     /// Greatest length.
-    pub longest: ExtremeRecord,
+    pub longest: Extreme,
     /// Speed of the greatest size, positive where the leg becomes longer.
-    pub speed: ExtremeRecord,
+    pub speed: Extreme,
     /// Acceleration of the greatest size.
-    pub acceleration: ExtremeRecord,
+    pub acceleration: Extreme,
     /// Hardest push of the drive, 0 where it only pulls; null: no masses are known, or forces are not determined.
-    pub push: Option<ExtremeRecord>,
+    pub push: Option<Extreme>,
     /// Hardest pull, negative, 0 where it only pushes.
-    pub pull: Option<ExtremeRecord>,
+    pub pull: Option<Extreme>,
     /// Root of the mean square of the force over time, force units.
     pub rms_force: Option<Number>,
     /// Power of the greatest size, watts; negative where the drive brakes.
-    pub power_w: Option<ExtremeRecord>,
+    pub power_w: Option<Extreme>,
 }
 
 impl LegMotionRecord {
     fn new(leg: usize, found: &LegExtremes) -> Self {
         Self {
             leg,
-            shortest: found.shortest.into(),
-            longest: found.longest.into(),
-            speed: found.speed.into(),
-            acceleration: found.acceleration.into(),
-            push: found.drive.map(|d| d.push.into()),
-            pull: found.drive.map(|d| d.pull.into()),
+            shortest: found.shortest,
+            longest: found.longest,
+            speed: found.speed,
+            acceleration: found.acceleration,
+            push: found.drive.map(|d| d.push),
+            pull: found.drive.map(|d| d.pull),
             rms_force: found.drive.map(|d| Number(d.rms_force)),
-            power_w: found.drive.map(|d| d.power.into()),
+            power_w: found.drive.map(|d| d.power),
         }
     }
 }
 
 /// A crank along a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CrankMotionRecord {
     /// From 1.
     pub leg: usize,
     /// Least angle.
-    pub least_deg: ExtremeRecord,
+    pub least_deg: Extreme,
     /// Greatest angle.
-    pub greatest_deg: ExtremeRecord,
+    pub greatest_deg: Extreme,
     /// Speed of the greatest size, degrees per second.
-    pub speed_deg: ExtremeRecord,
+    pub speed_deg: Extreme,
     /// Acceleration of the greatest size, degrees per second squared.
-    pub acceleration_deg: ExtremeRecord,
+    pub acceleration_deg: Extreme,
     /// Torque of the greatest size about the axis, force units times design units; null: no masses are known, or torques are not determined. Cranks and rods count as massless.
-    pub torque: Option<ExtremeRecord>,
+    pub torque: Option<Extreme>,
     /// Root of the mean square of the torque over time.
     pub rms_torque: Option<Number>,
     /// Power of the greatest size, watts; negative where the drive brakes.
-    pub power_w: Option<ExtremeRecord>,
+    pub power_w: Option<Extreme>,
 }
 
 impl CrankMotionRecord {
@@ -286,13 +236,13 @@ impl CrankMotionRecord {
             |d: DriveExtremes| if d.push.value.abs() >= d.pull.value.abs() { d.push } else { d.pull };
         Self {
             leg,
-            least_deg: found.shortest.into(),
-            greatest_deg: found.longest.into(),
-            speed_deg: found.speed.into(),
-            acceleration_deg: found.acceleration.into(),
-            torque: found.drive.map(|d| torque(d).into()),
+            least_deg: found.shortest,
+            greatest_deg: found.longest,
+            speed_deg: found.speed,
+            acceleration_deg: found.acceleration,
+            torque: found.drive.map(torque),
             rms_torque: found.drive.map(|d| Number(d.rms_force)),
-            power_w: found.drive.map(|d| d.power.into()),
+            power_w: found.drive.map(|d| d.power),
         }
     }
 }

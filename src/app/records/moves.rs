@@ -1,7 +1,7 @@
 //! Answers about legs that are moved without changing the platform, and about the search for equivalent platforms.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{AssessAnswer, DesignRecord, LegEndsRecord, MapRecord, Number};
 use platform::manipulator::Body;
@@ -10,7 +10,7 @@ use synthesis::relocate::SingularParameters;
 use synthesis::relocate::search::{self, Hole, HoleAnswer, Impossibility, SearchVerdict, WishMargin, Wishes};
 
 /// The answer of `equivalents move`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MoveAnswer {
     /// With `--search`.
@@ -20,7 +20,7 @@ pub enum MoveAnswer {
 }
 
 /// What moves of legs came to.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MovesAnswer {
     /// The name of the design.
     pub name: String,
@@ -46,7 +46,7 @@ pub struct MovesAnswer {
 }
 
 /// How moves are made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MoveMode {
     /// One after another.
@@ -56,7 +56,7 @@ pub enum MoveMode {
 }
 
 /// Moves made at once.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MoveStepRecord {
     /// What the new platform has to do with the one before; null: undecided.
     pub outcome: Option<Relation>,
@@ -67,7 +67,7 @@ pub struct MoveStepRecord {
 }
 
 /// One leg moved along a family.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LegMoveRecord {
     /// The leg, from 1.
     pub leg: usize,
@@ -97,7 +97,7 @@ pub struct LegMoveRecord {
 }
 
 /// Values of the first parameter with det A = 0.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SingularParametersRecord {
     /// These.
@@ -116,7 +116,7 @@ impl From<&SingularParameters> for SingularParametersRecord {
 }
 
 /// What the search for an equivalent platform that fulfils wishes found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MoveSearchAnswer {
     /// The name of the design.
     pub name: String,
@@ -149,7 +149,7 @@ pub struct MoveSearchAnswer {
 }
 
 /// What came of a search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchWord {
     /// A platform that fulfils every wish and meets the requirements of the design.
@@ -180,7 +180,7 @@ impl SearchWord {
 }
 
 /// What an equivalent platform should fulfil.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct WishesRecord {
     /// Fewest shared joints.
     pub no_shared_joints: bool,
@@ -213,7 +213,7 @@ impl From<&Wishes> for WishesRecord {
 }
 
 /// A hole that a leg should end at.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct HoleRecord {
     /// The body it is in.
     pub body: Body,
@@ -234,7 +234,7 @@ pub struct HoleRecord {
 }
 
 /// Which legs of equivalent platforms end at a hole.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum HoleWord {
     /// Some.
@@ -267,7 +267,7 @@ impl From<&search::JudgedHole> for HoleRecord {
 }
 
 /// An equivalent platform.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CandidateRecord {
     /// It fulfils every wish, and is proved to meet the requirements of the design.
     pub fulfilled: bool,
@@ -280,7 +280,7 @@ pub struct CandidateRecord {
     /// Its shared joints.
     pub shared_joints: usize,
     /// By how much it fulfils the wishes.
-    pub margins: Vec<WishMarginRecord>,
+    pub margins: Vec<WishMargin>,
     /// How its legs are made.
     pub moves: Vec<PlacementRecord>,
     /// The map to it.
@@ -290,33 +290,8 @@ pub struct CandidateRecord {
     pub design: Option<DesignRecord>,
 }
 
-/// By how much a wish is fulfilled.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct WishMarginRecord {
-    /// Which.
-    #[schemars(extend("enum" = ["spacing", "clearance", "conditioning", "reach"]))]
-    pub wish: String,
-    /// What the platform has.
-    pub value: Number,
-    /// What is wished.
-    pub required: Number,
-    /// The difference over the size.
-    pub slack: Number,
-}
-
-impl From<&WishMargin> for WishMarginRecord {
-    fn from(m: &WishMargin) -> Self {
-        Self {
-            wish: m.wish.as_str().into(),
-            value: Number(m.value),
-            required: Number(m.required),
-            slack: Number(m.slack),
-        }
-    }
-}
-
 /// How a leg of an equivalent platform is made.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PlacementRecord {
     /// The leg, from 1.
     pub leg: usize,

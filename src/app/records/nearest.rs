@@ -1,7 +1,7 @@
 //! Answers about the octahedral platform nearest to a design.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{DesignRecord, Number, PoseQuaternionRecord, SourceWord};
 use ask::Design;
@@ -10,7 +10,7 @@ use platform::geom::Pose;
 use synthesis::{LengthDeviation, NearestOptions, length_deviation};
 
 /// The answer of `equivalents nearest`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearestAnswer {
     /// The name of the design.
     pub name: String,
@@ -27,7 +27,7 @@ pub struct NearestAnswer {
 }
 
 /// The nearest octahedral platform with the error it would make.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearestRecord {
     /// The leg on side k of the hexagon, from 1.
     pub order: [usize; 6],

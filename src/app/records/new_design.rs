@@ -1,12 +1,13 @@
 //! The answer of `new`.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::{PoseRecord, PresetFile, SingularEvidenceWord};
+use super::{PoseRecord, PresetFile};
+use synthesis::singularity::SingularEvidence;
 
 /// The answer of `new`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NewAnswer {
     /// The name of the design.
     pub name: String,
@@ -22,7 +23,7 @@ pub struct NewAnswer {
     /// Whether the leg lines are dependent at every pose, decided exactly for the joints as they are written.
     pub architecturally_singular: bool,
     /// What shows that the home pose is singular; null: it is regular.
-    pub singular_home: Option<SingularEvidenceWord>,
+    pub singular_home: Option<SingularEvidence>,
     /// What was guessed about the table, a sentence each.
     pub guesses: Vec<String>,
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::topologies::joint_pairs;
 use platform::manipulator::Body;
@@ -12,7 +12,7 @@ use synthesis::rearrangement::{
 };
 
 /// One line of the table of rearrangements.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct RearrangementRecord {
     /// T01 to T34.
     pub id: String,
@@ -41,7 +41,7 @@ pub struct RearrangementRecord {
     /// The same of the equivalent design that has fewest.
     pub fewest_merged_ends: usize,
     /// Why there are not fewer.
-    pub obstructions: Vec<ObstructionRecord>,
+    pub obstructions: Vec<Obstruction>,
     /// The design is equivalent to an octahedral one.
     pub octahedral: bool,
     /// Why it is not.
@@ -55,7 +55,7 @@ pub struct RearrangementRecord {
 }
 
 /// The argument that finds all families of replaceable legs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ArgumentWord {
     /// Joints of the base hold all legs.
@@ -93,7 +93,7 @@ impl From<&Rearrangement> for RearrangementRecord {
             fewest_shared_joints: r.fewest_shared,
             merged_ends: r.member.merged_ends(),
             fewest_merged_ends: r.fewest_merged,
-            obstructions: r.obstructions.iter().map(ObstructionRecord::from).collect(),
+            obstructions: r.obstructions.clone(),
             octahedral,
             octahedral_reason,
             octahedral_design,
@@ -104,10 +104,10 @@ impl From<&Rearrangement> for RearrangementRecord {
 }
 
 /// A family of replaceable legs.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamilyRecord {
     /// Its kind.
-    pub kind: FamilyKindWord,
+    pub kind: PieceKind,
     /// Dimension of its flat of the base.
     pub base_dimension: usize,
     /// Dimension of its flat of the platform.
@@ -128,24 +128,11 @@ pub struct FamilyRecord {
     pub weight: usize,
 }
 
-/// The kind of a family.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum FamilyKindWord {
-    /// Every point of one flat with every point of the other.
-    AllPairs,
-    /// Every point with its partner.
-    Pairing,
-}
-
 impl From<&Piece> for FamilyRecord {
     fn from(p: &Piece) -> Self {
         let [base, platform] = p.points();
         Self {
-            kind: match p.kind {
-                PieceKind::AllPairs => FamilyKindWord::AllPairs,
-                PieceKind::Pairing => FamilyKindWord::Pairing,
-            },
+            kind: p.kind,
             base_dimension: p.base_dimension(),
             platform_dimension: p.platform_dimension(),
             dimension: p.dimension(),
@@ -159,25 +146,8 @@ impl From<&Piece> for FamilyRecord {
     }
 }
 
-/// Why no equivalent design has fewer shared joints.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct ObstructionRecord {
-    /// Families that legs may be on, from 0.
-    pub allowed: Vec<usize>,
-    /// Summands they lie in, from 0.
-    pub within: Vec<usize>,
-    /// The most independent legs there.
-    pub most: usize,
-}
-
-impl From<&Obstruction> for ObstructionRecord {
-    fn from(o: &Obstruction) -> Self {
-        Self { allowed: o.allowed.clone(), within: o.within.clone(), most: o.most }
-    }
-}
-
 /// A design with rational joints.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ExactDesignRecord {
     /// Base joints: [x, y, z], fractions as text.
     pub base: BTreeMap<String, [String; 3]>,

@@ -1,7 +1,7 @@
 //! Answers of inverse kinematics where the legs are rods of constant length on cranks: angles in place of lengths.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{Number, PoseMarginRecord, PoseRecord};
 use ask::Design;
@@ -11,19 +11,19 @@ use platform::geom::Pose;
 use platform::manipulator::{inverse_condition, jacobian};
 
 /// The angles of cranks at several poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RotaryIkRowsAnswer {
     /// In the order given.
     pub rows: Vec<RotaryIkRecord>,
 }
 
 /// The angles of cranks at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RotaryIkRecord {
     /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
     /// The time of the row, where the table has a column of times.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
@@ -34,7 +34,7 @@ pub struct RotaryIkRecord {
     /// Whether all angles are within their limits, the ends included; null: a rod does not reach, or the design limits no angle.
     pub within_limits: Option<bool>,
     /// The legs whose cranks are beyond their limits, from 1.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// The cranks in leg order; none where a rod does not reach.
     pub cranks: Vec<CrankRecord>,
@@ -44,14 +44,14 @@ pub struct RotaryIkRecord {
     /// Smallest over largest singular value of the Jacobian of the rods on the tips, with moments over the characteristic length of the design: 1 at best, 0 at a singular pose; null: a rod does not reach.
     pub inverse_condition: Option<Number>,
     /// The torques of the cranks that hold each load at rest, where the design has loads.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub torques: Vec<CrankTorquesRecord>,
     /// The least margin of each kind of requirement at this pose.
     pub margins: Vec<PoseMarginRecord>,
 }
 
 /// A rod that does not reach from the circle of its crank to the platform joint.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OutOfReachRecord {
     /// The leg, from 1.
     pub leg: usize,
@@ -59,30 +59,11 @@ pub struct OutOfReachRecord {
     pub too_short_by: f64,
 }
 
-/// A side of a crank.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ElbowWord {
-    /// The greater of the two angles.
-    Plus,
-    /// The smaller one.
-    Minus,
-}
-
-impl From<Elbow> for ElbowWord {
-    fn from(elbow: Elbow) -> Self {
-        match elbow {
-            Elbow::Plus => Self::Plus,
-            Elbow::Minus => Self::Minus,
-        }
-    }
-}
-
 /// How a crank stands at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CrankRecord {
     /// The side that the design keeps.
-    pub elbow: ElbowWord,
+    pub elbow: Elbow,
     /// The angle on this side.
     pub angle_deg: f64,
     /// The angle on the other side.
@@ -98,7 +79,7 @@ pub struct CrankRecord {
 }
 
 /// Torques that hold a load.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CrankTorquesRecord {
     /// The load.
     pub load: String,
@@ -141,7 +122,7 @@ impl RotaryIkRecord {
         let other: [f64; 6] = std::array::from_fn(|i| platform.counted(i, both[i].of(legs[i].elbow.other())));
         let (left, transmissions) = (platform.limit_margins(&kept), platform.transmissions(pose, &kept));
         let crank = |i: usize| CrankRecord {
-            elbow: legs[i].elbow.into(),
+            elbow: legs[i].elbow,
             angle_deg: kept[i].to_degrees(),
             other_angle_deg: other[i].to_degrees(),
             limit_margin_deg: legs[i].limits.map(|_| left[i].to_degrees()),

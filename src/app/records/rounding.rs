@@ -1,21 +1,21 @@
 //! Answers about joints on grids of holes.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::tolerances::joint_name;
-use super::{
-    AssessAnswer, DesignRecord, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord, VerdictWord,
-};
+use super::{AssessAnswer, DesignRecord, Number, PoseErrorRecord, VerdictWord};
 use ask::Design;
 use ask::rounding::RoundingWay;
-use machine::manufacture::{ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint};
-use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern, TermKind};
+use machine::manufacture::{
+    ErrorSpread, ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint,
+};
+use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern};
 use platform::manipulator::Body;
 use verify::{Verification, VerifyError};
 
 /// The answer of `build round`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RoundAnswer {
     /// The name of the design.
     pub name: String,
@@ -26,7 +26,7 @@ pub struct RoundAnswer {
     /// Origins and angles of the grids are chosen too.
     pub free_grid: bool,
     /// The design as it is wanted.
-    pub wanted: JudgementRecord,
+    pub wanted: Judgement,
     /// The best rounding that is exactly equivalent to an octahedral platform.
     pub exact: ExactRoundingOutcome,
     /// The rounding with every joint next to where it is wanted.
@@ -34,47 +34,17 @@ pub struct RoundAnswer {
     /// What `assess` says of the rounded design; null: there is none, or the design requires nothing.
     pub assessment: Option<AssessAnswer>,
     /// Which of them the rule takes; null: none meets the requirements.
-    pub chosen: Option<VariantWord>,
+    pub chosen: Option<RoundingWay>,
     /// Where none meets the requirements, the one that misses them least, by the greatest violation as a share of what is limited; null otherwise.
-    pub least_missed: Option<VariantWord>,
+    pub least_missed: Option<RoundingWay>,
     /// The rounded design: the one chosen, or the one that misses the requirements least.
     pub design: Option<DesignRecord>,
     /// The file written.
     pub output: Option<String>,
 }
 
-/// Which rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum VariantWord {
-    /// All joints exactly on the sides of two triangles.
-    Exact,
-    /// All joints on holes next to where they are wanted.
-    Nearest,
-}
-
-impl From<RoundingWay> for VariantWord {
-    fn from(way: RoundingWay) -> Self {
-        match way {
-            RoundingWay::Exact => Self::Exact,
-            RoundingWay::Nearest => Self::Nearest,
-        }
-    }
-}
-
-impl VariantWord {
-    /// The word.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Nearest => "nearest",
-        }
-    }
-}
-
 /// The grids of both bodies.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct GridsRecord {
     /// Of the base; null: its joints stay where they are.
     pub base: Option<GridRecord>,
@@ -83,36 +53,26 @@ pub struct GridsRecord {
 }
 
 /// A grid of holes in the plane of a body.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct GridRecord {
     /// How the holes lie.
     pub pattern: HolePattern,
     /// Distance of neighbouring holes, or of the rings of a polar grid; null for bolt circles.
     pub pitch: Option<Number>,
     /// The first ring of a polar grid, or all bolt circles; empty for the other patterns.
-    pub circles: Vec<HoleCircleRecord>,
+    pub circles: Vec<HoleCircle>,
     /// A hole, or the centre of the circles.
     pub origin: [Number; 2],
     /// The turn of the grid.
     pub angle_deg: Number,
 }
 
-/// Holes on a circle, equally spaced.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct HoleCircleRecord {
-    /// The radius.
-    pub radius: Number,
-    /// The number of holes.
-    pub holes: u32,
-}
-
 impl From<&Grid> for GridRecord {
     fn from(g: &Grid) -> Self {
-        let circle = |c: &HoleCircle| HoleCircleRecord { radius: Number(c.radius), holes: c.holes };
         Self {
             pattern: g.pattern,
             pitch: (g.pattern != HolePattern::BoltCircle).then_some(Number(g.pitch)),
-            circles: g.circles.as_slice().iter().map(circle).collect(),
+            circles: g.circles.as_slice().to_vec(),
             origin: g.origin.map(Number),
             angle_deg: Number(g.angle_deg),
         }
@@ -123,12 +83,10 @@ impl GridRecord {
     /// The grid in words.
     #[must_use]
     pub fn in_words(&self) -> String {
-        let circle = |c: &HoleCircleRecord| HoleCircle { radius: c.radius.0, holes: c.holes };
-        let circles: Vec<HoleCircle> = self.circles.iter().map(circle).collect();
         Grid {
             pattern: self.pattern,
             pitch: self.pitch.map_or(0.0, |x| x.0),
-            circles: HoleCircles::new(&circles).unwrap_or_default(),
+            circles: HoleCircles::new(&self.circles).unwrap_or_default(),
             origin: self.origin.map(|x| x.0),
             angle_deg: self.angle_deg.0,
         }
@@ -142,54 +100,8 @@ impl From<&[Option<Grid>; 2]> for GridsRecord {
     }
 }
 
-/// How good a design is.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct JudgementRecord {
-    /// The worst inverse condition number over the poses.
-    pub objective: Number,
-    /// Where it is.
-    pub worst_pose: PoseQuaternionRecord,
-    /// Least distances of two joints, base and platform.
-    pub least_distances: [Number; 2],
-    /// det A; null: there is no leg map.
-    pub det: Option<Number>,
-    /// The least margin of each requirement.
-    pub requirements: Vec<RequirementMarginRecord>,
-    /// No requirement is violated.
-    pub met: bool,
-    /// Every margin keeps its reserve too.
-    pub reserve_kept: bool,
-}
-
-/// The least margin of a requirement.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RequirementMarginRecord {
-    /// Which.
-    pub name: TermKind,
-    /// The margin; a violation below 0.
-    pub margin: Number,
-}
-
-impl From<&Judgement> for JudgementRecord {
-    fn from(j: &Judgement) -> Self {
-        let margin = |(requirement, margin): &(TermKind, f64)| RequirementMarginRecord {
-            name: *requirement,
-            margin: Number(*margin),
-        };
-        Self {
-            objective: Number(j.objective),
-            worst_pose: (&j.worst_pose).into(),
-            least_distances: j.least_distances.map(Number),
-            det: j.det.map(Number),
-            requirements: j.margins.iter().map(margin).collect(),
-            met: j.met,
-            reserve_kept: j.reserve_kept,
-        }
-    }
-}
-
 /// The exact rounding, or why there is none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExactRoundingOutcome {
     /// There is one.
@@ -199,7 +111,7 @@ pub enum ExactRoundingOutcome {
 }
 
 /// The nearest rounding, or why there is none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum NearestRoundingOutcome {
     /// There is one.
@@ -209,14 +121,14 @@ pub enum NearestRoundingOutcome {
 }
 
 /// Why there is no rounding.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct NoRoundingRecord {
     /// What stands against it.
     pub error: NoRoundingError,
 }
 
 /// What stands against a rounding.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct NoRoundingError {
     /// A short code.
     pub code: NoRoundingWord,
@@ -225,7 +137,7 @@ pub struct NoRoundingError {
 }
 
 /// A short code for what stands against a rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum NoRoundingWord {
     /// The joints are not on the sides of two triangles.
@@ -263,7 +175,7 @@ impl From<NoRounding> for NoRoundingRecord {
 }
 
 /// The word for a verification that may not have been computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RoundingVerdict {
     /// It could not be computed.
@@ -291,7 +203,7 @@ impl From<&Result<Verification, VerifyError>> for RoundingVerdict {
 }
 
 /// All joints exactly on the sides of two triangles whose corners are holes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExactRoundingRecord {
     /// The grids used.
     pub grids: GridsRecord,
@@ -306,13 +218,13 @@ pub struct ExactRoundingRecord {
     /// The joints.
     pub joints: Vec<RoundedJointRecord>,
     /// How good it is.
-    pub judgement: JudgementRecord,
+    pub judgement: Judgement,
     /// How it was found.
     pub search: RoundingSearchRecord,
 }
 
 /// How an exact rounding was found.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct RoundingSearchRecord {
     /// Triangles of base and platform that were combined.
     pub triangles: [usize; 2],
@@ -323,7 +235,7 @@ pub struct RoundingSearchRecord {
 }
 
 /// All joints on holes next to where they are wanted.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearestRoundingRecord {
     /// The grids used.
     pub grids: GridsRecord,
@@ -334,7 +246,7 @@ pub struct NearestRoundingRecord {
     /// The joints.
     pub joints: Vec<RoundedJointRecord>,
     /// How good it is.
-    pub judgement: JudgementRecord,
+    pub judgement: Judgement,
     /// The error of the pose by the formula of the wanted design.
     pub pose_error: RoundingErrorRecord,
     /// Joints that are not on the nearest hole.
@@ -344,20 +256,20 @@ pub struct NearestRoundingRecord {
 }
 
 /// The error of the pose when a rounded platform is controlled as the wanted one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct RoundingErrorRecord {
     /// To first order.
     pub first_order: PoseErrorRecord,
     /// The same with every joint on the nearest hole.
     pub first_order_nearest_points: PoseErrorRecord,
     /// Solved at random poses.
-    pub solved: PoseErrorsRecord,
+    pub solved: ErrorSpread,
     /// How many.
     pub solved_poses: usize,
 }
 
 /// A joint on a hole.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RoundedJointRecord {
     /// Its body.
     pub body: Body,
@@ -400,7 +312,7 @@ impl ExactRoundingOutcome {
             three_fold: e.three_fold,
             fractions: e.fractions.map(|f| f.map(|(k, n)| [k, n])),
             joints: joints(design, &e.joints),
-            judgement: (&e.judgement).into(),
+            judgement: e.judgement.clone(),
             search: RoundingSearchRecord {
                 triangles: e.pool,
                 complete_to: e.complete_to.map(Number),
@@ -423,11 +335,11 @@ impl NearestRoundingOutcome {
             verdict: (&n.verification).into(),
             map_residual: n.verification.as_ref().ok().map(|v| Number(v.map.residual)),
             joints: joints(design, &n.joints),
-            judgement: (&n.judgement).into(),
+            judgement: n.judgement.clone(),
             pose_error: RoundingErrorRecord {
                 first_order: n.first_order.into(),
                 first_order_nearest_points: n.first_order_nearest.into(),
-                solved: (&n.solved.0).into(),
+                solved: n.solved.0,
                 solved_poses: n.solved.1,
             },
             not_nearest: n.not_nearest,

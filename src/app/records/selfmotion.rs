@@ -1,14 +1,16 @@
 //! Answers about the curves of poses with constant leg lengths.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{CompletenessWord, Number, PoseQuaternionRecord};
 use ask::MotionOrigin;
-use synthesis::singularity::{CriticalPoses, CurveDegree, MotionCurve, MotionEvidence, PoseVerdict};
+use synthesis::singularity::{
+    CriticalPoses, CurveDegree, MotionCurve, MotionEvidence, MotionPoint, PoseVerdict,
+};
 
 /// The answer of `singular motion`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SelfmotionAnswer {
     /// The name of the design.
     pub name: String,
@@ -37,7 +39,7 @@ pub struct SelfmotionAnswer {
     /// Every real component is accounted for, numerically; null: no search for other components was made.
     pub components_accounted: Option<bool>,
     /// Irreducible components over the complex numbers.
-    pub complex_components: Option<Vec<CurveDegreeRecord>>,
+    pub complex_components: Option<Vec<CurveDegree>>,
     /// Critical points of a distance on the curves, one at least on each real component.
     pub critical_points: Option<CriticalPointsRecord>,
     /// The largest error of a leg length over the size.
@@ -49,7 +51,7 @@ pub struct SelfmotionAnswer {
 }
 
 /// What shows the dimension of a self-motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionEvidenceWord {
     /// Proved: the leg lines are independent at the pose.
@@ -79,7 +81,7 @@ impl From<PoseVerdict> for MotionEvidenceWord {
 }
 
 /// The surroundings of an isolated pose, in displacements `(t / size, c)`: translation over the size, axis times tangent of half the angle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct IsolatedRecord {
     /// Every pose with these lengths within this distance lies within `within`.
     pub radius: Number,
@@ -100,25 +102,8 @@ impl IsolatedRecord {
     }
 }
 
-/// The degree of a curve of poses.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CurveDegreeRecord {
-    /// The degree, at least this where it is not complete.
-    pub degree: usize,
-    /// The trace test holds.
-    pub complete: bool,
-    /// What is left of the trace test.
-    pub trace_defect: Number,
-}
-
-impl From<&CurveDegree> for CurveDegreeRecord {
-    fn from(d: &CurveDegree) -> Self {
-        Self { degree: d.degree, complete: d.complete, trace_defect: Number(d.defect) }
-    }
-}
-
 /// What became of the paths to critical points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CriticalPointsRecord {
     /// Paths followed.
     pub paths: usize,
@@ -151,7 +136,7 @@ impl From<&CriticalPoses> for CriticalPointsRecord {
 }
 
 /// A curve of poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MotionCurveRecord {
     /// How it ends: closed, joined, unfinished or stuck.
     #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]
@@ -159,34 +144,20 @@ pub struct MotionCurveRecord {
     /// Where it crosses others.
     pub crossings: Vec<CurveCrossingRecord>,
     /// Its degree, where that was computed.
-    pub degree: Option<CurveDegreeRecord>,
+    pub degree: Option<CurveDegree>,
     /// How its first pose was found.
     pub found_by: Option<MotionOrigin>,
     /// Its poses.
-    pub points: Vec<MotionPointRecord>,
+    pub points: Vec<MotionPoint>,
 }
 
 /// Where a curve crosses others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CurveCrossingRecord {
     /// After this point of the curve, from 0.
     pub after_point: usize,
     /// Index into `crossings` of the answer, from 0.
     pub crossing: usize,
-}
-
-/// A pose on a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct MotionPointRecord {
-    /// The pose.
-    #[serde(flatten)]
-    pub pose: PoseQuaternionRecord,
-    /// Length of the curve up to here, in (e, g / size).
-    pub arc: Number,
-    /// The largest error of a leg length over the size.
-    pub length_error: Number,
-    /// The smallest singular value that is not zero over the largest.
-    pub gap: Number,
 }
 
 impl MotionCurveRecord {
@@ -200,18 +171,9 @@ impl MotionCurveRecord {
         Self {
             end: curve.end.name().to_owned(),
             crossings: curve.crossings.iter().map(crossing).collect(),
-            degree: degree.map(CurveDegreeRecord::from),
+            degree: degree.copied(),
             found_by,
-            points: curve
-                .points
-                .iter()
-                .map(|p| MotionPointRecord {
-                    pose: (&p.pose).into(),
-                    arc: Number(p.arc),
-                    length_error: Number(p.length_error),
-                    gap: Number(p.gap),
-                })
-                .collect(),
+            points: curve.points.clone(),
         }
     }
 }

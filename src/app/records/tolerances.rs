@@ -1,20 +1,20 @@
 //! Answers on how far joints may be off for the pose to stay within a bound.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::uncertainty::{CorrelationsWord, in_degrees};
-use super::{AssessAnswer, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
+use super::{AssessAnswer, Number, PoseQuaternionRecord};
 use ask::Design;
 use machine::manufacture::{
-    ErrorAtPose, ErrorKind, ErrorParts, Joint, JointBudget, LimitedAllowance, MachineErrors, PoseCovariance,
-    Trials,
+    ErrorAtPose, ErrorParts, ErrorSpread, Joint, JointBudget, LimitedAllowance, MachineErrors,
+    PoseCovariance, Trials,
 };
 use platform::geom::Pose;
 use platform::manipulator::Body;
 
 /// The answer of `build tolerances`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TolerancesAnswer {
     /// What `assess` says of the design; null: it requires nothing.
     pub assessment: Option<AssessAnswer>,
@@ -25,9 +25,9 @@ pub struct TolerancesAnswer {
     /// The unit of lengths.
     pub units: String,
     /// How far every joint may be off in any direction, to first order.
-    pub all_joints_radius: JointLimitRecord,
+    pub all_joints_radius: LimitedAllowance,
     /// How far every coordinate may be off, to first order.
-    pub all_coordinates: JointLimitRecord,
+    pub all_coordinates: LimitedAllowance,
     /// The joints, the most critical first.
     pub joints: Vec<JointBudgetRecord>,
     /// Errors of the pose with the joints off in the worst way, solved.
@@ -47,7 +47,7 @@ pub struct TolerancesAnswer {
 }
 
 /// Standard deviations of poses computed from lengths with the calibrated machine; the noise of these lengths comes on top.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CalibratedPosesRecord {
     /// Whether the design file has correlations.
     pub correlations: CorrelationsWord,
@@ -60,7 +60,7 @@ pub struct CalibratedPosesRecord {
 }
 
 /// A standard deviation over the poses looked at.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DeviationRecord {
     /// Half of the poses have at most this.
     pub median: Number,
@@ -113,39 +113,15 @@ impl CalibratedPosesRecord {
     }
 }
 
-/// How far joints may be off.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct JointLimitRecord {
-    /// Keeps the bound to first order, design units.
-    pub value: Number,
-    /// Uses the bound up to first order.
-    pub reached: Number,
-    /// Which bound it is.
-    pub limited_by: ErrorKind,
-    /// The pose at which it is.
-    pub pose: PoseQuaternionRecord,
-}
-
-impl From<&LimitedAllowance> for JointLimitRecord {
-    fn from(l: &LimitedAllowance) -> Self {
-        Self {
-            value: Number(l.value),
-            reached: Number(l.reached),
-            limited_by: l.kind,
-            pose: (&l.pose).into(),
-        }
-    }
-}
-
 /// How far one joint may be off while the others are where they should be.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointBudgetRecord {
     /// Its body.
     pub body: Body,
     /// Its name.
     pub joint: String,
     /// In any direction.
-    pub alone: JointLimitRecord,
+    pub alone: LimitedAllowance,
     /// The worst direction, frame of the body.
     pub direction: [Number; 3],
     /// Error of the tool point for each unit of error in the worst direction.
@@ -165,7 +141,7 @@ impl JointBudgetRecord {
         Self {
             body: b.joint.body,
             joint: joint_name(design, b.joint).to_owned(),
-            alone: (&b.alone).into(),
+            alone: b.alone,
             direction: [b.direction.x, b.direction.y, b.direction.z].map(Number),
             position_per_unit: Number(b.per_unit.0),
             rotation_deg_per_unit: Number(b.per_unit.1),
@@ -181,7 +157,7 @@ pub(super) fn joint_name(design: &Design, joint: Joint) -> &str {
 }
 
 /// Errors of the pose with all joints off in the worst way, solved.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct WorstErrorsRecord {
     /// By the radius; null: the pose was lost.
     pub in_budget: Option<PoseErrorRecord>,
@@ -192,7 +168,7 @@ pub struct WorstErrorsRecord {
 }
 
 /// What solving says about the radius, which is of first order.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct SolvedBudgetRecord {
     /// No error looked at in the budget goes beyond the bound when its pose is solved.
     pub within_bound: bool,
@@ -203,7 +179,7 @@ pub struct SolvedBudgetRecord {
 }
 
 /// Random errors in the budget.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct TrialsRecord {
     /// How many.
     pub count: usize,
@@ -214,13 +190,13 @@ pub struct TrialsRecord {
     /// Poses beyond it.
     pub beyond_bound: usize,
     /// Errors of the pose by the nominal formula.
-    pub formula: PoseErrorsRecord,
+    pub formula: ErrorSpread,
     /// By how much their first order is off.
-    pub first_order_discrepancy: PoseErrorsRecord,
+    pub first_order_discrepancy: ErrorSpread,
     /// Errors after one Newton step with the joints as they are.
-    pub after_one_step: PoseErrorsRecord,
+    pub after_one_step: ErrorSpread,
     /// Errors after two.
-    pub after_two_steps: PoseErrorsRecord,
+    pub after_two_steps: ErrorSpread,
 }
 
 impl From<&Trials> for TrialsRecord {
@@ -230,16 +206,16 @@ impl From<&Trials> for TrialsRecord {
             lost: t.lost,
             within_bound: t.within,
             beyond_bound: t.count - t.lost - t.within,
-            formula: (&t.formula).into(),
-            first_order_discrepancy: (&t.discrepancy).into(),
-            after_one_step: (&t.corrected[0]).into(),
-            after_two_steps: (&t.corrected[1]).into(),
+            formula: t.formula,
+            first_order_discrepancy: t.discrepancy,
+            after_one_step: t.corrected[0],
+            after_two_steps: t.corrected[1],
         }
     }
 }
 
 /// The poses looked at.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct BudgetPosesRecord {
     /// How many.
     pub count: usize,
@@ -248,7 +224,7 @@ pub struct BudgetPosesRecord {
 }
 
 /// Where a workspace comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WorkspaceWord {
     /// The design.
@@ -258,7 +234,7 @@ pub enum WorkspaceWord {
 }
 
 /// The greatest errors of the pose by all causes together, to first order.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ErrorMapRecord {
     /// Every joint is off by at most this in any direction.
     pub joint_error: Number,
@@ -277,7 +253,7 @@ pub struct ErrorMapRecord {
 }
 
 /// The greatest error over the poses of a map.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct GreatestErrorRecord {
     /// By all causes.
     pub greatest: Number,
@@ -323,5 +299,20 @@ impl ErrorMapRecord {
             rotation_deg: GreatestErrorRecord::new(map, |e| &e.rotation_deg)?,
             path,
         })
+    }
+}
+
+/// The error of a pose.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct PoseErrorRecord {
+    /// Of the tool point, design units.
+    pub position: Number,
+    /// Of the orientation.
+    pub rotation_deg: Number,
+}
+
+impl From<(f64, f64)> for PoseErrorRecord {
+    fn from((position, rotation_deg): (f64, f64)) -> Self {
+        Self { position: Number(position), rotation_deg: Number(rotation_deg) }
     }
 }

@@ -116,15 +116,16 @@ pub(super) struct LegSizes {
 }
 
 /// A size and where it comes from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
+#[schemars(rename = "SizeRecord", transform = num::nullable)]
 pub struct SizeChoice {
     /// What it is the size of.
     pub what: String,
     /// Its value in `unit`.
     pub value: f64,
-    /// `"design units"` or `"kg"`.
+    /// Design units, or kilograms.
     pub unit: &'static str,
-    /// Option, table of the design, or rule.
+    /// Option, table or rule.
     pub from: &'static str,
 }
 

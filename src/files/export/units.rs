@@ -3,13 +3,17 @@
 use thiserror::Error;
 
 /// A length unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
+#[schemars(rename = "LengthUnitRecord")]
 pub struct LengthUnit {
     /// Its label.
     pub label: &'static str,
     /// Metres per unit.
+    #[serde(skip)]
     pub metres: f64,
-    /// Millimetres per unit; kept beside the metres so that a millimetre is one exactly.
+    /// Millimetres.
+    // beside the metres, so that a millimetre is one exactly
+    #[serde(rename = "mm")]
     pub millimetres: f64,
 }
 

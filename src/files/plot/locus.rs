@@ -253,10 +253,13 @@ pub struct LocusValue {
     pub real: bool,
 }
 
-/// Two values meet on the real axis and leave it, or the other way round: a double root in between.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Where two real values meet.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
+#[schemars(rename = "LocusMeetingRecord", transform = num::nullable)]
 pub struct LocusMeeting {
-    /// Index of the step before.
+    // they leave the real axis, or the other way round: a double root in between
+    /// After this row, from 0.
+    #[serde(rename = "after_step")]
     pub after: usize,
     /// About this length.
     pub length: f64,

@@ -10,17 +10,23 @@ use platform::manipulator::Body;
 /// Points whose spread across a line is below this share of that along it have no rotation of their own.
 const ON_A_LINE: f64 = 1e-6;
 
-/// The rigid motion that takes measured joints nearest to nominal ones.
+/// The rigid motion with which measured joints are nearest to those of the design: a point x of the measurements is at R x + p.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "FrameMotionRecord", transform = num::nullable))]
 pub struct FrameMotion {
-    /// `x_design = R x_measured + p`.
+    /// The motion.
     pub motion: Pose,
     /// Root mean square of the distances that remain, design units.
     pub rms: f64,
 }
 
-/// The motions of both frames, and the model carried by them.
+/// Two rigid motions.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "FrameMotionsRecord")
+)]
 pub struct CarriedFrames {
     /// Of the base.
     pub base: FrameMotion,

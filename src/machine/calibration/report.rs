@@ -77,16 +77,17 @@ pub enum StartName {
     ClosedForm,
 }
 
-/// What came of the two starts.
+/// Where the fit began, and what came of the other start.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "StartRecord", transform = num::nullable))]
 pub struct Starts {
-    /// The one whose end was taken.
+    /// The start whose end was taken.
     pub taken: StartName,
-    /// Whether both ended at the same machine; `None` where only one was tried.
+    /// Whether both starts ended at the same machine; null: only one was tried.
     pub agree: Option<bool>,
-    /// Sum of the losses, or the estimated deviation of a length, at the end of each: the less, the better.
+    /// Sum of the losses, or the estimated deviation of a length, from the nominal joints: the less, the better; null: not tried.
     pub nominal: Option<f64>,
-    /// The same from the linear equations.
+    /// The same from the linear equations for squared lengths, which need no design; null: not tried, or the poses do not determine them.
     pub closed_form: Option<f64>,
 }
 
@@ -203,14 +204,17 @@ impl ResidualSpread {
     }
 }
 
-/// How well residuals agree with the noise.
+/// Agreement of residuals with the noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ChiSquareRecord", transform = num::nullable))]
 pub struct ChiSquare {
-    /// Sum of the squares of whitened residuals, without outliers where a loss takes them for possible.
+    /// Sum of the squares of whitened residuals.
+    // without outliers where a loss takes them for possible
     pub value: f64,
     /// Numbers less unknowns identified.
+    #[cfg_attr(feature = "serde", serde(rename = "degrees_of_freedom"))]
     pub freedoms: usize,
-    /// The probability of a larger value, were the model and the noise right; `None` where the noise is estimated from the same residuals.
+    /// The probability of a larger value, were model and noise right; null: the noise is estimated from the same residuals.
     pub probability: Option<f64>,
 }
 

@@ -4,10 +4,17 @@ use super::LegMotion;
 
 /// A value with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "ExtremeRecord")
+)]
 pub struct Extreme {
-    /// The value, with its sign.
+    /// With its sign.
+    #[cfg_attr(feature = "serde", schemars(with = "num::Number"))]
     pub value: f64,
-    /// When, seconds.
+    /// When.
+    #[cfg_attr(feature = "serde", serde(rename = "time_s"))]
     pub time: f64,
 }
 

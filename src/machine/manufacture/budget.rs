@@ -19,18 +19,27 @@ const PRODUCT: (f64, usize) = (1e-3, 80);
 /// A coordinate with less than this share of the largest influence has none.
 const NO_INFLUENCE: f64 = 1e-12;
 
-/// An allowance with the pose that limits it.
+/// How far joints may be off.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "JointLimitRecord", transform = num::nullable))]
 pub struct LimitedAllowance {
-    /// Design units; no error of this size uses up the bound at the poses looked at, to first order.
+    /// Keeps the bound to first order, design units.
+    // no error of this size uses up the bound at the poses looked at
     pub value: f64,
-    /// Some error of this size uses up the bound at `pose`; above `value` by a millionth at most, save for worst cases in which all
-    /// directions are nearly alike.
+    /// Uses the bound up to first order.
+    // some error of this size does at `pose`; above `value` by a millionth at most, save for worst cases in which all
+    // directions are nearly alike
     pub reached: f64,
-    /// Where the bound is used up first.
-    pub pose: Pose,
-    /// Which of the two bounds.
+    /// Which bound it is.
+    #[cfg_attr(feature = "serde", serde(rename = "limited_by"))]
     pub kind: ErrorKind,
+    /// The pose at which it is.
+    #[cfg_attr(
+        feature = "serde",
+        serde(serialize_with = "platform::geom::PoseQuaternionRecord::write"),
+        schemars(with = "platform::geom::PoseQuaternionRecord")
+    )]
+    pub pose: Pose,
 }
 
 /// A joint by itself.

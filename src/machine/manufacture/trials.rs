@@ -46,8 +46,10 @@ fn in_ball(rng: &mut Rng) -> Vector3<f64> {
     }
 }
 
-/// Where values lie (nearest rank); all zero when there is none.
+/// How values spread.
+// by the nearest rank; all zero when there is none
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "QuantilesRecord", transform = num::nullable))]
 pub struct Quantiles {
     /// Half of the values is at most this.
     pub median: f64,
@@ -70,12 +72,17 @@ impl Quantiles {
     }
 }
 
-/// Errors of the tool point (design units) and of the orientation (degrees).
+/// How the errors of poses spread.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "PoseErrorsRecord")
+)]
 pub struct ErrorSpread {
     /// Of the tool point, design units.
     pub position: Quantiles,
-    /// Of the orientation, degrees.
+    /// Of the orientation.
     pub rotation_deg: Quantiles,
 }
 

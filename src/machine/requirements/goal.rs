@@ -49,12 +49,19 @@ impl VariableKind {
     }
 }
 
-/// What became of the three-fold symmetry of a design that names no symmetry.
+/// What became of a symmetry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case"),
+    schemars(rename = "SymmetryWord")
+)]
 pub enum StartSymmetry {
+    // the three-fold symmetry of a design that names no symmetry
     /// The answer has it.
     Kept,
-    /// With it no platform was found that is proved to meet the requirements: the answer is of a search without it.
+    /// With it nothing was found that is proved to meet the requirements: the answer is of a search without it.
     GivenUp,
 }
 

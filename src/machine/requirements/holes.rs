@@ -47,10 +47,13 @@ impl HolePattern {
 
 /// Holes on a circle, equally spaced.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "HoleCircleRecord", transform = num::nullable))]
 pub struct HoleCircle {
-    /// Radius, design units, positive.
+    /// The radius.
+    // design units, positive
     pub radius: f64,
-    /// Number of holes, at least one.
+    /// The number of holes.
+    // at least one
     pub holes: u32,
 }
 

@@ -25,12 +25,21 @@ use platform::manipulator::{InvalidManipulator, Leg, LegLengths, Manipulator, ja
 
 pub use tracker::RotaryTracker;
 
-/// Which of the two angles a crank takes for a pose: between crank and the plane of axis and platform joint.
+/// A side of a crank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case"),
+    schemars(rename = "ElbowWord")
+)]
 pub enum Elbow {
-    /// The greater one, `q_0 + w`.
+    // between crank and the plane of axis and platform joint
+    /// The greater of the two angles.
+    // `q_0 + w`
     Plus,
-    /// The smaller one, `q_0 - w`.
+    /// The smaller one.
+    // `q_0 - w`
     Minus,
 }
 

@@ -17,17 +17,19 @@ use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 use synthesis::{Normalisation, leg_vector};
 
-/// A variable of the search that is not a component of a joint axis, with what it was and what it has become.
+/// A quantity that was chosen.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "VariableRecord", transform = num::nullable))]
 pub struct ChosenVariable {
-    /// Its name in reports.
+    // no component of a joint axis
+    /// Which.
     pub name: String,
     /// Its value in the design that the search began with.
     pub start: f64,
-    /// Its value in the platform found.
+    /// Its value in the platform.
     pub value: f64,
     /// Least and greatest value that it may have.
-    pub bounds: (f64, f64),
+    pub bounds: [f64; 2],
 }
 
 /// A platform that meets the requirements.
@@ -172,7 +174,7 @@ pub(super) fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> 
         name: shape.names[j].clone(),
         start: shape.start[j],
         value: x[j],
-        bounds: shape.bounds[j],
+        bounds: shape.bounds[j].into(),
     };
     // every objective is reported, the ones left out of the last level too
     let all = Task { weights: vec![1.0; task.weights.len()], ..task.clone() };

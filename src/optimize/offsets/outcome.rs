@@ -195,22 +195,35 @@ pub struct OffsetReport {
     pub seed: u64,
 }
 
-/// Verdicts counted.
+/// What became of the branches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "BranchCountsRecord")
+)]
 pub struct BranchCounts {
-    /// Feasible branches (the best one included).
+    /// All of them.
+    pub total: usize,
+    /// Feasible ones.
+    // the best one included
     pub feasible: usize,
-    /// Proved empty: nothing of a zone within the bounds.
+    /// Proved empty: nothing of a zone lies within the bounds.
+    #[cfg_attr(feature = "serde", serde(rename = "infeasible_bounds"))]
     pub outside_bounds: usize,
-    /// Proved empty: spacing (vertices, edge joints, or several together).
+    /// Proved empty: no room for the joints.
+    // of vertices, edge joints, or several together
+    #[cfg_attr(feature = "serde", serde(rename = "infeasible_spacing"))]
     pub spacing: usize,
-    /// Proved empty: `|det A|` too small.
+    /// Proved empty: |det A| is too small.
+    #[cfg_attr(feature = "serde", serde(rename = "infeasible_det"))]
     pub det: usize,
     /// Covered by the bound over all offsets, not searched.
     pub bounded: usize,
     /// Not decided.
     pub unproved: usize,
-    /// Conic solver failed.
+    /// The conic solver failed.
+    #[cfg_attr(feature = "serde", serde(rename = "solver_failure"))]
     pub failed: usize,
 }
 
@@ -229,7 +242,7 @@ impl OffsetReport {
     /// Counts the verdicts; an empty branch counts once, under its first conflict.
     #[must_use]
     pub fn counts(&self) -> BranchCounts {
-        let mut n = BranchCounts::default();
+        let mut n = BranchCounts { total: self.branches.len(), ..BranchCounts::default() };
         for b in &self.branches {
             let slot = match (&b.verdict, b.conflicts.first()) {
                 (BranchVerdict::Best | BranchVerdict::Dominated { .. }, _) => &mut n.feasible,

@@ -9,6 +9,8 @@ mod line;
 mod pose;
 mod pose_forms;
 mod pose_set;
+#[cfg(feature = "serde")]
+mod pose_written;
 mod quaternion;
 mod rotation_vector;
 mod segment;
@@ -25,6 +27,8 @@ pub use pose::{ComplexPose, Pose};
 pub use pose::{nearest_rotation, reorthogonalised};
 pub use pose_forms::{Angles, InvalidPose};
 pub use pose_set::{ListedFrom, PoseSpace, Region};
+#[cfg(feature = "serde")]
+pub use pose_written::{PoseQuaternionRecord, PoseRecord};
 pub use quaternion::rotation_from_quaternion;
 pub use rotation_vector::{rotation_vector, turn_between};
 pub use segment::{segment_box_distance, segment_distance};

@@ -8,13 +8,32 @@ use num::Rng;
 
 /// The shape of a region of poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case"),
+    schemars(rename = "RegionWord")
+)]
 pub enum Region {
-    /// Every component of translation and rotation within its half width.
+    /// A box.
+    // every component of translation and rotation within its half width
     #[default]
     Box,
-    /// Translations in an ellipsoid and rotation vectors in another, with the half widths as half axes; every
-    /// translation with every rotation.
+    /// An ellipsoid.
+    // translations in one, rotation vectors in another, with the half widths as half axes; every translation with every
+    // rotation
     Ellipsoid,
+}
+
+impl Region {
+    /// The word: `"box"` or `"ellipsoid"`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Box => "box",
+            Self::Ellipsoid => "ellipsoid",
+        }
+    }
 }
 
 /// What the listed poses of a workspace are measured from.

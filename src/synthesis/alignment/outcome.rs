@@ -40,14 +40,16 @@ impl Motion {
     }
 }
 
-/// The pair of motions that brings the legs of B nearest to the span of A.
+/// The pair of rigid motions that comes nearest.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "NearestMotionRecord", transform = num::nullable))]
 pub struct NearestMotion {
-    /// For base joints of B.
+    /// Of the base of the second design.
     pub base: Pose,
-    /// For platform joints of B.
+    /// Of its platform.
     pub platform: Pose,
-    /// The largest relative distance of a leg from the span.
+    /// The residual it leaves.
+    // the largest relative distance of a leg from the span of the first design
     pub residual: f64,
 }
 
@@ -91,17 +93,24 @@ impl Invariant {
 
 /// An invariant that tells two designs apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "DifferenceRecord", transform = num::nullable))]
 pub struct Difference {
     /// Which.
     pub invariant: Invariant,
-    /// Its value for A; zero for the distance of canonical forms.
+    /// Its value for the first design.
+    // zero for the distance of canonical forms
+    #[cfg_attr(feature = "serde", serde(rename = "a"))]
     pub in_a: f64,
-    /// Its value for B; the distance itself for the distance of canonical forms.
+    /// Its value for the second.
+    // the distance itself for the distance of canonical forms
+    #[cfg_attr(feature = "serde", serde(rename = "b"))]
     pub in_b: f64,
-    /// What a difference must exceed. For dimensions the largest singular value that counted as zero.
-    pub bound: f64,
-    /// By how much the values differ. For dimensions the smallest singular value that did not count as zero.
+    /// By how much they differ.
+    // for dimensions the smallest singular value that did not count as zero
     pub gap: f64,
+    /// What a difference has to exceed.
+    // for dimensions the largest singular value that counted as zero
+    pub bound: f64,
 }
 
 /// Why nothing was decided.

@@ -14,25 +14,43 @@ use platform::manipulator::{AlgebraicVector, Body, ExactLegs};
 /// Bits of coefficients up to which greatest common divisors of minors are computed.
 const LONG: u64 = 300;
 
-/// A part of an [`ExactCurve`] that does not split over the rational numbers.
+/// A part of an exact curve.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "ExactPartRecord")
+)]
 pub struct ExactPart {
-    /// What it is over the complex numbers, and over the reals.
+    // it does not split over the rational numbers
+    /// What it is.
+    #[cfg_attr(feature = "serde", schemars(extend("enum" = [
+        "line", "two_conjugate_real_lines", "two_conjugate_complex_lines", "three_conjugate_real_lines",
+        "three_conjugate_lines_one_real", "conic", "conic_without_real_points", "cubic", "undecided"
+    ])))]
     pub kind: ExactKind,
     /// Its degree.
     pub degree: usize,
-    /// Coprime integers in decimal notation, in the order of [`ExactCurve::coefficients`].
+    /// Integers as text.
+    // coprime, in the order of [`ExactCurve::coefficients`]
     pub coefficients: Vec<String>,
-    /// How often it divides the curve.
+    /// How often it counts.
     pub multiplicity: usize,
 }
 
-/// The singular point of a cubic that is irreducible over the complex numbers.
+/// A rational point.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "ExactPointRecord")
+)]
 pub struct ExactPoint {
-    /// Homogeneous coordinates `(w, x, y)`: coprime integers in decimal notation.
+    // the singular point of a cubic that is irreducible over the complex numbers
+    /// (w, x, y), integers as text.
     pub coordinates: [String; 3],
-    /// Crossing, isolated or cusp.
+    /// What it is.
+    #[cfg_attr(feature = "serde", schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"])))]
     pub kind: SingularKind,
 }
 

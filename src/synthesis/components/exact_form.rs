@@ -246,6 +246,9 @@ pub enum ExactKind {
     Undecided,
 }
 
+#[cfg(feature = "serde")]
+num::written_as_word!(ExactKind);
+
 impl ExactKind {
     /// The name used in JSON.
     #[must_use]

@@ -291,6 +291,9 @@ pub enum PartKind {
     Higher,
 }
 
+#[cfg(feature = "serde")]
+num::written_as_word!(PartKind);
+
 impl PartKind {
     /// The name used in JSON.
     #[must_use]
@@ -442,6 +445,9 @@ pub enum SingularKind {
     /// Three branches or a multiple part.
     Triple,
 }
+
+#[cfg(feature = "serde")]
+num::written_as_word!(SingularKind);
 
 impl SingularKind {
     /// The name used in JSON.

@@ -264,16 +264,19 @@ pub(super) fn candidates(joints: &[Vec<f64>]) -> Vec<Vec<f64>> {
     out
 }
 
-/// A part of the curve in a plane.
+/// A part of a plane curve.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CurvePartRecord", transform = num::nullable))]
 pub struct CurvePart {
-    /// Line, conic or what does not split.
+    /// What it is.
+    #[cfg_attr(feature = "serde", schemars(extend("enum" = ["line", "conic", "conic_without_real_points", "conjugate_lines", "cubic", "higher"])))]
     pub kind: PartKind,
-    /// Coefficients in the order of [`PlaneCurve::coefficients`], of the part's own degree.
+    /// In the order of the monomials of its degree.
     pub coefficients: Vec<f64>,
-    /// How often it divides the curve.
+    /// How often it counts.
     pub multiplicity: usize,
-    /// The number that decided: residual of the curve on a line, ratio of eigenvalues of a conic.
+    /// What decided its kind.
+    // the residual of the curve on a line, or the ratio of eigenvalues of a conic
     pub measure: f64,
 }
 

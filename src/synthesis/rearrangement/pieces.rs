@@ -21,12 +21,19 @@ use num::Rng;
 use num::exact::{ExactVector, Rational, rank, relations};
 use platform::manipulator::{Body, ExactLeg};
 
-/// How the ends of the legs of a [`Piece`] are paired.
+/// The kind of a family.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case"),
+    schemars(rename = "FamilyKindWord")
+)]
 pub enum PieceKind {
-    /// Every leg between two flats.
+    /// Every point of one flat with every point of the other.
     AllPairs,
-    /// A projective pairing of two lines.
+    /// Every point with its partner.
+    // a projective pairing of two lines
     Pairing,
 }
 

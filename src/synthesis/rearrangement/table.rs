@@ -332,17 +332,23 @@ fn spread(
     counts[next] = 0;
 }
 
-/// Why six independent legs cannot be had with few shared joints: even if any number of legs is taken from the families
-/// `allowed` (with a joint in common) and one from each of the others with a joint in common, no more than `most` are independent.
-///
-/// `most` is the rank bound of the families `within`, and for each family outside its rank, or 1 where its joint must not be shared.
+/// Why no equivalent design has fewer shared joints.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "ObstructionRecord")
+)]
 pub struct Obstruction {
-    /// Families whose joint may be shared.
+    // Any number of legs is taken from the families `allowed` (with a joint in common) and one from each of the others
+    // with a joint in common. The bound is the rank of the families `within`, and for each family outside its rank, or
+    // 1 where its joint must not be shared.
+    /// Families that legs may be on, from 0.
     pub allowed: Vec<usize>,
-    /// Families counted together.
+    /// Summands they lie in, from 0.
     pub within: Vec<usize>,
-    /// At most so many independent legs; below six.
+    /// The most independent legs there.
+    // below six
     pub most: usize,
 }
 

@@ -169,40 +169,51 @@ fn exactly_singular(legs: &ExactLegs, order: [usize; 6]) -> bool {
     rest == own
 }
 
-/// What is known about assembling with given lengths.
+/// Whether a singular platform can be assembled.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), serde(tag = "verdict", rename_all = "snake_case"), schemars(rename = "AssemblyRecord", transform = num::nullable))]
 pub enum Assembly {
-    /// The affine condition is violated by more than rounding: no pose, real or complex.
+    /// The lengths miss the condition.
+    // by more than rounding: there is no pose, real or complex
     Incompatible {
-        /// Relative defect of the condition.
+        /// By how much, relative.
         defect: f64,
     },
-    /// The condition holds within rounding, but the six triangles never close together: no real pose.
-    NoTriangles,
-    /// A real pose was found.
+    /// The triangles of the legs do not close.
+    // the condition holds within rounding, and there is no real pose
+    NoRealPose {},
+    /// No real pose was found.
+    Undecided {
+        /// Squared lengths of the octahedral platforms.
+        #[cfg_attr(feature = "serde", serde(rename = "octahedral_squared_lengths"))]
+        corners: CornerLengths,
+    },
+    /// There is a real pose, and the platform moves.
     Real {
         /// The pose.
         pose: Pose,
-        /// Largest error of its squared lengths over the squared size.
+        /// Its residual.
+        // the largest error of its squared lengths over the squared size
         residual: f64,
-        /// The one-parameter family behind it.
-        corners: CornerLengths,
-    },
-    /// The triangles close for some parameters, and a search found no real pose.
-    NotFound {
-        /// The family searched.
+        /// Squared lengths of the octahedral platforms.
+        #[cfg_attr(feature = "serde", serde(rename = "octahedral_squared_lengths"))]
         corners: CornerLengths,
     },
 }
 
-/// Octahedral squared lengths `origin + x direction`, in the order of the hexagon, for `x` in an interval.
+/// Squared lengths origin + x direction with x in the interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CornerLengthsRecord", transform = num::nullable))]
 pub struct CornerLengths {
-    /// The shortest solution, design units squared.
+    // of the octahedral platforms, in the order of the hexagon
+    /// For x = 0.
+    // the shortest solution, design units squared
     pub origin: [f64; 6],
-    /// Unit vector with `A direction = 0`.
+    /// What x multiplies.
+    // a unit vector with `A direction = 0`
     pub direction: [f64; 6],
-    /// Where all six triangles close.
+    /// Where x may be.
+    // there all six triangles close
     pub interval: [f64; 2],
 }
 
@@ -224,7 +235,7 @@ pub fn assembly(g: &GriffisDuffy, m: &Manipulator, s: &SquaredLegLengths) -> Res
     if !(defect.abs() <= COMPATIBLE) {
         return Ok(Assembly::Incompatible { defect });
     }
-    let Some(corners) = corner_lengths(g, s)? else { return Ok(Assembly::NoTriangles) };
+    let Some(corners) = corner_lengths(g, s)? else { return Ok(Assembly::NoRealPose {}) };
     let frame = TriangleFrame::of(g, m);
     let [low, high] = corners.interval;
     for k in 0..PARAMETERS {
@@ -240,7 +251,7 @@ pub fn assembly(g: &GriffisDuffy, m: &Manipulator, s: &SquaredLegLengths) -> Res
             return Ok(Assembly::Real { pose, residual, corners });
         }
     }
-    Ok(Assembly::NotFound { corners })
+    Ok(Assembly::Undecided { corners })
 }
 
 /// The family of octahedral lengths, `None` where the triangles do not close for any parameter.
@@ -500,7 +511,7 @@ mod tests {
                     assert!(corners.interval[0] < corners.interval[1]);
                     real += 1;
                 }
-                other => assert!(matches!(other, Assembly::NotFound { .. }), "{other:?}"),
+                other => assert!(matches!(other, Assembly::Undecided { .. }), "{other:?}"),
             }
             let spoilt = SquaredLegLengths::try_new(std::array::from_fn(|i| {
                 s.get()[i] + if i == 3 { 1e-6 } else { 0.0 }
@@ -512,8 +523,8 @@ mod tests {
             let leg = (0..6).find(|i| g.constant() / c[*i] > 0.0).unwrap();
             let short = std::array::from_fn(|i| if i == leg { g.constant() / c[i] } else { 0.0 });
             let short = assembly(&g, &m, &SquaredLegLengths::try_new(short).unwrap()).unwrap();
-            assert!(matches!(short, Assembly::NoTriangles | Assembly::NotFound { .. }), "{short:?}");
-            flat += usize::from(short == Assembly::NoTriangles);
+            assert!(matches!(short, Assembly::NoRealPose {} | Assembly::Undecided { .. }), "{short:?}");
+            flat += usize::from(short == Assembly::NoRealPose {});
         }
         assert!(real >= 18, "{real} of 20 found by the search");
         assert!(flat > 0);

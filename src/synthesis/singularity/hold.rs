@@ -15,12 +15,18 @@ use platform::manipulator::{ExactEnds, Manipulator};
 
 /// What shows that a pose is singular.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case"),
+    schemars(rename = "SingularEvidenceWord")
+)]
 pub enum SingularEvidence {
-    /// Proved: `det J` is zero in exact arithmetic on the joints and the rotation as written.
+    /// Proved: det J is zero in exact arithmetic on the joints and the rotation as written.
     Zero,
-    /// Proved: `det J` has opposite signs on both sides.
+    /// det J has opposite signs before and after: proved for legs, by instants for rods on cranks.
     SignChange,
-    /// `det J` is not above the rounding errors of its computation.
+    /// det J is not above its rounding errors.
     Rounding,
 }
 

@@ -33,8 +33,9 @@ pub struct NoisePlan {
     pub levels: Vec<f64>,
 }
 
-/// Where values lie (nearest rank).
+/// How angles spread over problems, radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "SpreadRecord", transform = num::nullable))]
 pub struct Spread {
     /// A quarter of the values is at most this.
     pub lower_quartile: f64,
@@ -48,16 +49,22 @@ pub struct Spread {
     pub max: f64,
 }
 
-/// What one level of noise does; the spreads are over the problems that have a real pose, `None` when there is none.
+/// What one level of noise does.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "NoiseLevelRecord", transform = num::nullable))]
 pub struct NoiseLevel {
-    /// Standard deviation of the relative errors of the leg lengths.
+    // spreads are over the problems that have a real pose
+    /// Relative error of the leg lengths.
     pub sigma: f64,
-    /// Problems without a real pose: two of them met and became complex.
+    /// Problems without a real pose.
+    // two of them met and became complex
+    #[cfg_attr(feature = "files", serde(rename = "without_real_pose"))]
     pub without_pose: u64,
-    /// Angle of the rotation from the true to the nearest pose, radians (eq. 20).
+    /// Angle of the rotation to the nearest real pose; null: no problem has one.
+    #[cfg_attr(feature = "files", serde(rename = "rotation_rad"))]
     pub rotation: Option<Spread>,
-    /// Angle between the true and the nearest position vector, radians (eq. 21).
+    /// Angle between the position vectors.
+    #[cfg_attr(feature = "files", serde(rename = "position_rad"))]
     pub position: Option<Spread>,
 }
 

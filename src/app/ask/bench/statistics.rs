@@ -4,29 +4,32 @@ use std::collections::BTreeMap;
 
 use super::run::{Outcome, Plan, WrongAnswer};
 
-/// Statistics of Martyushev's error metric over the problems, as in the paper's Table 1.
+/// The error measure of Martyushev over the problems.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ErrorStatisticsRecord", transform = num::nullable))]
 pub struct ErrorStatistics {
-    /// Median.
+    // as in Table 1 of the paper
+    /// The median.
     pub median: f64,
-    /// Mean.
+    /// The mean.
     pub mean: f64,
-    /// Largest.
+    /// The largest.
     pub max: f64,
-    /// Share of problems above -5.
+    /// Share of the problems above -5.
     pub above_minus_5: f64,
-    /// Share of problems above -6.
+    /// Share of the problems above -6.
     pub above_minus_6: f64,
 }
 
-/// Medians of the parts, microseconds.
+/// Medians of the parts of a solver call and of its validation.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "TimeSplitRecord", transform = num::nullable))]
 pub struct TimeSplit {
     /// The solver call without certification.
     pub solve: f64,
     /// Certification of the roots, made once more on its own.
     pub certify: f64,
-    /// Validation by the harness; not part of the solver's time.
+    /// Validation; not part of the solver's time.
     pub validate: f64,
 }
 

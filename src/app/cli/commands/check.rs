@@ -8,9 +8,8 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use ask::CheckReport;
-use records::{
-    AssemblyRecord, CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number,
-};
+use records::{CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number};
+use synthesis::singularity::Assembly;
 
 /// Joints of a body lie nearly on a line where they are nearer to it than this share of their distance along it.
 const NEARLY: f64 = 0.05;
@@ -57,7 +56,7 @@ fn list(legs: &[usize]) -> String {
 fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
     let mut text = format!("{}\n", c.explanation);
     if let Some(evidence) = c.singular_home.filter(|_| c.architecturally_singular != Some(true)) {
-        let _ = writeln!(text, "THE HOME POSE IS SINGULAR: {}", evidence.sentence());
+        let _ = writeln!(text, "THE HOME POSE IS SINGULAR: {evidence}");
     }
     let _ = writeln!(text, "joints: {}", c.joints.explanation);
     let _ = writeln!(text, "\nrank of the leg vectors     {}", c.leg_rank);
@@ -174,15 +173,15 @@ fn griffis_duffy(text: &mut String, g: &GriffisDuffyRecord) {
     );
     let lengths = match &g.assembly {
         None => return,
-        Some(AssemblyRecord::Incompatible { defect }) => {
-            format!("cannot be assembled: they miss the condition by {:.1e} (relative)", defect.0)
+        Some(Assembly::Incompatible { defect }) => {
+            format!("cannot be assembled: they miss the condition by {defect:.1e} (relative)")
         }
-        Some(AssemblyRecord::NoRealPose {}) => {
+        Some(Assembly::NoRealPose {}) => {
             "satisfy the condition, but have no real pose: the triangles of the legs do not close".into()
         }
-        Some(AssemblyRecord::Undecided { .. }) => "satisfy the condition; no real pose was found".into(),
-        Some(AssemblyRecord::Real { residual, .. }) => {
-            format!("can be assembled, and the platform moves: real pose found, residual {:.1e}", residual.0)
+        Some(Assembly::Undecided { .. }) => "satisfy the condition; no real pose was found".into(),
+        Some(Assembly::Real { residual, .. }) => {
+            format!("can be assembled, and the platform moves: real pose found, residual {residual:.1e}")
         }
     };
     let _ = writeln!(text, "  the lengths of the design {lengths}");

@@ -16,7 +16,7 @@ use crate::app::cli::requirements;
 use ::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 use ask::Design;
 use ask::exporting::octahedral_of_controllers;
-use records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord, Number};
+use records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord};
 
 /// Arguments of `export`.
 #[derive(Debug, clap::Args)]
@@ -175,7 +175,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats, assumptions);
     text.push_str("sizes\n");
     for c in &record.sizes {
-        let Number(x) = c.value;
+        let x = c.value;
         let value = if x < 1e-3 { format!("{x:.4e}") } else { format!("{x:.6}") };
         let _ = writeln!(text, "  {:<36} {value:>12} {:<13} {}", c.what, c.unit, c.from);
     }

@@ -1,6 +1,6 @@
 """Answers as typed records: the fields of `equipod COMMAND --json`, by the same names.
 
-Made from the schemas of the answers by `tests/python/generate_records.py`; do not edit. What may be absent from a document is None, and so is what is null in it.
+Made from the schemas of the answers by `.ci/generate`; do not edit. What may be absent from a document is None, and so is what is null in it.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 //! The exact closure polynomial beside the poses.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::Number;
 use ask::Design;
@@ -11,7 +11,7 @@ use num::poly::{Dyadic, RealRoot};
 use platform::topology::{JointIndex, Step};
 
 /// The exact closure polynomial beside the poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ClosureRecord {
     /// There is one.
@@ -24,7 +24,7 @@ pub enum ClosureRecord {
 }
 
 /// The closure polynomial in one squared distance, with what it says about the number of real poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ClosurePolynomialRecord {
     /// The joints of the virtual leg; null where none is needed.
     pub virtual_leg: Option<[String; 2]>,
@@ -41,7 +41,7 @@ pub struct ClosurePolynomialRecord {
     /// Different complex roots.
     pub distinct_roots: usize,
     /// Singular factors.
-    pub factors: Vec<SingularFactorRecord>,
+    pub factors: Vec<SingularFactor>,
     /// The coefficients of the primitive integer polynomial as decimal text, the constant one first.
     #[schemars(inner(regex(pattern = r"^-?[0-9]+$")))]
     pub coefficients: Vec<String>,
@@ -56,7 +56,7 @@ pub struct ClosurePolynomialRecord {
 }
 
 /// One trilateration: a joint placed by its distances from three others.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TrilaterationStepRecord {
     /// Three joints in place.
     pub from: [String; 3],
@@ -69,23 +69,6 @@ pub struct TrilaterationStepRecord {
 impl TrilaterationStepRecord {
     pub(crate) fn new(step: &Step, name: impl Fn(JointIndex) -> String) -> Self {
         Self { from: step.from.map(&name), place: name(step.place), rigid: step.rigid }
-    }
-}
-
-/// A factor of the closure condition that belongs to degenerate trilaterations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct SingularFactorRecord {
-    /// Unoriented steps, from 0.
-    pub step: usize,
-    /// Its degree.
-    pub degree: usize,
-    /// How often it was removed.
-    pub removed: usize,
-}
-
-impl From<&SingularFactor> for SingularFactorRecord {
-    fn from(f: &SingularFactor) -> Self {
-        Self { step: f.step, degree: f.degree, removed: f.removed }
     }
 }
 
@@ -111,7 +94,7 @@ impl ClosureRecord {
             degree_before: c.degrees.before,
             degree: p.polynomial.degree(),
             distinct_roots: p.distinct,
-            factors: c.degrees.factors.iter().map(SingularFactorRecord::from).collect(),
+            factors: c.degrees.factors.clone(),
             coefficients: p.polynomial.coefficients().iter().map(ToString::to_string).collect(),
             real_roots: p.real_roots.iter().map(enclosing).collect(),
             real_root_multiplicities: p.real_roots.iter().map(RealRoot::multiplicity).collect(),

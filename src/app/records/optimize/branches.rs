@@ -1,68 +1,14 @@
 //! The branches of the offsets: a zone for each, what became of it, and the bound over all of them.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::platform::ZONES;
 use crate::Number;
-use optimize::offsets::{BranchReport, BranchVerdict, Conflict, GlobalBound, OffsetReport};
-
-/// What became of the branches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct BranchCountsRecord {
-    /// All of them.
-    pub total: usize,
-    /// Feasible ones.
-    pub feasible: usize,
-    /// Proved empty: nothing of a zone lies within the bounds.
-    pub infeasible_bounds: usize,
-    /// Proved empty: no room for the joints.
-    pub infeasible_spacing: usize,
-    /// Proved empty: |det A| is too small.
-    pub infeasible_det: usize,
-    /// Covered by the bound over all offsets, not searched.
-    pub bounded: usize,
-    /// Not decided.
-    pub unproved: usize,
-    /// The conic solver failed.
-    pub solver_failure: usize,
-}
-
-impl From<&OffsetReport> for BranchCountsRecord {
-    fn from(r: &OffsetReport) -> Self {
-        let n = r.counts();
-        Self {
-            total: r.branches.len(),
-            feasible: n.feasible,
-            infeasible_bounds: n.outside_bounds,
-            infeasible_spacing: n.spacing,
-            infeasible_det: n.det,
-            bounded: n.bounded,
-            unproved: n.unproved,
-            solver_failure: n.failed,
-        }
-    }
-}
-
-/// What no offsets can exceed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct GlobalBoundRecord {
-    /// No offsets within the limits reach more.
-    pub upper: Number,
-    /// By how much that is above the solution, relative.
-    pub gap: Number,
-    /// Boxes of offsets that were looked at.
-    pub boxes: usize,
-}
-
-impl From<&GlobalBound> for GlobalBoundRecord {
-    fn from(b: &GlobalBound) -> Self {
-        Self { upper: Number(b.upper), gap: Number(b.gap), boxes: b.boxes }
-    }
-}
+use optimize::offsets::{BranchReport, BranchVerdict, Conflict};
 
 /// A branch: a zone for each offset.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BranchRecord {
     /// Zone of each offset: before, inside, beyond its edge.
     #[schemars(extend("pattern" = ZONES))]
@@ -80,7 +26,7 @@ pub struct BranchRecord {
 }
 
 /// What became of a branch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BranchWord {
     /// It holds the best solution.
@@ -121,7 +67,7 @@ impl From<&BranchReport> for BranchRecord {
 }
 
 /// Why a branch or a part of it is empty.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct BranchConflictRecord {
     /// A short stable code.
     #[schemars(extend("enum" = Conflict::CODES))]

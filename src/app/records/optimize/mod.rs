@@ -11,21 +11,19 @@ mod riding;
 mod symmetry;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-pub use self::branches::{
-    BranchConflictRecord, BranchCountsRecord, BranchRecord, BranchWord, GlobalBoundRecord,
-};
+pub use self::branches::{BranchConflictRecord, BranchRecord, BranchWord};
 pub use self::conflict::{ConflictReasonRecord, ConflictRecord, DemandWord, GiveRecord, SpecialDemand};
 pub use self::drive::{DriveSearchRecord, DriveSearchWord, SearchedDriveRecord};
 pub use self::freedom::{FreedomRecord, FreedomWord};
 pub use self::platform::{
     FoundPlatformRecord, FrontMemberRecord, HeldPosesRecord, JointAxesRecord, LocalOptimalityRecord,
     NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchMarginsRecord, SearchStepRecord,
-    VariableRecord, VerifiedRecord, WorstPoseRecord,
+    VerifiedRecord, WorstPoseRecord,
 };
 pub use self::riding::{RiddenBoundRecord, RiddenWord, RidingRecord};
-pub use self::symmetry::{SymmetryRecord, SymmetryWord};
+pub use self::symmetry::SymmetryRecord;
 use crate::{DesignRecord, Number, SourceWord};
 use ask::Design;
 use ask::{
@@ -33,7 +31,7 @@ use ask::{
     OptimizeReport, OptimizeStatus,
 };
 use optimize::dimensional::{DimensionalOutcome, DimensionalProblem, DimensionalSolution, ParetoPoint};
-use optimize::offsets::{OffsetOutcome, OffsetProblem};
+use optimize::offsets::{BranchCounts, GlobalBound, OffsetOutcome, OffsetProblem};
 
 /// Why the sizes and the height are chosen.
 const SIZES: &str = "no leg of the design can be replaced without another kinematics: the sizes of base and platform and the height of home are chosen";
@@ -41,7 +39,7 @@ const SIZES: &str = "no leg of the design can be replaced without another kinema
 const RUNNERS_UP: usize = 5;
 
 /// The answer of `optimize`. Every field is there whichever search found it; null: it does not apply, or nothing is known of it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct OptimizeAnswer {
     /// What came of the search.
     pub status: OptimizeStatus,
@@ -79,11 +77,11 @@ pub struct OptimizeAnswer {
     /// How the search went.
     pub search: SearchRecord,
     /// What no platform that could be chosen can exceed at the poses held; null: not proved, or there is no solution.
-    pub global_bound: Option<GlobalBoundRecord>,
+    pub global_bound: Option<GlobalBound>,
     /// Greatest gap to that bound at which the answer counts as optimal; null: the search proves no bound.
     pub tolerance: Option<f64>,
     /// What became of the branches; null: the search has none.
-    pub branch_counts: Option<BranchCountsRecord>,
+    pub branch_counts: Option<BranchCounts>,
     /// The best other branches.
     pub runners_up: Option<Vec<BranchRecord>>,
     /// All branches: a zone for each offset.
@@ -91,7 +89,7 @@ pub struct OptimizeAnswer {
 }
 
 /// What is known of platforms better than the one found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OptimalityWord {
     /// No platform that could be chosen exceeds it by more than the tolerance: proved by branch and bound.
@@ -101,7 +99,7 @@ pub enum OptimalityWord {
 }
 
 /// Which search found the answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchMethodWord {
     /// The search for offsets alone, with a bound over all offsets.
@@ -111,7 +109,7 @@ pub enum SearchMethodWord {
 }
 
 /// How a search went.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SearchRecord {
     /// Which search it was.
     pub method: SearchMethodWord,
@@ -134,7 +132,7 @@ impl SearchRecord {
 }
 
 /// What a search is held to besides the requirements of the design.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SearchLimitsRecord {
     /// Of joint centres of a body, design units; null: none.
     pub min_joint_distance: Option<f64>,
@@ -169,7 +167,7 @@ impl SearchLimitsRecord {
 }
 
 /// The poses that a design asks for.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct PoseRegionRecord {
     /// Where home comes from.
     pub home: SourceWord,
@@ -279,9 +277,9 @@ impl OptimizeAnswer {
             }),
             design: found.map(|(_, c)| (&c.design).into()),
             conflict: is_empty.then(|| ConflictRecord::of_branches(&branches)),
-            global_bound: r.bound.as_ref().map(GlobalBoundRecord::from),
+            global_bound: r.bound,
             tolerance: Some(r.tolerance),
-            branch_counts: Some(r.into()),
+            branch_counts: Some(r.counts()),
             runners_up: Some(
                 r.runners_up.iter().take(RUNNERS_UP).map(|k| (&r.branches[*k]).into()).collect(),
             ),

@@ -2,7 +2,7 @@
 
 use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::riding::{DetMargin, RidingRecord};
 use crate::map::matrix;
@@ -24,14 +24,14 @@ use verify::Verification;
 pub(super) const ZONES: &str = "^[-0+]{6}$";
 
 /// A platform found by a search; every field is null where there is none.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 pub struct FoundPlatformRecord {
     /// Value of the first objective.
     pub objective: Option<Number>,
     /// All of them.
     pub objectives: Option<Vec<ObjectiveRecord>>,
     /// What was chosen, axes left out.
-    pub variables: Option<Vec<VariableRecord>>,
+    pub variables: Option<Vec<ChosenVariable>>,
     /// The numbers `t_i` in cyclic order; null: no offsets were chosen.
     pub offsets: Option<[Number; 6]>,
     /// `t_i d_i`, design units; null as `edge_lengths`.
@@ -89,7 +89,7 @@ impl FoundPlatformRecord {
         let octahedral = s.offsets.and_then(|t| Some((t, Octahedral::recognise(design.manipulator()).ok()?)));
         // a platform that is compared with the design has its triangles
         let base = Self::checked(design, c, &s.objectives, s.poses.len());
-        let variables = VariableRecord::all(s);
+        let variables = s.variables.clone();
         let margin =
             det.map(|det| DetMargin { left: det.abs() - min_abs_det, least: min_abs_det, reserve: 0.0 });
         let edges = octahedral.as_ref().filter(|_| map.is_some()).map(|(t, o)| (*t, edge_lengths(o)));
@@ -130,14 +130,14 @@ impl FoundPlatformRecord {
     /// The solution of a search for offsets.
     pub(super) fn of_offsets(design: &Design, p: &OffsetProblem, s: &OffsetSolution, c: &Checked) -> Self {
         let (r, count) = (&s.recheck, p.poses.len());
-        let variable = |i: usize| VariableRecord {
+        let variable = |i: usize| ChosenVariable {
             name: format!("t{}", i + 1),
-            start: Number(0.0),
-            value: Number(s.offsets[i]),
-            bounds: [Number(p.bounds[i].0), Number(p.bounds[i].1)],
+            start: 0.0,
+            value: s.offsets[i],
+            bounds: [p.bounds[i].0, p.bounds[i].1],
         };
         let base = Self::checked(design, c, &[(Objective::WorstConditioning, r.objective)], count);
-        let variables: Vec<VariableRecord> = (0..6).map(variable).collect();
+        let variables: Vec<ChosenVariable> = (0..6).map(variable).collect();
         let [_, reserve] = offset_reserves(design, &p.octahedral);
         let margin = DetMargin { left: r.margins.det + reserve, least: p.min_abs_det - reserve, reserve };
         let known = base.constraint_margins.as_deref().unwrap_or_default();
@@ -196,11 +196,11 @@ fn judged_as(c: &Checked, role: DesignRoleWord) -> Option<AssessAnswer> {
 
 /// How far a variable is from its nearer bound.
 fn room(v: &ChosenVariable) -> f64 {
-    (v.value - v.bounds.0).min(v.bounds.1 - v.value)
+    (v.value - v.bounds[0]).min(v.bounds[1] - v.value)
 }
 
 /// By how much what a search demands besides the requirements is met.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct SearchMarginsRecord {
     /// |det A| less the required value; null: the variables do not keep the class of the design.
     pub abs_det: Option<Number>,
@@ -209,12 +209,12 @@ pub struct SearchMarginsRecord {
 }
 
 /// A local optimum beside the best one.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct OptimumRecord {
     /// All objectives.
     pub objectives: Vec<ObjectiveRecord>,
     /// What was chosen, axes left out.
-    pub variables: Vec<VariableRecord>,
+    pub variables: Vec<ChosenVariable>,
     /// Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     pub requirements_met: Option<bool>,
     /// What `assess` says of it; null: the design requires nothing.
@@ -231,7 +231,7 @@ impl OptimumRecord {
     pub fn new(design: &Design, s: &DimensionalSolution, c: &Checked, output: Option<&str>) -> Self {
         Self {
             objectives: ObjectiveRecord::all(design, &s.objectives, c),
-            variables: VariableRecord::all(s),
+            variables: s.variables.clone(),
             requirements_met: c.met(),
             assessment: judged_as(c, DesignRoleWord::Optimised),
             design: (&c.design).into(),
@@ -241,10 +241,10 @@ impl OptimumRecord {
 }
 
 /// The platform that comes nearest to its requirements.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearestPlatformRecord {
     /// What was chosen, axes left out.
-    pub variables: Vec<VariableRecord>,
+    pub variables: Vec<ChosenVariable>,
     /// The requirements, over many poses and by other code.
     pub constraint_margins: Vec<MarginRecord>,
     /// What `assess` says of it; null: the design requires nothing.
@@ -256,7 +256,7 @@ pub struct NearestPlatformRecord {
 impl NearestPlatformRecord {
     pub(super) fn new(s: &DimensionalSolution, c: &Checked) -> Self {
         Self {
-            variables: VariableRecord::all(s),
+            variables: s.variables.clone(),
             constraint_margins: MarginRecord::searched(&c.design, &c.assessment),
             assessment: judged_as(c, DesignRoleWord::Closest),
             design: (&c.design).into(),
@@ -265,7 +265,7 @@ impl NearestPlatformRecord {
 }
 
 /// A member of a front.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FrontMemberRecord {
     /// The platform with its evidence.
     #[serde(flatten)]
@@ -279,7 +279,7 @@ pub struct FrontMemberRecord {
 }
 
 /// An objective and its value.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ObjectiveRecord {
     /// Which.
     pub name: Objective,
@@ -304,38 +304,8 @@ impl ObjectiveRecord {
     }
 }
 
-/// A quantity that was chosen.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct VariableRecord {
-    /// Which.
-    pub name: String,
-    /// Its value in the design that the search began with.
-    pub start: Number,
-    /// Its value in the platform.
-    pub value: Number,
-    /// Least and greatest value that it may have.
-    pub bounds: [Number; 2],
-}
-
-impl From<&ChosenVariable> for VariableRecord {
-    fn from(v: &ChosenVariable) -> Self {
-        Self {
-            name: v.name.clone(),
-            start: Number(v.start),
-            value: Number(v.value),
-            bounds: [Number(v.bounds.0), Number(v.bounds.1)],
-        }
-    }
-}
-
-impl VariableRecord {
-    fn all(s: &DimensionalSolution) -> Vec<Self> {
-        s.variables.iter().map(Self::from).collect()
-    }
-}
-
 /// Axes of joints: unit vectors, frame of the body; null: not chosen.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointAxesRecord {
     /// Of the base ends of the legs.
     pub base: Option<[[Number; 3]; 6]>,
@@ -344,7 +314,7 @@ pub struct JointAxesRecord {
 }
 
 /// A verification in short.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct VerifiedRecord {
     /// The verdict.
     pub verdict: VerdictWord,
@@ -365,7 +335,7 @@ impl From<&Verification> for VerifiedRecord {
 }
 
 /// The pose with the worst conditioning.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct WorstPoseRecord {
     /// Its place among the poses held, from 0.
     pub index: usize,
@@ -375,7 +345,7 @@ pub struct WorstPoseRecord {
 }
 
 /// Evidence of local optimality.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LocalOptimalityRecord {
     /// The model of the last step promised no further gain.
     pub converged: bool,
@@ -388,7 +358,7 @@ pub struct LocalOptimalityRecord {
 }
 
 /// A step of the run that found a platform.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct SearchStepRecord {
     /// Value after the step: the weighted gain of the objectives, for offsets the worst inverse condition number.
     pub objective: Number,
@@ -435,7 +405,7 @@ impl SearchStepRecord {
 }
 
 /// Numbers of poses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct HeldPosesRecord {
     /// Where the search held the requirements.
     pub held: usize,

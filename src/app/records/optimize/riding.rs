@@ -1,13 +1,13 @@
 //! What a platform found rides on: limits and ends of ranges of which next to nothing is left.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::VariableRecord;
 use crate::nearest::short;
 use crate::{MarginRecord, Number};
 use ask::Checked;
 use ask::Design;
+use optimize::dimensional::ChosenVariable;
 use platform::manipulator::Body;
 
 /// Part of a limit below which nothing is left of it.
@@ -18,7 +18,7 @@ const AT_END: f64 = 1e-6;
 const GROWN: f64 = 1.2;
 
 /// The bounds that decide about a platform, and the growth of its bodies.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RidingRecord {
     /// Ranges of variables and limits of which nothing is left.
     pub bounds: Vec<RiddenBoundRecord>,
@@ -31,7 +31,7 @@ pub struct RidingRecord {
 }
 
 /// A bound of which nothing is left.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RiddenBoundRecord {
     /// A variable, a requirement, or `abs_det`.
     pub name: String,
@@ -44,7 +44,7 @@ pub struct RiddenBoundRecord {
 }
 
 /// What bounds a quantity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RiddenWord {
     /// The range of the variable ends there.
@@ -68,7 +68,7 @@ impl RidingRecord {
     pub(super) fn new(
         design: &Design,
         c: &Checked,
-        variables: &[VariableRecord],
+        variables: &[ChosenVariable],
         margins: &[MarginRecord],
         det: Option<DetMargin>,
     ) -> Option<Self> {
@@ -104,14 +104,14 @@ impl RidingRecord {
 }
 
 /// A variable at an end of its range.
-fn at_end(v: &VariableRecord) -> Option<RiddenBoundRecord> {
-    let [low, high] = v.bounds.map(|x| x.0);
-    let left = (v.value.0 - low).min(high - v.value.0);
+fn at_end(v: &ChosenVariable) -> Option<RiddenBoundRecord> {
+    let [low, high] = v.bounds;
+    let left = (v.value - low).min(high - v.value);
     let range = high - low;
     (range.is_finite() && range > 0.0 && left <= AT_END * range).then(|| RiddenBoundRecord {
         name: v.name.clone(),
         kind: RiddenWord::RangeEnd,
-        value: v.value,
+        value: Number(v.value),
         unit: String::new(),
     })
 }
@@ -148,9 +148,9 @@ fn message(bounds: &[RiddenBoundRecord], grown: &[String]) -> String {
 mod tests {
     use super::*;
 
-    fn variable(name: &str, value: f64) -> VariableRecord {
-        let bounds = [Number(-0.3), Number(1.3)];
-        VariableRecord { name: name.into(), start: Number(0.0), value: Number(value), bounds }
+    fn variable(name: &str, value: f64) -> ChosenVariable {
+        let bounds = [-0.3, 1.3];
+        ChosenVariable { name: name.into(), start: 0.0, value, bounds }
     }
 
     #[test]
@@ -167,7 +167,7 @@ mod tests {
     #[test]
     fn an_endless_range_has_no_end_to_ride_on() {
         let mut free = variable("t1", 5.0);
-        free.bounds = [Number(f64::NEG_INFINITY), Number(f64::INFINITY)];
+        free.bounds = [f64::NEG_INFINITY, f64::INFINITY];
         assert_eq!(at_end(&free), None);
     }
 }

@@ -41,14 +41,22 @@ pub enum ClosureError {
     OutOfRange,
 }
 
-/// A singular factor of a sequence: the base triangle of a step degenerates where it vanishes.
+/// A factor of the closure condition that belongs to degenerate trilaterations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "SingularFactorRecord")
+)]
 pub struct SingularFactor {
-    /// The unoriented step, counted from 0.
+    /// Unoriented steps, from 0.
+    // the base triangle of this step degenerates where the factor vanishes
     pub step: usize,
-    /// Degree in the unknown of the norm of the factor's numerator over the roots it contains; zero for a constant factor.
+    /// Its degree.
+    // of the norm of its numerator over the roots it contains, in the unknown; zero for a constant factor
     pub degree: usize,
-    /// How often this norm divides the polynomial that squaring out gives; zero for a constant factor.
+    /// How often it was removed.
+    // how often this norm divides the polynomial that squaring out gives; zero for a constant factor
     pub removed: usize,
 }
 

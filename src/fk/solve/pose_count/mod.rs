@@ -155,18 +155,23 @@ impl PoseCount {
     }
 }
 
-/// The points that the six leg equations have in common in the closure of the group, for generic lengths, by where they are; each with its multiplicity. They are forty where all are isolated.
-///
-/// In the coordinates `(M, y, x, r, h)` a pose has `h = e.e` and `M = h R` with its quaternion `e`, which vanishes where both do.
+/// Common points of six legs in the closure of the group, each with its multiplicity, counted modulo random primes.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "CommonPointsRecord")
+)]
 pub struct CommonPoints {
-    /// Poses: `h != 0`.
+    // In the coordinates `(M, y, x, r, h)` a pose has `h = e.e` and `M = h R` with its quaternion `e`; `h` and `M`
+    // vanish where `e` does. There are forty points where all are isolated.
+    /// Finite poses.
     pub finite: usize,
-    /// Limits of poses whose quaternion becomes isotropic: `h = e.e = 0`, `M != 0`. `None` where they are not isolated, or the computation does not tell.
+    /// Limits of poses whose quaternion e becomes isotropic: e.e = 0, e not 0. Null: not isolated, or not counted.
     pub isotropic: Option<usize>,
-    /// Limits of poses whose position goes to infinity: `h = 0`, `M = 0`. `None` where one of all points at infinity is not isolated, or the computation does not tell.
+    /// Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not isolated, or not counted.
     pub at_infinity: Option<usize>,
-    /// Bound on the probability that the numbers are others.
+    /// A bound on the probability that the numbers are others.
     pub error_probability: f64,
 }
 

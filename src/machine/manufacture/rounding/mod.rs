@@ -290,33 +290,54 @@ fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
     SamplePlan::about(problem.manipulator, space.home, widths, (SAMPLES, problem.seed))
 }
 
-/// The numbers by which roundings are compared.
+/// How good a design is.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "JudgementRecord", transform = num::nullable))]
 pub struct Judgement {
-    /// Worst inverse condition number over the poses.
+    /// The worst inverse condition number over the poses.
     pub objective: f64,
-    /// Where.
+    /// Where it is.
+    #[cfg_attr(
+        feature = "serde",
+        serde(serialize_with = "platform::geom::PoseQuaternionRecord::write"),
+        schemars(with = "platform::geom::PoseQuaternionRecord")
+    )]
     pub worst_pose: Pose,
-    /// Least distance of two joints of the base and of the platform, design units.
+    /// Least distances of two joints, base and platform.
+    // design units
     pub least_distances: [f64; 2],
-    /// `det A` of the leg map from the octahedral platform, where there is one.
+    /// det A; null: there is no leg map.
+    // of the leg map from the octahedral platform
     pub det: Option<f64>,
-    /// Least margin of each kind of requirement at the poses.
-    pub margins: Vec<(TermKind, f64)>,
-    /// No margin is below 0 by more than rounding and `|det A|` is as large as required.
+    /// The least margin of each requirement.
+    pub requirements: Vec<LeastMargin>,
+    /// No requirement is violated.
+    // by more than rounding, and `|det A|` is as large as required
     pub met: bool,
-    /// No margin is below the reserve on it either.
+    /// Every margin keeps its reserve too.
     pub reserve_kept: bool,
+}
+
+/// The least margin of a requirement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "RequirementMarginRecord", transform = num::nullable))]
+pub struct LeastMargin {
+    /// Which.
+    #[cfg_attr(feature = "serde", serde(rename = "name"))]
+    pub kind: TermKind,
+    /// The margin; a violation below 0.
+    #[cfg_attr(feature = "serde", serde(rename = "margin"))]
+    pub value: f64,
 }
 
 impl Judgement {
     /// By how much a requirement is missed at most, as a share of what is limited, or of the size of the design; 0 where none is.
     fn missed_share(&self, required: &Requirements, size: f64) -> f64 {
-        let share = |(kind, margin): &(TermKind, f64)| {
-            let whole = required.whole(*kind);
-            -margin / if whole > 0.0 { whole } else { size }
+        let share = |margin: &LeastMargin| {
+            let whole = required.whole(margin.kind);
+            -margin.value / if whole > 0.0 { whole } else { size }
         };
-        self.margins.iter().map(share).fold(0.0, f64::max)
+        self.requirements.iter().map(share).fold(0.0, f64::max)
     }
 }
 
@@ -365,7 +386,7 @@ fn objective_above(
 }
 
 /// Least margins at the poses, whether none is violated, and whether none is below its reserve.
-fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f64)>, [bool; 2]) {
+fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<LeastMargin>, [bool; 2]) {
     let terms = Terms::new(m, problem.requirements, &problem.space.home);
     let mut least: BTreeMap<TermKind, (f64, Option<&Pose>)> = BTreeMap::new();
     let at = |pose| terms.at(pose).into_iter().map(move |(term, margin)| (term, margin, Some(pose)));
@@ -382,14 +403,14 @@ fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f6
             .all(|(kind, (margin, pose))| terms.standing(*kind, margin - reserve(*kind), *pose).is_met())
     };
     let met = [all(&|_| 0.0), all(&|kind| problem.requirements.reserve(kind))];
-    (least.into_iter().map(|(kind, (margin, _))| (kind, margin)).collect(), met)
+    (least.into_iter().map(|(kind, (value, _))| LeastMargin { kind, value }).collect(), met)
 }
 
 /// Everything about a design.
 fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Judgement {
     let mut hint = 0;
     let objective = objective_above(m, problem, -1.0, &mut hint).unwrap_or(0.0);
-    let (margins, [requirements_met, reserve_kept]) = margins(m, problem);
+    let (requirements, [requirements_met, reserve_kept]) = margins(m, problem);
     let det_met = problem.min_abs_det.is_none_or(|least| det.is_none_or(|det| det.abs() >= least));
     Judgement {
         objective,
@@ -398,6 +419,6 @@ fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Ju
         det,
         met: det_met && requirements_met,
         reserve_kept: det_met && reserve_kept,
-        margins,
+        requirements,
     }
 }

@@ -180,9 +180,9 @@ fn requirements_are_respected_or_the_violation_is_told() {
     let found = with(&free(), [GRID; 2], &distance(30.0), round_to_grid).unwrap();
     assert!(found.choice(0.9).is_none());
     let j = &found.exact.as_ref().unwrap().judgement;
-    assert!(!j.met && j.margins.iter().any(|(k, m)| *k == TermKind::BaseSpacing && *m < 0.0));
+    assert!(!j.met && j.requirements.iter().any(|m| m.kind == TermKind::BaseSpacing && m.value < 0.0));
     // of two that miss the distance the one that misses less of it is named
-    let missed = |j: &Judgement| j.margins.iter().map(|(_, m)| -m / 30.0).fold(0.0, f64::max);
+    let missed = |j: &Judgement| j.requirements.iter().map(|m| -m.value / 30.0).fold(0.0, f64::max);
     let of_exact = found.exact.as_ref().map(|e| (&e.manipulator, missed(&e.judgement))).unwrap();
     let of_nearest = found.nearest.as_ref().map(|n| (&n.manipulator, missed(&n.judgement))).unwrap();
     let less = if of_nearest.1 < of_exact.1 { of_nearest.0 } else { of_exact.0 };

@@ -22,12 +22,15 @@ use num::parallel::parallel;
 use num::small::bounded_svd;
 use synthesis::sides;
 
-/// No offsets within the limits of the problem reach more than `upper`.
+/// What no offsets can exceed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "GlobalBoundRecord", transform = num::nullable))]
 pub struct GlobalBound {
-    /// Upper bound of the worst-case inverse condition number, proved in interval arithmetic.
+    /// No offsets within the limits reach more.
+    // of the worst-case inverse condition number, proved in interval arithmetic
     pub upper: f64,
-    /// `upper / value - 1` for the value of the solution.
+    /// By how much that is above the solution, relative.
+    // `upper / value - 1`
     pub gap: f64,
     /// Boxes of offsets that were looked at.
     pub boxes: usize,

@@ -71,6 +71,9 @@ pub enum Wish {
     Reach,
 }
 
+#[cfg(feature = "serde")]
+num::written_as_word!(Wish);
+
 impl Wish {
     /// The name used in JSON.
     #[must_use]
@@ -84,16 +87,21 @@ impl Wish {
     }
 }
 
-/// A wish with the number that decides it.
+/// By how much a wish is fulfilled.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "WishMarginRecord", transform = num::nullable))]
 pub struct WishMargin {
-    /// The wish.
+    /// Which.
+    #[cfg_attr(feature = "serde", schemars(extend("enum" = ["spacing", "clearance", "conditioning", "reach"])))]
     pub wish: Wish,
-    /// Its value on the platform; design units, a ratio for the conditioning.
+    /// What the platform has.
+    // design units, a ratio for the conditioning
     pub value: f64,
-    /// What it must not fall below (for the reach: not exceed).
+    /// What is wished.
+    // the greatest value for the reach, the least one for the others
     pub required: f64,
-    /// How much is left, over the size of the design (the conditioning as it is); negative when the wish is missed.
+    /// The difference over the size.
+    // of the conditioning as it is; negative where the wish is missed
     pub slack: f64,
 }
 

@@ -70,16 +70,23 @@ impl CurveEnd {
     }
 }
 
-/// A pose of a motion.
+/// A pose on a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "MotionPointRecord", transform = num::nullable))]
 pub struct MotionPoint {
     /// The pose.
+    #[cfg_attr(
+        feature = "serde",
+        serde(flatten, serialize_with = "platform::geom::PoseQuaternionRecord::write"),
+        schemars(with = "platform::geom::PoseQuaternionRecord")
+    )]
     pub pose: Pose,
-    /// Length along the curve from its first point in `(e, g / size)`.
+    /// Length of the curve up to here, in (e, g / size).
     pub arc: f64,
-    /// Largest error of a leg length over the size of the design.
+    /// The largest error of a leg length over the size.
     pub length_error: f64,
-    /// The smallest singular value that is not zero over the largest: small near crossings.
+    /// The smallest singular value that is not zero over the largest.
+    // small near crossings
     pub gap: f64,
 }
 

@@ -262,14 +262,18 @@ const ON_CURVE: f64 = 1e-9;
 /// Least sixth singular value of the equations away from crossings, over the first.
 const OFF_CROSSING: f64 = 1e-6;
 
-/// What was found about the degree.
+/// The degree of a curve of poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CurveDegreeRecord", transform = num::nullable))]
 pub struct CurveDegree {
-    /// Points in which a general hyperplane meets the irreducible curve through the pose; those found, when not complete.
+    /// The degree, at least this where it is not complete.
+    // points in which a general hyperplane meets the irreducible curve through the pose
     pub degree: usize,
     /// The trace test holds.
     pub complete: bool,
-    /// Its defect, relative.
+    /// What is left of the trace test.
+    // relative
+    #[cfg_attr(feature = "serde", serde(rename = "trace_defect"))]
     pub defect: f64,
 }
 

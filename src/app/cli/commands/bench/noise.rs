@@ -9,9 +9,9 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::output::Answer;
 use ::files::plot::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
-use ask::bench::{Class, NOISE_LEVELS, NoisePlan, noise};
+use ask::bench::{Class, NOISE_LEVELS, NoiseLevel, NoisePlan, Spread, noise};
 use fk::{ForwardKinematics, Threads};
-use records::{BenchAnswer, NoiseAnswer, NoiseLevelRecord, NoiseRowRecord, SpreadRecord};
+use records::{BenchAnswer, NoiseAnswer, NoiseRowRecord};
 
 /// Levels the published figure shows, other than zero.
 const PUBLISHED: (f64, f64) = (1e-4, 8e-4);
@@ -57,12 +57,12 @@ fn text(rows: &[NoiseRowRecord]) -> String {
     );
     for row in rows {
         for l in &row.levels {
-            let _ = write!(out, "{:<14} {:>7.0e} {:>7}", row.class, l.sigma.0, l.without_real_pose);
-            for s in [&l.rotation_rad, &l.position_rad] {
+            let _ = write!(out, "{:<14} {:>7.0e} {:>7}", row.class, l.sigma, l.without_pose);
+            for s in [&l.rotation, &l.position] {
                 match s {
                     Some(s) => {
                         for value in [s.lower_quartile, s.median, s.upper_quartile, s.p99] {
-                            let _ = write!(out, " {:>9.2e}", value.0);
+                            let _ = write!(out, " {value:>9.2e}");
                         }
                     }
                     None => out.push_str(&format!(" {:>9}", "-").repeat(4)),
@@ -77,10 +77,10 @@ fn text(rows: &[NoiseRowRecord]) -> String {
 
 fn figure(noise: &NoiseAnswer, seed: u64) -> NoiseFigure {
     let count = noise.count;
-    let quartiles = |s: &SpreadRecord| [s.lower_quartile.0, s.median.0, s.upper_quartile.0];
-    let point = |l: &NoiseLevelRecord| {
-        let (rotation, position) = (l.rotation_rad.as_ref()?, l.position_rad.as_ref()?);
-        Some(NoisePoint { sigma: l.sigma.0, quartiles: [quartiles(rotation), quartiles(position)] })
+    let quartiles = |s: &Spread| [s.lower_quartile, s.median, s.upper_quartile];
+    let point = |l: &NoiseLevel| {
+        let (rotation, position) = (l.rotation.as_ref()?, l.position.as_ref()?);
+        Some(NoisePoint { sigma: l.sigma, quartiles: [quartiles(rotation), quartiles(position)] })
     };
     let curve = |row: &NoiseRowRecord| NoiseCurve {
         label: row.class.clone(),

@@ -56,14 +56,14 @@ pub(super) fn text(rows: &[BenchClassRecord], references: &ReferenceTimes, seed:
             "{}: error metric median {:.2} mean {:.2} max {:.2}, above -5 {:.2} %, above -6 {:.2} %; \
              solve {:.0} us, certify {:.0} us, validate {:.0} us; {:.1} s",
             r.counts.class,
-            e.median.0,
-            e.mean.0,
-            e.max.0,
-            100.0 * e.above_minus_5.0,
-            100.0 * e.above_minus_6.0,
-            r.split_us.solve.0,
-            r.split_us.certify.0,
-            r.split_us.validate.0,
+            e.median,
+            e.mean,
+            e.max,
+            100.0 * e.above_minus_5,
+            100.0 * e.above_minus_6,
+            r.split_us.solve,
+            r.split_us.certify,
+            r.split_us.validate,
             r.total_s.0
         );
         let _ = writeln!(out, "  finite: {}  real: {}", line(&r.finite_counts), line(&r.real_counts));

@@ -104,12 +104,12 @@ fn facts(out: &mut String, found: &CalibrationRecord, units: &str) {
     let _ = writeln!(out, "{begun}{other}");
     if let Some(motions) = &found.motions {
         for (body, m) in [("base", &motions.base), ("platform", &motions.platform)] {
-            let p = m.motion.position.map(|x| significant(x.0));
+            let p = <[f64; 3]>::from(m.motion.position).map(significant);
             let _ = writeln!(
                 out,
                 "{body} carried to the design: shift {} {units}, rms {} {units} left",
                 p.join(", "),
-                significant(m.rms.0)
+                significant(m.rms)
             );
         }
     }
@@ -136,13 +136,12 @@ fn residuals(out: &mut String, found: &CalibrationRecord, units: &str) {
         );
     }
     let chi = &found.chi_square;
-    let probability =
-        chi.probability.map_or(String::new(), |p| format!(", probability {}", significant(p.0)));
+    let probability = chi.probability.map_or(String::new(), |p| format!(", probability {}", significant(p)));
     let _ = writeln!(
         out,
         "chi-square {} with {} degrees of freedom{probability}",
-        significant(chi.value.0),
-        chi.degrees_of_freedom
+        significant(chi.value),
+        chi.freedoms
     );
 }
 

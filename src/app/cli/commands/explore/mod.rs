@@ -42,7 +42,7 @@ use records::{
     AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
     ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
     FreedomWord, LengthsOrigin, OnHolesRecord, OptimizeAnswer, OptimizedRecord, PoseTotalsRecord,
-    PriceRecord, ProvenanceRecord, RoundAnswer, VariantWord, VerdictWord, VerifyAnswer,
+    PriceRecord, ProvenanceRecord, RoundAnswer, VerdictWord, VerifyAnswer,
 };
 use synthesis::{Family, FamilyMember};
 use verify::{Verification, verify};
@@ -279,7 +279,7 @@ fn round_record(on: &DesignOnHoles, assessment: Option<AssessAnswer>) -> RoundAn
         design: &on.wanted,
         choices: &on.choices,
         found: &on.rounding,
-        rounded: on.found.as_ref().map(|(way, design)| (VariantWord::from(*way), design)),
+        rounded: on.found.as_ref().map(|(way, design)| (*way, design)),
         is_taken: on.met() != Some(false),
         assessment,
         written: None,

@@ -7,9 +7,9 @@ use crate::app::cli::poses;
 use crate::app::cli::table::{column_unit, csv_line, number};
 use ask::Design;
 use ask::MotionReport;
+use machine::dynamics::Extreme;
 use records::{
-    CrankMotionRecord, ExtremeRecord, MotionAnswer, MotionRegularity, MotionRunRecord, StiffnessRecord,
-    TimedMarginRecord,
+    CrankMotionRecord, MotionAnswer, MotionRegularity, MotionRunRecord, StiffnessRecord, TimedMarginRecord,
 };
 
 /// The sentence, and for each motion a table of legs and one of requirements.
@@ -84,10 +84,10 @@ fn legs(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord) {
     ];
     let rows = motion.legs.iter().map(|leg| {
         let cells = [
-            short(leg.shortest.value.0),
-            short(leg.longest.value.0),
-            short(leg.speed.value.0),
-            short(leg.acceleration.value.0),
+            short(leg.shortest.value),
+            short(leg.longest.value),
+            short(leg.speed.value),
+            short(leg.acceleration.value),
             extreme(leg.push),
             extreme(leg.pull),
             leg.rms_force.map_or("-".to_string(), |x| short(x.0)),
@@ -108,7 +108,7 @@ fn singular(out: &mut String, motion: &MotionRunRecord) {
             out,
             "At {} s the {what} is singular: {}. The drives cannot hold the platform at {}.",
             short(time),
-            evidence.sentence(),
+            evidence,
             pose.short()
         );
     } else if motion.regularity == MotionRegularity::Proved {
@@ -138,8 +138,8 @@ fn table<const N: usize>(
     }
 }
 
-fn extreme(found: Option<ExtremeRecord>) -> String {
-    found.map_or("-".to_string(), |x| short(x.value.0))
+fn extreme(found: Option<Extreme>) -> String {
+    found.map_or("-".to_string(), |x| short(x.value))
 }
 
 fn cranks(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord, list: &[CrankMotionRecord]) {
@@ -155,10 +155,10 @@ fn cranks(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord, lis
     ];
     let rows = list.iter().map(|crank| {
         let cells = [
-            short(crank.least_deg.value.0),
-            short(crank.greatest_deg.value.0),
-            short(crank.speed_deg.value.0),
-            short(crank.acceleration_deg.value.0),
+            short(crank.least_deg.value),
+            short(crank.greatest_deg.value),
+            short(crank.speed_deg.value),
+            short(crank.acceleration_deg.value),
             extreme(crank.torque),
             crank.rms_torque.map_or("-".to_string(), |x| short(x.0)),
             extreme(crank.power_w),

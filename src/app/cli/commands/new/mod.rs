@@ -286,7 +286,7 @@ fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<
         home: (&home).into(),
         lengths,
         architecturally_singular: singular,
-        singular_home: singular_home.map(|home| home.evidence.into()),
+        singular_home: singular_home.map(|home| home.evidence),
         guesses,
     };
     let exit = if singular_home.is_none() { Exit::Yes } else { Exit::No };

@@ -5,11 +5,12 @@ use std::fmt::Write as _;
 use crate::app::cli::numbers::{significant as short, width_of};
 use crate::app::cli::requirements;
 use ask::OptimizeStatus;
+use optimize::dimensional::ChosenVariable;
 use optimize::offsets::Zone;
 use records::{
     ConflictReasonRecord, ConflictRecord, DesignRecord, DriveSearchRecord, FoundPlatformRecord,
     FrontMemberRecord, MarginRecord, NearestPlatformRecord, Number, OptimalityWord, OptimizeAnswer,
-    OptimumRecord, VariableRecord,
+    OptimumRecord,
 };
 use synthesis::sliding_body;
 
@@ -114,7 +115,7 @@ fn meaning_text(out: &mut String, a: &OptimizeAnswer) {
         let _ = writeln!(
             out,
             "proved: no offsets within the limits reach more than {:.9} ({:.2e} above the solution; {} boxes)",
-            b.upper.0, b.gap.0, b.boxes
+            b.upper, b.gap, b.boxes
         );
     }
 }
@@ -125,13 +126,7 @@ fn branches_text(out: &mut String, a: &OptimizeAnswer) {
     let _ = writeln!(
         out,
         "branches: {} feasible, {} outside the bounds, {} without room, {} with |det A| too small, {} covered by the bound, {} unproved, {} failed",
-        n.feasible,
-        n.infeasible_bounds,
-        n.infeasible_spacing,
-        n.infeasible_det,
-        n.bounded,
-        n.unproved,
-        n.solver_failure
+        n.feasible, n.outside_bounds, n.spacing, n.det, n.bounded, n.unproved, n.failed
     );
     for r in ConflictReasonRecord::all(a.branches.as_deref().unwrap_or_default()) {
         let _ = writeln!(out, "  {:>3} {}, for example: {}", r.branches, r.code, r.message);
@@ -224,9 +219,9 @@ fn candidates_text(out: &mut String, list: &[OptimumRecord]) {
 }
 
 /// What was chosen: from what, to what.
-fn variables_text(out: &mut String, variables: &[VariableRecord]) {
+fn variables_text(out: &mut String, variables: &[ChosenVariable]) {
     for v in variables {
-        let _ = writeln!(out, "  {:<20} {:>12.6}  from {:.6}", v.name, v.value.0, v.start.0);
+        let _ = writeln!(out, "  {:<20} {:>12.6}  from {:.6}", v.name, v.value, v.start);
     }
 }
 

@@ -17,7 +17,7 @@ use ask::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use machine::manufacture::{NoRounding, Rounding};
 use machine::requirements::{Grid, HoleCircles, HolePattern};
 use platform::manipulator::{Body, Manipulator};
-use records::{AssessAnswer, DesignRoleWord, VariantWord};
+use records::{AssessAnswer, DesignRoleWord};
 use verify::{Verdict, Verification};
 
 /// Arguments of `build round`.
@@ -219,7 +219,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Variant::Rule => taken.or_else(|| with(&found, missing()?)),
         _ => taken,
     };
-    let rounded = choice.map(|c| (VariantWord::from(c.way), design.on_holes(c.way, c.manipulator, c.grids)));
+    let rounded = choice.map(|c| (c.way, design.on_holes(c.way, c.manipulator, c.grids)));
     let mut written = None;
     if let (Some(path), Some((_, rounded))) = (&args.output, &rounded) {
         files::write_design(path, rounded)?;

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use crate::app::cli::requirements;
 use ask::Design;
-use ask::rounding::RoundingChoices;
-use machine::manufacture::Rounding;
+use ask::rounding::{RoundingChoices, RoundingWay};
+use machine::manufacture::{Judgement, Rounding};
 use records::{
-    AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, JudgementRecord, NearestRoundingOutcome,
-    RoundAnswer, RoundedJointRecord, VariantWord,
+    AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, NearestRoundingOutcome, RoundAnswer,
+    RoundedJointRecord,
 };
 
 /// Everything there is to tell.
@@ -17,7 +17,7 @@ pub(in crate::app::cli::commands) struct RoundReport<'a> {
     pub(in crate::app::cli::commands) design: &'a Design,
     pub(in crate::app::cli::commands) choices: &'a RoundingChoices,
     pub(in crate::app::cli::commands) found: &'a Rounding,
-    pub(in crate::app::cli::commands) rounded: Option<(VariantWord, &'a Design)>,
+    pub(in crate::app::cli::commands) rounded: Option<(RoundingWay, &'a Design)>,
     /// The rounded design is that of the rule or of the variant asked for, not the one that misses the requirements least.
     pub(in crate::app::cli::commands) is_taken: bool,
     pub(in crate::app::cli::commands) assessment: Option<AssessAnswer>,
@@ -31,7 +31,7 @@ impl RoundReport<'_> {
             units: self.design.units.clone(),
             grids: (&self.choices.grids).into(),
             free_grid: self.choices.free,
-            wanted: (&self.found.wanted).into(),
+            wanted: self.found.wanted.clone(),
             exact: ExactRoundingOutcome::new(self.design, &self.found.exact),
             nearest: NearestRoundingOutcome::new(self.design, &self.found.nearest),
             assessment: self.assessment.clone(),
@@ -44,17 +44,17 @@ impl RoundReport<'_> {
 }
 
 /// A line about a design; `met`: what is known of its requirements over the whole workspace, where it was judged there.
-fn judged(out: &mut String, what: &str, j: &JudgementRecord, met: Option<bool>, units: &str) {
+fn judged(out: &mut String, what: &str, j: &Judgement, met: Option<bool>, units: &str) {
     let requirements = match (met, j.met) {
         (Some(true), true) => "met",
         (None, true) => "met at the sampled poses",
         _ => "violated",
     };
-    let det = j.det.map_or(String::new(), |d| format!(", det A = {:.6}", d.0));
+    let det = j.det.map_or(String::new(), |d| format!(", det A = {d:.6}"));
     let _ = writeln!(
         out,
         "{what:<8} worst inverse condition number {:.6}{det}; joints at least {:.4} and {:.4} {units} apart; requirements {requirements}",
-        j.objective.0, j.least_distances[0].0, j.least_distances[1].0,
+        j.objective, j.least_distances[0], j.least_distances[1],
     );
 }
 
@@ -89,12 +89,12 @@ pub(super) fn text(r: &RoundAnswer) -> String {
     }
     // the design that is written was judged at every pose; a line of its own poses must not say more
     let written = r.chosen.or(r.least_missed);
-    let known = |way: VariantWord| r.assessment.as_ref().filter(|_| written == Some(way)).and_then(|a| a.met);
+    let known = |way: RoundingWay| r.assessment.as_ref().filter(|_| written == Some(way)).and_then(|a| a.met);
     let _ = writeln!(out, "{}", r.name);
     judged(&mut out, "wanted", &r.wanted, None, units);
     match &r.exact {
         ExactRoundingOutcome::Found(e) => {
-            judged(&mut out, "exact", &e.judgement, known(VariantWord::Exact), units);
+            judged(&mut out, "exact", &e.judgement, known(RoundingWay::Exact), units);
             let proof = if e.proved { "proved in exact arithmetic" } else { "NOT proved" };
             let _ = writeln!(
                 out,
@@ -112,7 +112,7 @@ pub(super) fn text(r: &RoundAnswer) -> String {
     }
     match &r.nearest {
         NearestRoundingOutcome::Found(n) => {
-            judged(&mut out, "nearest", &n.judgement, known(VariantWord::Nearest), units);
+            judged(&mut out, "nearest", &n.judgement, known(RoundingWay::Nearest), units);
             let e = &n.pose_error;
             let _ = writeln!(
                 out,
@@ -124,8 +124,8 @@ pub(super) fn text(r: &RoundAnswer) -> String {
                 e.first_order_nearest_points.position.0,
                 e.first_order_nearest_points.rotation_deg.0,
                 e.solved_poses,
-                e.solved.position.max.0,
-                e.solved.rotation_deg.max.0
+                e.solved.position.max,
+                e.solved.rotation_deg.max
             );
             if r.free_grid {
                 grids(&mut out, &n.grids);
@@ -136,7 +136,7 @@ pub(super) fn text(r: &RoundAnswer) -> String {
             let _ = writeln!(out, "nearest  none: {}", why.error.message);
         }
     }
-    let chosen = r.chosen.map_or("none meets the requirements", VariantWord::as_str);
+    let chosen = r.chosen.map_or("none meets the requirements", RoundingWay::as_str);
     let missed =
         r.least_missed.map_or_else(String::new, |way| format!("; {} misses them least", way.as_str()));
     let _ = writeln!(out, "chosen: {chosen}{missed}");

@@ -13,7 +13,7 @@ use crate::app::cli::requirements;
 use ask::Design;
 use records::{
     AssessAnswer, CandidateRecord, DesignRecord, DesignRoleWord, HoleRecord, MoveAnswer, MoveSearchAnswer,
-    Number, PlacementRecord, SearchWord, WishMarginRecord,
+    Number, PlacementRecord, SearchWord,
 };
 use synthesis::LegMapOutcome;
 use synthesis::components::{ComponentOptions, Components};
@@ -286,7 +286,7 @@ impl MoveReport<'_> {
             assessment: f.assessment.clone(),
             worst: Number(c.worst),
             shared_joints: c.shared_joints,
-            margins: c.margins.iter().map(WishMarginRecord::from).collect(),
+            margins: c.margins.clone(),
             moves: c.placements.iter().map(place).collect::<Result<_, Failure>>()?,
             map: (&f.map).into(),
             design: f.design.as_ref().map(DesignRecord::from),
@@ -321,7 +321,10 @@ fn text(r: &MoveSearchAnswer) -> String {
             let _ = writeln!(
                 text,
                 "   {:<13} {:>12.6}  required {:>12.6}  slack {:>9.5}",
-                m.wish, m.value.0, m.required.0, m.slack.0
+                m.wish.as_str(),
+                m.value,
+                m.required,
+                m.slack
             );
         }
         for p in &c.moves {

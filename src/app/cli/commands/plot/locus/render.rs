@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use super::{Between, Found, Row};
 use files::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
 use fk::{FkRoot, Reality};
-use records::{LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord, Number};
+use records::{LocusAnswer, LocusRowRecord, LocusValueRecord, LocusWord, Number};
 
 pub(super) fn picture(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {
     let without = rows.iter().filter(|r| r.status() != LocusWord::Isolated).count();
@@ -72,7 +72,7 @@ pub(super) fn record(leg: u8, between: &Between, rows: &[Row], steps: &[LocusSte
         leg,
         between: [between.base.clone(), between.platform.clone()],
         rows: rows.iter().enumerate().map(row).collect(),
-        meetings: locus_meetings(steps).iter().map(LocusMeetingRecord::from).collect(),
+        meetings: locus_meetings(steps),
     }
 }
 
@@ -103,7 +103,7 @@ pub(super) fn text(name: &str, r: &LocusAnswer) -> String {
     if !r.meetings.is_empty() {
         out.push_str("\ndouble values on the real axis, about:\n   length      value\n");
         for m in &r.meetings {
-            let _ = writeln!(out, "{:>9.5}  {:>9.5}", m.length.0, m.value.0);
+            let _ = writeln!(out, "{:>9.5}  {:>9.5}", m.length, m.value);
         }
     }
     out

@@ -7,8 +7,8 @@ use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ask::{Design, MotionOrigin, SelfMotionReport};
 use records::{
-    CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, IsolatedRecord, MotionCurveRecord,
-    MotionEvidenceWord, Number, PoseQuaternionRecord, SelfmotionAnswer,
+    CompletenessWord, CriticalPointsRecord, IsolatedRecord, MotionCurveRecord, MotionEvidenceWord, Number,
+    PoseQuaternionRecord, SelfmotionAnswer,
 };
 
 /// The answer.
@@ -32,7 +32,7 @@ pub(super) fn answer(design: &Design, found: &SelfMotionReport) -> Answer {
         real_poses: found.real_poses.iter().map(PoseQuaternionRecord::from).collect(),
         completeness: CompletenessWord::Unproved,
         components_accounted: found.accounted,
-        complex_components: critical.map(|c| c.components.iter().map(CurveDegreeRecord::from).collect()),
+        complex_components: critical.map(|c| c.components.clone()),
         critical_points: critical.map(CriticalPointsRecord::from),
         worst_length_error: Number(motion.worst_length_error),
         crossings: motion.crossings.iter().map(PoseQuaternionRecord::from).collect(),
@@ -56,7 +56,7 @@ fn text(r: &SelfmotionAnswer) -> String {
         }
     }
     for (k, curve) in r.curves.iter().enumerate() {
-        let arc = curve.points.last().map_or(0.0, |p| p.arc.0);
+        let arc = curve.points.last().map_or(0.0, |p| p.arc);
         let _ = write!(
             out,
             "curve {}: {} poses, length {arc:.6} in (e, g / size), {}, {} crossings",
@@ -67,7 +67,7 @@ fn text(r: &SelfmotionAnswer) -> String {
         );
         let _ = match &curve.degree {
             Some(d) if d.complete => {
-                write!(out, ", degree {} (trace test {:.1e})", d.degree, d.trace_defect.0)
+                write!(out, ", degree {} (trace test {:.1e})", d.degree, d.defect)
             }
             Some(d) => write!(out, ", degree at least {}", d.degree),
             None => Ok(()),

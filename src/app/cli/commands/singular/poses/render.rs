@@ -5,12 +5,10 @@ use std::fmt::Write as _;
 use super::{Found, paths};
 use crate::app::cli::output::Answer;
 use ask::{Design, PoseFigures};
-use platform::geom::Region;
 use records::{
-    JudgedPoseRecord, Number, PoseQuaternionRecord, RegionWord, RegularBoxRecord, RegularityRecord,
-    RegularityWord, ScaledPoseRecord, SingularitiesAnswer,
+    JudgedPoseRecord, Number, PoseQuaternionRecord, RegularBoxRecord, RegularityRecord, RegularityWord,
+    ScaledPoseRecord, SingularitiesAnswer,
 };
-use synthesis::singularity::BoxOptions;
 
 fn judged(j: &PoseFigures) -> JudgedPoseRecord {
     JudgedPoseRecord {
@@ -18,13 +16,6 @@ fn judged(j: &PoseFigures) -> JudgedPoseRecord {
         determinant: Number(j.determinant),
         inverse_condition: Number(j.inverse_condition),
         four_planes: j.four_planes.map(|d| d.map(Number)),
-    }
-}
-
-fn region(options: &BoxOptions) -> RegionWord {
-    match options.region {
-        Region::Box => RegionWord::Box,
-        Region::Ellipsoid => RegionWord::Ellipsoid,
     }
 }
 
@@ -43,7 +34,7 @@ pub(super) fn answer(design: &Design, found: &Found) -> Answer {
         regular_box: RegularBoxRecord {
             translation: report.options.translation,
             rotation_deg: report.options.rotation_deg,
-            region: region(&report.options),
+            region: report.options.region,
             proved_scale: Number(regular.proved),
             singular_within: regular
                 .refuted
