@@ -11,15 +11,13 @@ use super::plates::{PlacedPlate, PlateModel};
 use super::pull::Gradient;
 use super::shape::{JointEnds, LegJoints, Shape};
 use super::stiffness::{self, RayleighQuotient};
+use crate::climb::TermId;
 use machine::requirements;
 use machine::requirements::{
     Envelope, HingeAngle, Housing, JointAxes, KeepOut, Requirements, Swing, TermKind,
 };
 use platform::geom::Pose;
 use platform::manipulator::Body;
-
-/// Which requirement: kind, leg (joint), other leg (joint, keep-out, load), part.
-pub(crate) type TermId = (TermKind, usize, usize, usize);
 
 /// A convex form of `value >= 0`: the head at least the norm of the line of the leg, both divided by the size.
 #[derive(Debug, Clone, Copy)]
