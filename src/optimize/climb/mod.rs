@@ -58,13 +58,15 @@ pub(crate) struct Effort {
     pub iterations: usize,
     /// The climb stops when the model promises less.
     pub tolerance: f64,
+    /// First price of a violation.
+    pub penalty: f64,
 }
 
 impl Effort {
     /// Enough to compare starts.
-    pub(crate) const RANK: Self = Self { iterations: 30, tolerance: 1e-5 };
+    pub(crate) const RANK: Self = Self { iterations: 30, tolerance: 1e-5, penalty: PENALTY };
     /// To the accuracy of the conic solver.
-    pub(crate) const POLISH: Self = Self { iterations: 80, tolerance: 1e-8 };
+    pub(crate) const POLISH: Self = Self { iterations: 80, tolerance: 1e-8, penalty: PENALTY };
 
     /// Only a polished run is worth the program that measures stationarity.
     fn measures_stationarity(self) -> bool {
@@ -220,7 +222,7 @@ pub(crate) fn climb(problem: &dyn Climbable, start: &[f64], effort: Effort) -> R
     let (n, task, backoff) = (start.len(), problem.task(), problem.backoff());
     let mut s = State {
         problem,
-        penalty: PENALTY,
+        penalty: effort.penalty,
         x: start.to_vec(),
         judged: problem.judge(start, &|_| false),
         curvature: DMatrix::zeros(n, n),

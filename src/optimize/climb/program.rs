@@ -98,8 +98,8 @@ fn add(p: &mut ConicProgram, row: ConicRow) -> usize {
 impl Program<'_> {
     /// Solves for the step; refuses a point whose plain residual is too large.
     ///
-    /// Few rows bind. The program is written with those that are nearest to it, and rows that its point violates are added until there are
-    /// none: the point is then that of the program with all rows.
+    /// Few rows bind. The program begins with the rows of least value and adds those that its point violates.
+    /// Without further ones the point solves the program with all rows.
     pub(super) fn solve(&self) -> Result<Step, SolverFailure> {
         let mut held = Held::first(self.near);
         loop {
