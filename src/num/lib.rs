@@ -28,6 +28,7 @@ pub mod linalg;
 pub mod modular;
 pub mod names;
 pub mod octuple;
+pub mod ordered;
 pub mod parallel;
 pub mod poly;
 pub mod real;
