@@ -30,6 +30,7 @@ pub mod names;
 #[cfg(feature = "serde")]
 mod number;
 pub mod octuple;
+pub mod ordered;
 pub mod parallel;
 pub mod poly;
 pub mod real;

@@ -8,5 +8,6 @@
 //!
 //! Starts are drawn, evolved and climbed by conic programs over linearised margins; what was found is judged by `machine` over the whole workspace.
 
+mod climb;
 pub mod dimensional;
 pub mod offsets;

@@ -34,7 +34,7 @@ pub mod singularity;
 
 pub use correspondence::LegCorrespondence;
 pub use determinant::{Factor, offset_determinant, singular_offset};
-pub use determinant::{determinant_gradient, determinant_hessian, offset_products};
+pub use determinant::{determinant_gradient, offset_products};
 pub use enumerate::{Symmetry, enumerate, representative};
 pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
 pub use hexagon::{HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body};

@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::hardware::Housing;
+use num::ordered::OrderedNumber;
 
 /// A region that joints have to stay in with their housings, in the frame of the body, or the base frame for the whole machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,21 +45,39 @@ impl Envelope {
         }
     }
 
-    /// By how much a joint with half extents `half` along the axes (a box), and `ball` in every direction, stays inside: negative outside.
+    /// By how much a joint stays inside; negative outside.
     ///
-    /// Cylinder: `radius - ball - |(|x - c| + half_x, |y - c| + half_y)|`, the farthest corner of the box. Box: the least over both sides of the three axes of the distance of
-    /// the centre from the side less `half_k + ball`.
-    #[must_use]
-    pub fn margin(&self, at: &Point3<f64>, half: &Vector3<f64>, ball: f64) -> f64 {
+    /// The joint has half extents `half` along the axes (a box), and `ball` in every direction. A cylinder has one side, a box six; `see` gets the number of each side and its margin.
+    /// Cylinder: `radius - |(|x - c| + half_x, |y - c| + half_y)| - ball`, the farthest corner of the joint's box.
+    /// Box: the distance of the centre from the side, less `half_k + ball`.
+    pub fn sides<N: OrderedNumber>(
+        &self,
+        at: [N; 3],
+        (half, ball): (&Vector3<f64>, f64),
+        see: &mut impl FnMut(usize, N),
+    ) {
+        let ball = N::from(ball);
         match self {
             Self::Cylinder { radius, center } => {
-                let (x, y) = ((at.x - center[0]).abs() + half.x, (at.y - center[1]).abs() + half.y);
-                radius - ball - x.hypot(y)
+                let reach = |k: usize| (at[k] - N::from(center[k])).abs() + N::from(half[k]);
+                see(0, N::from(*radius) - N::norm([reach(0), reach(1), N::from(0.0)]) - ball);
             }
-            Self::Box { min, max } => (0..3)
-                .map(|k| (at[k] - min[k]).min(max[k] - at[k]) - half[k] - ball)
-                .fold(f64::INFINITY, f64::min),
+            Self::Box { min, max } => {
+                for k in 0..3 {
+                    let own = N::from(half[k]) + ball;
+                    see(2 * k, at[k] - N::from(min[k]) - own);
+                    see(2 * k + 1, N::from(max[k]) - at[k] - own);
+                }
+            }
         }
+    }
+
+    /// The least margin of the [`sides`](Self::sides).
+    #[must_use]
+    pub fn margin<N: OrderedNumber>(&self, at: [N; 3], half: &Vector3<f64>, ball: f64) -> N {
+        let mut least = N::from(f64::MAX);
+        self.sides(at, (half, ball), &mut |_, margin| least = least.min(margin));
+        least
     }
 }
 
@@ -86,15 +105,15 @@ mod tests {
     #[test]
     fn margins_of_cylinders_and_boxes_by_hand() {
         let circle = Envelope::Cylinder { radius: 10.0, center: [1.0, 0.0] };
-        let at = Point3::new(4.0, 4.0, 99.0);
+        let at = [4.0, 4.0, 99.0];
         let none = Vector3::zeros();
-        assert!((circle.margin(&at, &none, 0.0) - 5.0).abs() < 1e-15, "3, 4, 5");
-        assert!((circle.margin(&at, &none, 2.0) - 3.0).abs() < 1e-15);
+        assert!((circle.margin(at, &none, 0.0) - 5.0).abs() < 1e-15, "3, 4, 5");
+        assert!((circle.margin(at, &none, 2.0) - 3.0).abs() < 1e-15);
         // the corner of a housing 4 by 8: (3 + 2, 4 + 4)
-        let corner = circle.margin(&at, &Vector3::new(2.0, 4.0, 1.0), 0.0);
+        let corner = circle.margin(at, &Vector3::new(2.0, 4.0, 1.0), 0.0);
         assert!((corner - (10.0 - 89f64.sqrt())).abs() < 1e-14);
         let room = Envelope::Box { min: Point3::new(0.0, 0.0, 0.0), max: Point3::new(5.0, 9.0, 100.0) };
-        assert!((room.margin(&at, &none, 0.0) - 1.0).abs() < 1e-15);
-        assert!((room.margin(&at, &none, 1.5) + 0.5).abs() < 1e-15, "outside is negative");
+        assert!((room.margin(at, &none, 0.0) - 1.0).abs() < 1e-15);
+        assert!((room.margin(at, &none, 1.5) + 0.5).abs() < 1e-15, "outside is negative");
     }
 }

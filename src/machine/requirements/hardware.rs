@@ -4,6 +4,7 @@ use super::envelope::room;
 use super::term::TermKind;
 use super::universal::{HingeAngle, UniversalJoint};
 use nalgebra::{Unit, Vector3};
+use num::ordered::OrderedNumber;
 use platform::manipulator::Body;
 
 /// The room a joint takes up, centred at the joint.
@@ -27,14 +28,17 @@ impl Housing {
 
     /// Gap between two housings whose centres differ by `d` (body frame), design units; negative when they overlap.
     ///
-    /// With half edges `h` (0 for a sphere) and radii `r` (0 for a box) of both, and `g_k = |d_k| - h_k - h'_k`: the norm of the positive `g_k` when there are any (the distance of
-    /// the boxes), else the greatest `g_k` (minus the shortest way out), less `r + r'`. Spheres have `|d| - r - r'`.
+    /// `h` are the half edges (0 for a sphere) and `r` the radii (0 for a box) of both; `g_k = |d_k| - h_k - h'_k`.
+    /// Boxes apart: the norm of the positive `g_k`. Boxes that overlap: the greatest `g_k`, minus the shortest way out.
+    /// The gap is that less `r + r'`; spheres have `|d| - r - r'`.
     #[must_use]
-    pub fn gap(&self, other: &Self, d: &Vector3<f64>) -> f64 {
+    pub fn gap<N: OrderedNumber>(&self, other: &Self, d: [N; 3]) -> N {
         let ((half, ball), (other_half, other_ball)) = (room(Some(*self)), room(Some(*other)));
-        let g = d.abs() - (half + other_half);
-        let apart = if g.max() > 0.0 { g.map(|x| x.max(0.0)).norm() } else { g.max() };
-        apart - (ball + other_ball)
+        let zero = N::from(0.0);
+        let g: [N; 3] = std::array::from_fn(|k| d[k].abs() - (N::from(half[k]) + N::from(other_half[k])));
+        let apart = N::norm(g.map(|x| x.max(zero)));
+        let overlap = g[0].max(g[1]).max(g[2]).min(zero);
+        apart + overlap - (N::from(ball) + N::from(other_ball))
     }
 
     /// Two housings where at least one joint has one: a joint without a housing is a point.
@@ -63,6 +67,38 @@ pub struct LegBody {
     pub diameter: f64,
     /// Length of the cylinder and diameter of the rod, design units.
     pub rod: Option<(f64, f64)>,
+}
+
+/// A part of a leg: from one share of its line to another, with a radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LegSegment {
+    /// Share at its beginning.
+    pub from: f64,
+    /// Share at its end.
+    pub to: f64,
+    /// Radius, design units.
+    pub radius: f64,
+    /// The share that is at a fixed distance from the base joint: the end of the cylinder.
+    pub joint: Option<f64>,
+}
+
+impl LegBody {
+    /// The parts of a leg of this length: cylinder and rod, or one.
+    #[inline]
+    pub fn parts(&self, length: f64) -> impl Iterator<Item = LegSegment> + Clone + use<> {
+        let radius = self.diameter / 2.0;
+        let (first, second) = match self.rod {
+            Some((cylinder, rod)) if length > cylinder => {
+                let s = cylinder / length;
+                (
+                    LegSegment { from: 0.0, to: s, radius, joint: Some(s) },
+                    Some(LegSegment { from: s, to: 1.0, radius: rod / 2.0, joint: Some(s) }),
+                )
+            }
+            _ => (LegSegment { from: 0.0, to: 1.0, radius, joint: None }, None),
+        };
+        std::iter::once(first).chain(second)
+    }
 }
 
 /// Which lengths a leg can have.
@@ -343,8 +379,8 @@ mod tests {
 
     #[test]
     fn gaps_of_spheres_and_boxes() {
-        let d = Vector3::new(3.0, 4.0, 0.0);
-        let alike = |h: Housing| h.gap(&h, &d);
+        let d = [3.0f64, 4.0, 0.0];
+        let alike = |h: Housing| h.gap(&h, d);
         assert!((alike(Housing::Sphere(2.0)) - 3.0).abs() < 1e-15);
         let block = |x, y, z| Housing::Box(Vector3::new(x, y, z));
         assert!((alike(block(2.0, 2.0, 9.0)) - (1.0f64 + 4.0).sqrt()).abs() < 1e-15, "corner to corner");
@@ -354,8 +390,8 @@ mod tests {
         // one of each: the box ends at x = 1, y = 2, its corner is (2, 2) from the centre of the ball
         let (wide, ball) = (block(2.0, 4.0, 9.0), Housing::Sphere(3.0));
         let mixed = 8f64.sqrt() - 1.5;
-        assert!((wide.gap(&ball, &d) - mixed).abs() < 1e-15 && (ball.gap(&wide, &d) - mixed).abs() < 1e-15);
-        assert!((Housing::Sphere(2.0).gap(&Housing::Sphere(5.0), &d) - 1.5).abs() < 1e-15);
+        assert!((wide.gap(&ball, d) - mixed).abs() < 1e-15 && (ball.gap(&wide, d) - mixed).abs() < 1e-15);
+        assert!((Housing::Sphere(2.0).gap(&Housing::Sphere(5.0), d) - 1.5).abs() < 1e-15);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Loads on the platform and the leg forces that hold them.
 
-use nalgebra::{Matrix6, Point3, Vector3, Vector6};
+use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::hardware::LegMasses;
 use super::payload::{ForceUnit, MassUnit};
@@ -61,32 +61,38 @@ impl LegsWeight {
         let along = line / length;
         self.rod + (self.moment - along * along.dot(&self.moment)) / length
     }
-
-    /// Forces and their moments about the platform origin, base frame.
-    fn wrench(&self, m: &Manipulator, pose: &Pose) -> Vector6<f64> {
-        let mut out = Vector6::zeros();
-        for leg in m.legs() {
-            let arm = pose.rotation * leg.platform.coords;
-            let force = self.at_joint(&(arm + pose.position - leg.base.coords));
-            let torque = arm.cross(&force);
-            out += Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
-        }
-        out
-    }
 }
 
 impl Load {
     /// Force and torque about the platform origin, both in the base frame; a manipulator has the legs that weigh.
     #[must_use]
     pub fn wrench(&self, m: &Manipulator, pose: &Pose) -> Vector6<f64> {
+        let arms = m.legs().map(|leg| pose.rotation * leg.platform.coords);
+        let bases = m.legs().map(|leg| leg.base.coords);
+        self.wrench_on(&pose.rotation, (0..6).map(|i| (arms[i], arms[i] + pose.position - bases[i])))
+    }
+
+    /// The same for legs given by their arms `R b` and their lines `R b + p - a`.
+    #[inline]
+    pub fn wrench_on(
+        &self,
+        rotation: &Rotation3<f64>,
+        legs: impl Iterator<Item = (Vector3<f64>, Vector3<f64>)>,
+    ) -> Vector6<f64> {
         let turn = |v: &Vector3<f64>| match self.fixed_to {
             Body::Base => *v,
-            Body::Platform => pose.rotation * v,
+            Body::Platform => rotation * v,
         };
-        let force = turn(&self.force);
-        let torque = turn(&self.torque) + (pose.rotation * self.at.coords).cross(&force);
-        let own = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
-        self.legs.map_or(own, |legs| own + legs.wrench(m, pose))
+        let mut force = turn(&self.force);
+        let mut torque = turn(&self.torque) + (rotation * self.at.coords).cross(&force);
+        if let Some(weight) = &self.legs {
+            for (arm, line) in legs {
+                let own = weight.at_joint(&line);
+                force += own;
+                torque += arm.cross(&own);
+            }
+        }
+        Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
     }
 }
 
@@ -111,7 +117,6 @@ pub(super) fn forces_along(rows: &Matrix6<f64>, wrench: &Vector6<f64>, scale: f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Rotation3;
     use platform::manipulator::Leg;
 
     #[test]

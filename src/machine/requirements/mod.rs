@@ -42,7 +42,7 @@ pub use envelope::{ball, room};
 pub use flexure::Wrench;
 pub use goal::{KeptSymmetry, Objective, StartSymmetry, VariableKind};
 pub use hardware::{
-    Hardware, Housing, JointAxes, JointType, LegBody, LegMasses, LegPart, LengthLimits, Swing,
+    Hardware, Housing, JointAxes, JointType, LegBody, LegMasses, LegPart, LegSegment, LengthLimits, Swing,
 };
 pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
 pub use joint_angles::JointAngles;

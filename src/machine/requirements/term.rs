@@ -307,15 +307,9 @@ type Part = (Point3<f64>, Point3<f64>, f64);
 /// Cylinder and rod of a leg from `a` to `b`.
 fn parts(body: &LegBody, a: Point3<f64>, b: Point3<f64>) -> Vec<Part> {
     let line = b - a;
-    let length = line.norm();
-    match body.rod {
-        Some((cylinder, _)) if length <= cylinder => vec![(a, b, body.diameter / 2.0)],
-        Some((cylinder, rod)) => {
-            let end = a + line * (cylinder / length);
-            vec![(a, end, body.diameter / 2.0), (end, b, rod / 2.0)]
-        }
-        None => vec![(a, b, body.diameter / 2.0)],
-    }
+    // the end of the line is the joint itself
+    let at = |share: f64| if share < 1.0 { a + line * share } else { b };
+    body.parts(line.norm()).map(|part| (at(part.from), at(part.to), part.radius)).collect()
 }
 
 /// What of the parts of a leg is farther than `cut` from its base joint, or from its platform joint; one point where nothing is.
@@ -427,7 +421,7 @@ impl<'a> Terms<'a> {
                     let pairs = housings[i]
                         .iter()
                         .flat_map(|a| housings[j].iter().filter_map(|b| Housing::pair(*a, *b)));
-                    let gaps = pairs.map(|[a, b]| a.gap(&b, &d));
+                    let gaps = pairs.map(|[a, b]| a.gap(&b, d.into()));
                     let centres = self.required.min_joint_distance.map(|least| d.norm() - least);
                     if let Some(margin) = gaps.chain(centres).reduce(f64::min) {
                         out.push((Term { kind, first: i, second: j }, margin));
@@ -455,7 +449,7 @@ impl<'a> Terms<'a> {
                 let housings = self.required.hardware.housings_at(body, &used, i);
                 let inside = housings.into_iter().map(|housing| {
                     let (half, radius) = room(housing);
-                    envelope.margin(joint, &half, radius)
+                    envelope.margin(joint.coords.into(), &half, radius)
                 });
                 let margin = inside.fold(f64::INFINITY, f64::min);
                 out.push((Term { kind, first: i, second: i }, margin));
@@ -486,7 +480,7 @@ impl<'a> Terms<'a> {
         for (i, (a, b)) in ends.iter().enumerate() {
             for (second, (body, at)) in [(Body::Base, a), (Body::Platform, b)].into_iter().enumerate() {
                 let ball = ball(self.required.hardware.housing(body, i));
-                let margin = envelope.margin(at, &Vector3::zeros(), ball);
+                let margin = envelope.margin(at.coords.into(), &Vector3::zeros(), ball);
                 out.push((Term { kind: TermKind::MachineEnvelope, first: i, second }, margin));
             }
         }

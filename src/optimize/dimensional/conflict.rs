@@ -4,13 +4,14 @@
 use std::collections::BTreeMap;
 
 use super::leg_lines::{HeldPose, LegLines};
-use super::model::{ConstraintGroup, Model, Task};
+use super::model::Model;
 use super::outcome::{ConstraintConflict, Demand, Give};
 use super::search::{
     Adding, RefinedRun, ShapeSearchOptions, Stage, Watch, distinct, expects_no_other, population, refine,
     refine_adding,
 };
 use super::terms::Item;
+use crate::climb::{ConstraintGroup, Task};
 use machine::requirements::{HingeAngle, TermKind};
 use num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
 use num::farkas::{EnclosedRow, refuted};
@@ -38,7 +39,7 @@ pub(super) fn elastic(
     let mut runs: Vec<RefinedRun> = Vec::new();
     for batch in ends(&from).chunks(ELASTIC_BATCH) {
         runs.extend(settle(Adding::WhileMet, model, &plain, batch, threads, watch));
-        let is_met = runs.iter().any(|r| r.run.is_feasible(model));
+        let is_met = runs.iter().any(|r| r.run.is_feasible());
         if is_met || expects_no_other(runs.len(), apart(&plain, &runs).len()) {
             break;
         }
@@ -88,7 +89,7 @@ pub(super) fn unmet(
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     let starts: Vec<SettleStart<'_>> = order.iter().map(|(_, x)| (x.as_slice(), poses.as_slice())).collect();
     let least = settle(Adding::WhileMet, model, &plain, starts.get(..1)?, threads, watch).pop()?;
-    if least.run.is_feasible(model) {
+    if least.run.is_feasible() {
         return None;
     }
     let violations = &least.run.judged.violations;
@@ -97,7 +98,7 @@ pub(super) fn unmet(
     let mut runs: Vec<RefinedRun> = Vec::new();
     for batch in starts.chunks(ELASTIC_BATCH) {
         runs.extend(settle(Adding::WhileMet, model, &fewer, batch, threads, watch));
-        if model.is_stopped() || runs.iter().any(|r| r.run.is_feasible(model)) {
+        if model.is_stopped() || runs.iter().any(|r| r.run.is_feasible()) {
             return None;
         }
         if expects_no_other(runs.len(), apart(&fewer, &runs).len()) {
@@ -163,7 +164,7 @@ pub(super) fn attempt(
     let mut meets = |all: &[SettleStart<'_>]| {
         for batch in all.chunks(BATCH) {
             let mut found = settle(Adding::WhileMet, model, task, batch, o.threads, watch);
-            if found.first().is_some_and(|r| r.run.is_feasible(model)) {
+            if found.first().is_some_and(|r| r.run.is_feasible()) {
                 return Some(found.swap_remove(0));
             }
             runs.append(&mut found);
@@ -247,7 +248,7 @@ pub(super) fn conflict(
     let kept: Vec<ConstraintGroup> = all.into_iter().filter(|g| !dropped.contains(g)).collect();
     let task = no_objective(model, dropped);
     let together = settle(Adding::UntilNoneIsWorse, model, &task, &ends(&from), o.threads, watch);
-    let Some(least) = together.first().filter(|least| !least.run.is_feasible(model)) else {
+    let Some(least) = together.first().filter(|least| !least.run.is_feasible()) else {
         return Clash::Unsettled;
     };
     let total = amounts(model, &least.poses, &least.run.x, &task);
@@ -258,10 +259,10 @@ pub(super) fn conflict(
         let mut found = None;
         if let Some(from) = alone.get(&group) {
             let run = least_alone(model, from, group, &task);
-            if run.run.is_feasible(model) {
+            if run.run.is_feasible() {
                 // nothing has to give after all
                 let whole = refine(model, &no_objective(model, Vec::new()), &run.run.x, run.poses, o.seed);
-                let met = whole.run.is_feasible(model);
+                let met = whole.run.is_feasible();
                 return if met { Clash::Met(Box::new(whole)) } else { Clash::Unsettled };
             }
             if others_hold(model, &run, group) {

@@ -5,18 +5,9 @@ use nalgebra::Vector3;
 use super::leg_lines::LegLines;
 use super::pull::Gradient;
 use machine::requirements;
-use machine::requirements::{KeepOut, LegBody};
+use machine::requirements::{KeepOut, LegBody, LegSegment};
+use platform::geom::LinePair;
 use platform::manipulator::Body;
-
-/// A part of a leg: from one share of its line to another, with a radius.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
-    pub(super) from: f64,
-    pub(super) to: f64,
-    pub(super) radius: f64,
-    /// The share that is at a fixed distance from the base joint, the end of the cylinder.
-    pub(super) joint: Option<f64>,
-}
 
 /// A gap with its gradient; `part` tells apart the gaps of a pair of legs.
 #[derive(Debug, Clone, Copy)]
@@ -24,53 +15,6 @@ pub(super) struct Gap<P> {
     pub value: f64,
     pub pull: P,
     pub part: usize,
-}
-
-/// The parts of a leg: cylinder and rod, or one.
-pub(super) fn parts(body: &LegBody, length: f64) -> impl Iterator<Item = Part> + Clone {
-    let radius = body.diameter / 2.0;
-    let (first, second) = match body.rod {
-        Some((cylinder, rod)) if length > cylinder => {
-            let s = cylinder / length;
-            (
-                Part { from: 0.0, to: s, radius, joint: Some(s) },
-                Some(Part { from: s, to: 1.0, radius: rod / 2.0, joint: Some(s) }),
-            )
-        }
-        _ => (Part { from: 0.0, to: 1.0, radius, joint: None }, None),
-    };
-    std::iter::once(first).chain(second)
-}
-
-/// Two lines `p + s e` and `q + t f` by the products of `w = p - q`, `e` and `f`, which all their segments share.
-struct LinePair {
-    w: Vector3<f64>,
-    ee: f64,
-    ff: f64,
-    ef: f64,
-    ew: f64,
-    fw: f64,
-}
-
-impl LinePair {
-    fn new(w: Vector3<f64>, e: &Vector3<f64>, f: &Vector3<f64>) -> Self {
-        Self { w, ee: e.norm_squared(), ff: f.norm_squared(), ef: e.dot(f), ew: e.dot(&w), fw: f.dot(&w) }
-    }
-
-    /// Shares `s` and `t`, each between two, at which the lines are closest.
-    fn closest(&self, first: (f64, f64), second: (f64, f64)) -> (f64, f64) {
-        let Self { ee, ff, ef, ew, fw, .. } = *self;
-        let on_second =
-            |s: f64| if ff > 0.0 { ((fw + s * ef) / ff).clamp(second.0, second.1) } else { second.0 };
-        let on_first = |t: f64| if ee > 0.0 { ((t * ef - ew) / ee).clamp(first.0, first.1) } else { first.0 };
-        let det = ee * ff - ef * ef;
-        let s =
-            if det > 1e-14 * ee * ff { ((ef * fw - ff * ew) / det).clamp(first.0, first.1) } else { first.0 };
-        // alternating projections end after one round on a strictly convex quadratic with box bounds of two variables
-        let t = on_second(s);
-        let s = on_first(t);
-        (s, on_second(s))
-    }
 }
 
 impl LegLines {
@@ -103,13 +47,13 @@ impl LegLines {
         j: usize,
         see: &mut impl FnMut(Gap<P>),
     ) {
-        let second = parts(body, self.length[j]);
+        let second = body.parts(self.length[j]);
         let (e, f) = (&self.line[i], &self.line[j]);
         let pair = LinePair::new(self.base[i] - self.base[j], e, f);
-        for (k, p) in parts(body, self.length[i]).enumerate() {
+        for (k, p) in body.parts(self.length[i]).enumerate() {
             for (l, q) in second.clone().enumerate() {
                 let (s, t) = pair.closest((p.from, p.to), (q.from, q.to));
-                let apart = pair.w + e * s - f * t;
+                let apart = pair.apart + e * s - f * t;
                 let distance = apart.norm();
                 // segments that meet are pushed apart along their common normal
                 let n = if distance > 0.0 {
@@ -118,7 +62,7 @@ impl LegLines {
                     e.cross(f).try_normalize(0.0).unwrap_or_else(Vector3::z)
                 };
                 let mut pull = P::none();
-                let at_joint = |part: &Part, s: f64| part.joint.is_some_and(|j| (s - j).abs() < 1e-12);
+                let at_joint = |part: &LegSegment, s: f64| part.joint.is_some_and(|j| (s - j).abs() < 1e-12);
                 self.pull_point(&mut pull, i, (s, at_joint(&p, s)), &n);
                 self.pull_point(&mut pull, j, (t, at_joint(&q, t)), &-n);
                 see(Gap { value: distance - p.radius - q.radius, pull, part: 2 * k + l });
@@ -136,7 +80,7 @@ impl LegLines {
     ) {
         let moving = keep_out.fixed_to == Body::Platform;
         let local = |v: Vector3<f64>| if moving { self.rotation.inverse() * (v - self.position) } else { v };
-        for (part, p) in parts(body, self.length[i]).enumerate() {
+        for (part, p) in body.parts(self.length[i]).enumerate() {
             let (a, b) = (local(self.at(i, p.from)), local(self.at(i, p.to)));
             let (x, value, normal) = nearest(&keep_out.shape, &a, &(b - a));
             let s = p.from + x * (p.to - p.from);

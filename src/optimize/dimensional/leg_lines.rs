@@ -6,7 +6,6 @@ use super::pull::Gradient;
 use super::shape::JointEnds;
 use machine::requirements::{LegsWeight, Load};
 use platform::geom::Pose;
-use platform::manipulator::Body;
 
 /// A pose at which the requirements are held.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,17 +96,8 @@ pub(super) fn leg_forces<'a>(
     length: f64,
 ) -> Option<Forces<'a>> {
     let inverse = inverse?;
-    let turn = |v: &Vector3<f64>| if load.fixed_to == Body::Platform { l.rotation * v } else { *v };
-    let force = turn(&load.force);
-    let torque = (turn(&load.torque) + (l.rotation * load.at.coords).cross(&force)) / length;
-    let mut wrench = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
-    if let Some(weight) = &load.legs {
-        for (line, arm) in l.line.iter().zip(&l.arm) {
-            let force = weight.at_joint(line);
-            let torque = arm.cross(&force) / length;
-            wrench += Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
-        }
-    }
+    let mut wrench = load.wrench_on(&l.rotation, l.arm.into_iter().zip(l.line));
+    wrench.fixed_rows_mut::<3>(3).scale_mut(1.0 / length);
     let forces = -(inverse * wrench);
     let weight = load.legs.as_ref();
     forces.iter().all(|x| x.is_finite()).then_some(Forces { values: forces, inverse, weight })

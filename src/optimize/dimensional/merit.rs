@@ -12,14 +12,12 @@ use super::pull::{Gradient, Pull};
 use super::shape::JointEnds;
 use super::stiffness::{self, RayleighQuotient};
 use super::terms::{RequirementTerms, joint_pull};
+use crate::climb::CLUSTER;
 use machine::requirements::{LegsWeight, Load, Objective, VibratingMasses};
 use num::linalg::svd;
 use num::small::{bounded_svd, singular_values};
 use platform::manipulator::Body;
 use synthesis::Normalisation;
-
-/// Singular values within this factor of the extreme one are modelled together with it.
-const CLUSTER: f64 = 1.6;
 
 /// Gain of the leg force at a singular pose, in units of the loads.
 const SINGULAR_GAIN: f64 = -1e6;

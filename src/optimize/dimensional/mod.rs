@@ -16,7 +16,6 @@ mod plates;
 mod population;
 mod problem;
 mod pull;
-mod scp;
 mod search;
 mod shape;
 mod skeleton;
@@ -27,12 +26,12 @@ mod tests;
 mod worst_pose;
 
 pub use self::outcome::evaluate;
+pub use crate::climb::HistoryStep;
 pub use outcome::{
     ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
     Give,
 };
 pub use pareto::{ParetoPoint, ParetoReport, pareto};
 pub use problem::{DimensionalProblem, InvalidProblem, Mode, Triangles, Variables};
-pub use scp::HistoryStep;
 pub use search::{Progress, ShapeSearchOptions, Stage, optimize};
 pub use search::{meet, optimize_without_conflict, why_not};

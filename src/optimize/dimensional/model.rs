@@ -9,41 +9,10 @@ use super::merit::Merit;
 use super::problem::{DimensionalProblem, InvalidProblem, Variables};
 use super::shape::Shape;
 use super::terms::RequirementTerms;
-use machine::requirements::{ListedFrom, Objective, TermKind};
+use super::worst_pose::Judging;
+use crate::climb::{Climbable, Effort, Linearised, PointValues, Run, Task, climb};
+use machine::requirements::{ListedFrom, Objective};
 use num::Rng;
-
-/// Constraints that share one slack.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum ConstraintGroup {
-    /// Requirements of one kind.
-    Term(TermKind),
-    /// `|det A|`.
-    Determinant,
-    /// Joints that slide on families stay near the others.
-    Reach,
-    /// An objective that must not fall below a value.
-    Floor(usize),
-}
-
-/// What is wanted in one run.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Task {
-    /// Weight of each objective; 0 leaves it out.
-    pub weights: Vec<f64>,
-    /// Least gain of each objective.
-    pub(crate) floors: Vec<Option<f64>>,
-    /// Constraints that are not held.
-    pub dropped: Vec<ConstraintGroup>,
-    /// Constraints whose violation costs a hundredth.
-    pub soft: Option<ConstraintGroup>,
-}
-
-impl Task {
-    /// Relative price of a violation.
-    pub(super) fn cost(&self, group: ConstraintGroup) -> f64 {
-        if self.soft == Some(group) { 0.01 } else { 1.0 }
-    }
-}
 
 /// The problem with its parametrisation.
 #[derive(Debug)]
@@ -155,6 +124,70 @@ impl<'a> Model<'a> {
     /// Sign of `det A` at a point.
     pub(super) fn sign(&self, x: &[f64]) -> f64 {
         self.shape.determinant(x).map_or(1.0, |(det, _)| if det < 0.0 { -1.0 } else { 1.0 })
+    }
+}
+
+/// A model with a task at the poses that are held.
+struct HeldTask<'h, 'a> {
+    model: &'h Model<'a>,
+    poses: &'h [HeldPose],
+    task: &'h Task,
+    /// Sign of `det A` that is kept.
+    sign: f64,
+}
+
+impl Climbable for HeldTask<'_, '_> {
+    fn task(&self) -> &Task {
+        self.task
+    }
+
+    fn bounds(&self) -> &[(f64, f64)] {
+        &self.model.shape.bounds
+    }
+
+    /// The joint axes: shorter ones only make the limits harder to meet.
+    fn unit_vectors(&self) -> Vec<usize> {
+        let axes = self.model.shape.axes.iter().flatten();
+        axes.flat_map(|first| (0..6).map(move |leg| first + 3 * leg)).collect()
+    }
+
+    fn backoff(&self) -> f64 {
+        self.model.backoff
+    }
+
+    fn poses(&self) -> usize {
+        self.poses.len()
+    }
+
+    fn judge(&self, x: &[f64], refused: &dyn Fn(&PointValues) -> bool) -> PointValues {
+        let mut judging = Judging::new(self.model, x, self.task, self.sign);
+        for at in self.poses {
+            if refused(&judging.so_far) {
+                return judging.so_far;
+            }
+            judging.pose(at);
+        }
+        judging.finish()
+    }
+
+    fn linearise(&self, x: &[f64], radius: f64) -> Option<Linearised> {
+        self.model.linearise(self.poses, x, self.task, self.sign, radius)
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.model.is_stopped()
+    }
+}
+
+impl Model<'_> {
+    /// Climbs from a point, which has the sign of `det A` that is kept.
+    pub(super) fn climb(&self, poses: &[HeldPose], task: &Task, start: &[f64], effort: Effort) -> Run {
+        climb(&HeldTask { model: self, poses, task, sign: self.sign(start) }, start, effort)
+    }
+
+    /// Values at a point over the poses.
+    pub(super) fn judge(&self, poses: &[HeldPose], x: &[f64], task: &Task, sign: f64) -> PointValues {
+        HeldTask { model: self, poses, task, sign }.judge(x, &|_| false)
     }
 }
 

@@ -3,10 +3,10 @@
 use nalgebra::{Unit, Vector3};
 
 use super::leg_lines::LegLines;
-use super::model::{Model, Task};
+use super::model::Model;
 use super::problem::DimensionalProblem;
-use super::scp::HistoryStep;
 use super::search::RefinedRun;
+use crate::climb::{HistoryStep, Task};
 use machine::requirements::{
     Hardware, Objective, PoseSpace, Requirements, TermKind, Terms, leg_forces, lowest_frequency,
 };

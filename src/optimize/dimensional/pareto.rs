@@ -2,10 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use super::model::{Model, Task};
+use super::model::Model;
 use super::outcome::{DimensionalOutcome, DimensionalReport, DimensionalSolution, evaluate, outcome};
 use super::problem::{DimensionalProblem, InvalidProblem};
 use super::search::{Progress, RefinedRun, ShapeSearchOptions, Stage, Watch, better, refine, search_task};
+use crate::climb::Task;
 use num::parallel::parallel;
 
 /// Points of the dense evaluation, and as many random ones.
@@ -68,7 +69,7 @@ pub fn pareto(
         let task = Task { weights, floors: vec![None; n], ..Task::default() };
         let given: Vec<Vec<f64>> = known.iter().map(|r| r.run.x.clone()).collect();
         let found = search_task(&model, &task, &given, options, &mut watch);
-        match found.refined.into_iter().next().filter(|r| r.run.is_feasible(&model)) {
+        match found.refined.into_iter().next().filter(|r| r.run.is_feasible()) {
             Some(first) => known.push(first),
             None if model.is_stopped() => break,
             None => {
@@ -109,9 +110,9 @@ pub fn pareto(
         let run = |k: usize| refine(&model, &task, &from[k].run.x, from[k].poses.clone(), options.seed);
         let mut tell = |done| watch.tell(Stage::Polishing, (done, cells.len()), None);
         let mut runs = parallel(from.len(), options.threads, run, &mut |_, _| tell(done));
-        runs.sort_by(|a, b| better(&model, &task, &a.run, &b.run));
+        runs.sort_by(|a, b| better(&task, &a.run, &b.run));
         let best = runs.swap_remove(0);
-        if best.run.is_feasible(&model) {
+        if best.run.is_feasible() {
             known.push(best.clone());
             previous = Some(best);
         } else if !model.is_stopped() {

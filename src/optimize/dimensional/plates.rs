@@ -5,12 +5,13 @@
 
 use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 
-use super::leg_gaps::{Part, parts};
 use super::leg_lines::LegLines;
 use super::pull::Gradient;
 use super::shape::{JointEnds, JointId};
 use super::terms::Item;
-use machine::requirements::{BoltsFrom, Hardware, LegBody, PlateDesign, TermKind, frame_of, plate_normal};
+use machine::requirements::{
+    BoltsFrom, Hardware, LegBody, LegSegment, PlateDesign, TermKind, frame_of, plate_normal,
+};
 use platform::geom::convex_hull;
 use platform::manipulator::Body;
 
@@ -375,7 +376,7 @@ impl PlacedPlate<'_> {
         see: &mut impl FnMut(usize, f64, P),
     ) {
         let cut = (reach / l.length[leg]).min(1.0);
-        let all: Vec<Part> = parts(body, l.length[leg]).collect();
+        let all: Vec<LegSegment> = body.parts(l.length[leg]).collect();
         for (number, part) in all.iter().enumerate() {
             // at its own plate a leg begins where the housing of its joint ends; the far end of what is cut off stays
             let (from, to, is_last) = match self.model.body {

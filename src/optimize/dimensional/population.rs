@@ -5,9 +5,9 @@
 //! that it is no better than its parent.
 
 use super::leg_lines::{HeldPose, LegLines};
-use super::model::{Model, Task};
-use super::scp::PENALTY;
-use super::worst_pose::{Judging, PointValues};
+use super::model::Model;
+use super::worst_pose::Judging;
+use crate::climb::{PENALTY, PointValues, Task};
 use num::Rng;
 
 /// What a point is worth.

@@ -5,15 +5,15 @@ use std::time::Instant;
 
 use super::conflict::{Clash, conflict, demand, elastic, no_objective, unmet};
 use super::leg_lines::HeldPose;
-use super::model::{Model, Task};
+use super::model::Model;
 use super::outcome::{
     ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
     outcome, solution,
 };
 use super::population::{Judge, Worth, evolve, is_close, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
-use super::scp::{PENALTY, ShapeEffort, ShapeRun, climb};
 use super::worst_pose::worse_poses;
+use crate::climb::{Effort, PENALTY, Run, Task};
 use num::Purpose;
 use num::parallel::parallel;
 
@@ -119,7 +119,7 @@ const SAME_END: f64 = 1e-3;
 /// A polished run with the poses it ended with.
 #[derive(Debug, Clone)]
 pub(crate) struct RefinedRun {
-    pub run: ShapeRun,
+    pub run: Run,
     pub poses: Vec<HeldPose>,
     pub complete: bool,
 }
@@ -153,12 +153,12 @@ pub(crate) fn refine_adding(
     mut poses: Vec<HeldPose>,
     seed: u64,
 ) -> RefinedRun {
-    let mut run = climb(model, &poses, task, start, ShapeEffort::POLISH);
+    let mut run = model.climb(&poses, task, start, Effort::POLISH);
     // a run with an objective is given up if it misses a requirement at the first poses, one without goes on to what can be met
-    let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible(model);
+    let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible();
     let mut complete = false;
     for round in 0..ROUNDS {
-        let given_up = hopeless || adding == Adding::WhileMet && !run.is_feasible(model);
+        let given_up = hopeless || adding == Adding::WhileMet && !run.is_feasible();
         if given_up || model.is_stopped() {
             break;
         }
@@ -169,7 +169,7 @@ pub(crate) fn refine_adding(
             break;
         }
         poses.extend(worse);
-        run = climb(model, &poses, task, &run.x, ShapeEffort::POLISH).after(run.history);
+        run = model.climb(&poses, task, &run.x, Effort::POLISH).after(run.history);
     }
     RefinedRun { run, poses, complete }
 }
@@ -206,8 +206,8 @@ fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < within)
 }
 
-pub(super) fn better(model: &Model<'_>, task: &Task, a: &ShapeRun, b: &ShapeRun) -> std::cmp::Ordering {
-    let (fa, fb) = (a.is_feasible(model), b.is_feasible(model));
+pub(super) fn better(task: &Task, a: &Run, b: &Run) -> std::cmp::Ordering {
+    let (fa, fb) = (a.is_feasible(), b.is_feasible());
     fb.cmp(&fa).then(if fa && fb {
         b.judged.gain(task).total_cmp(&a.judged.gain(task))
     } else {
@@ -234,9 +234,9 @@ pub(crate) struct SearchedShape {
 }
 
 /// A short climb over few poses, and again with those at which its end is worse.
-fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> ShapeRun {
+fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> Run {
     let mut few = start.few.clone();
-    let mut run = climb(model, &few, task, &start.x, ShapeEffort::RANK);
+    let mut run = model.climb(&few, task, &start.x, Effort::RANK);
     let judge = Judge::new(model, task);
     for _ in 0..SHORT_ROUNDS {
         let mut more = judge.worst(&run.x, FEW_POSES);
@@ -245,7 +245,7 @@ fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> ShapeRun {
             break;
         }
         few.extend(more);
-        run = climb(model, &few, task, &run.x, ShapeEffort::RANK).after(run.history);
+        run = model.climb(&few, task, &run.x, Effort::RANK).after(run.history);
     }
     run
 }
@@ -267,15 +267,15 @@ impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
     }
 
     /// Learns what a run misses.
-    fn see(&mut self, run: &ShapeRun) {
+    fn see(&mut self, run: &Run) {
         let worst = run.judged.violations.iter().max_by(|a, b| a.1.total_cmp(b.1));
         let missed = worst.map(|(group, x)| (demand(self.model, *group), *x));
         let is_less = |x: f64| self.violation.is_none_or(|(_, least)| x < least);
         self.violation = missed.filter(|(_, x)| is_less(*x)).or(self.violation);
     }
 
-    pub(super) fn tell(&mut self, stage: Stage, (done, total): (usize, usize), run: Option<&ShapeRun>) {
-        if let Some(run) = run.filter(|r| r.is_feasible(self.model))
+    pub(super) fn tell(&mut self, stage: Stage, (done, total): (usize, usize), run: Option<&Run>) {
+        if let Some(run) = run.filter(|r| r.is_feasible())
             && let (Some(o), Some(gain)) = (self.model.objectives.first(), run.judged.gains.first())
         {
             let (value, unit) = (gain * self.model.unit(*o), self.model.unit(*o));
@@ -293,11 +293,11 @@ impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
 struct End {
     /// In all variables.
     x: Vec<f64>,
-    run: ShapeRun,
+    run: Run,
 }
 
 impl End {
-    fn new(model: &Model<'_>, without_axes: bool, run: ShapeRun) -> Self {
+    fn new(model: &Model<'_>, without_axes: bool, run: Run) -> Self {
         let mut x = run.x.clone();
         x.resize(model.shape.start.len(), 0.0);
         if without_axes {
@@ -361,13 +361,13 @@ pub(crate) fn search_task(
     let coarse = without_axes.as_ref().unwrap_or(model);
     let search = Search { model, coarse, task, options };
     let (runs, unmet) = search.first_pass(&search.given(given), watch);
-    let (climbed, feasible) = (runs.len(), runs.iter().filter(|r| r.is_feasible(coarse)).count());
+    let (climbed, feasible) = (runs.len(), runs.iter().filter(|r| r.is_feasible()).count());
     let mut refined = unmet.unwrap_or_else(|| {
         let points = runs.into_iter().map(|run| End::new(model, without_axes.is_some(), run)).collect();
         let ends = FirstPass { poses: model.first_poses(), points, tried: Vec::new() };
         search.polished(ends, watch)
     });
-    refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
+    refined.sort_by(|a, b| better(task, &a.run, &b.run));
     SearchedShape { refined, starts: climbed, feasible }
 }
 
@@ -439,9 +439,9 @@ impl Search<'_, '_> {
         &self,
         given: &[Vec<f64>],
         watch: &mut Watch<'_, '_, '_>,
-    ) -> (Vec<ShapeRun>, Option<Vec<RefinedRun>>) {
+    ) -> (Vec<Run>, Option<Vec<RefinedRun>>) {
         let populations = self.options.populations.max(1);
-        let mut runs: Vec<ShapeRun> = Vec::new();
+        let mut runs: Vec<Run> = Vec::new();
         for first in (0..populations).step_by(LONG_EVERY) {
             let batch = first..populations.min(first + LONG_EVERY);
             let starts = self.starts(batch, given, watch);
@@ -469,8 +469,8 @@ impl Search<'_, '_> {
     }
 
     /// See [`unmet`], asked where no climb met the requirements.
-    fn unmet(&self, runs: &[ShapeRun], watch: &mut Watch<'_, '_, '_>) -> Option<Vec<RefinedRun>> {
-        if runs.iter().any(|r| r.is_feasible(self.coarse)) {
+    fn unmet(&self, runs: &[Run], watch: &mut Watch<'_, '_, '_>) -> Option<Vec<RefinedRun>> {
+        if runs.iter().any(Run::is_feasible) {
             return None;
         }
         let (model, without_axes) = (self.model, !std::ptr::eq(self.model, self.coarse));
@@ -480,7 +480,7 @@ impl Search<'_, '_> {
     }
 
     /// Whether hardly another end is to be expected from further climbs; ends count as one by their worth over the same poses.
-    fn are_all_found(&self, runs: &[ShapeRun]) -> bool {
+    fn are_all_found(&self, runs: &[Run]) -> bool {
         let mut judge = Judge::new(self.coarse, self.task);
         let mut ends: Vec<Worth> = Vec::new();
         for worth in runs.iter().filter_map(|r| judge.worth(&r.x, usize::MAX, None)) {
@@ -492,10 +492,10 @@ impl Search<'_, '_> {
     }
 
     /// A short climb from each start; `known` climbs of `total` were done before.
-    fn climbs(&self, starts: &[SearchStart], known: usize, watch: &mut Watch<'_, '_, '_>) -> Vec<ShapeRun> {
+    fn climbs(&self, starts: &[SearchStart], known: usize, watch: &mut Watch<'_, '_, '_>) -> Vec<Run> {
         let total = known + starts.len();
         let climbed = |k: usize| rank(self.coarse, self.task, &starts[k]);
-        let tick = &mut |done: usize, run: &ShapeRun| {
+        let tick = &mut |done: usize, run: &Run| {
             watch.see(run);
             watch.tell(Stage::Climbs, (known + done, total), None);
         };
@@ -509,7 +509,7 @@ impl Search<'_, '_> {
         let adding = if has_objective { Adding::UntilNoneIsWorse } else { Adding::WhileMet };
         let mut refined: Vec<RefinedRun> = Vec::new();
         for _ in 0..BATCHES {
-            let gains = refined.iter().filter(|r| r.run.is_feasible(model)).map(|r| r.run.judged.gain(task));
+            let gains = refined.iter().filter(|r| r.run.is_feasible()).map(|r| r.run.judged.gain(task));
             let best = gains.fold(f64::NEG_INFINITY, f64::max);
             let batch = ends.choose(coarse, task, best, options.polished.max(1));
             let polish = |i: usize| {
@@ -579,8 +579,7 @@ fn searched(
     let task = first_task(problem);
     let mut watch = Watch::new(&model, progress);
     let SearchedShape { refined, starts, feasible } = search_task(&model, &task, given, options, &mut watch);
-    let polished =
-        refined.iter().map(|r| r.run.is_feasible(&model).then(|| r.run.judged.gain(&task))).collect();
+    let polished = refined.iter().map(|r| r.run.is_feasible().then(|| r.run.judged.gain(&task))).collect();
     let Conclusion { outcome, nearest, others } =
         concluded(&model, task, refined, (options, explains), &mut watch);
     let (seed, interrupted) = (options.seed, model.is_stopped());
@@ -612,15 +611,15 @@ pub fn meet(
     let (poses, seed) = (model.first_poses(), options.seed);
     let first = refine_adding(Adding::WhileMet, &model, &plain, &start, poses, seed);
     watch.see(&first.run);
-    let met = if first.run.is_feasible(&model) {
+    let met = if first.run.is_feasible() {
         Some(first)
     } else {
         let found = search_task(&model, &plain, &[start], options, &mut watch);
-        found.refined.into_iter().next().filter(|r| r.run.is_feasible(&model))
+        found.refined.into_iter().next().filter(|r| r.run.is_feasible())
     };
     let Some(met) = met else { return Ok(None) };
     let best = refine(&model, &task, &met.run.x, met.poses.clone(), seed);
-    let best = if best.run.is_feasible(&model) { &best } else { &met };
+    let best = if best.run.is_feasible() { &best } else { &met };
     Ok(solution(&model, &task, best))
 }
 
@@ -641,7 +640,7 @@ fn concluded(
     (options, explains): (&ShapeSearchOptions, bool),
     watch: &mut Watch<'_, '_, '_>,
 ) -> Conclusion {
-    let is_met = |refined: &[RefinedRun]| refined.first().is_some_and(|r| r.run.is_feasible(model));
+    let is_met = |refined: &[RefinedRun]| refined.first().is_some_and(|r| r.run.is_feasible());
     let unmet = |outcome, refined: &[RefinedRun]| {
         let nearest = refined.first().and_then(|r| solution(model, &task, r)).map(Box::new);
         Conclusion { outcome, nearest, others: Vec::new() }
@@ -661,14 +660,14 @@ fn concluded(
         Mode::Lexicographic { slack } => through_levels(model, task, refined, slack, options, watch),
         Mode::Weighted => (task, refined),
     };
-    let others = other_optima(model, &last_task, &refined);
+    let others = other_optima(&last_task, &refined);
     let others = others.into_iter().filter_map(|r| solution(model, &last_task, r)).collect();
     Conclusion { outcome: outcome(model, &last_task, &refined[0]), nearest: None, others }
 }
 
 /// Runs that meet the requirements, best first, and end elsewhere than the first and each other.
-fn other_optima<'r>(model: &Model<'_>, task: &Task, refined: &'r [RefinedRun]) -> Vec<&'r RefinedRun> {
-    let others = refined.iter().skip(1).filter(|r| r.run.is_feasible(model));
+fn other_optima<'r>(task: &Task, refined: &'r [RefinedRun]) -> Vec<&'r RefinedRun> {
+    let others = refined.iter().skip(1).filter(|r| r.run.is_feasible());
     let mut kept = distinct(refined.iter().take(1).chain(others), |r| r.run.judged.gain(task));
     kept.split_off(kept.len().min(1))
 }
@@ -701,32 +700,32 @@ fn met_or_conflict(
     watch: &mut Watch<'_, '_, '_>,
 ) -> Option<ConstraintConflict> {
     let settled = elastic(model, task, refined, options.threads, watch);
-    let mut met = settled.iter().find(|r| r.run.is_feasible(model)).cloned();
+    let mut met = settled.iter().find(|r| r.run.is_feasible()).cloned();
     if met.is_none() && !explains {
-        among(model, task, refined, settled);
+        among(task, refined, settled);
         return None;
     }
     if met.is_none() {
         match conflict(model, &settled, options, watch) {
             Clash::Conflict(conflict) => {
-                among(model, task, refined, settled);
+                among(task, refined, settled);
                 return Some(conflict);
             }
             Clash::Met(refined) => met = Some(*refined),
-            Clash::Unsettled => among(model, task, refined, settled),
+            Clash::Unsettled => among(task, refined, settled),
         }
     }
     if let Some(met) = met {
         refined.insert(0, refine(model, task, &met.run.x, met.poses, options.seed));
-        refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
+        refined.sort_by(|a, b| better(task, &a.run, &b.run));
     }
     None
 }
 
 /// Puts runs among others, best first.
-fn among(model: &Model<'_>, task: &Task, refined: &mut Vec<RefinedRun>, more: Vec<RefinedRun>) {
+fn among(task: &Task, refined: &mut Vec<RefinedRun>, more: Vec<RefinedRun>) {
     refined.extend(more);
-    refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
+    refined.sort_by(|a, b| better(task, &a.run, &b.run));
 }
 
 /// One objective after the other, each run giving up no more than a share `slack` of those before; the last task and its runs.
@@ -752,7 +751,7 @@ fn through_levels(
             &mut |done: usize, r: &RefinedRun| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
         let next = parallel(total, options.threads, again, tick);
         refined = next;
-        refined.sort_by(|a, b| better(model, &task, &a.run, &b.run));
+        refined.sort_by(|a, b| better(&task, &a.run, &b.run));
     }
     (task, refined)
 }

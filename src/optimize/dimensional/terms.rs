@@ -1,7 +1,9 @@
 //! The requirements as functions of the legs, positive where they are met, with gradients.
 //!
-//! Lengths are in sizes of the design, forces and speeds in their limits, swing as `(d . c - cos(limit) |d|) / size`, which is smooth and,
-//! for a given axis and a limit below 90 degrees, concave in `d`. These are not the formulas of `requirements`, which checks the outcome.
+//! Lengths are in sizes of the design, forces and speeds in their limits.
+//! A joint angle is `(d . c - cos(limit) |d|) / size`, which is smooth.
+//! For a given axis and a limit below 90 degrees it is concave in `d`.
+//! Gaps of housings, room in envelopes, parts of legs and loads are the formulas of `machine::requirements`.
 
 use nalgebra::{Vector3, Vector6};
 
@@ -11,15 +13,12 @@ use super::plates::{PlacedPlate, PlateModel};
 use super::pull::Gradient;
 use super::shape::{JointEnds, LegJoints, Shape};
 use super::stiffness::{self, RayleighQuotient};
+use crate::climb::TermId;
 use machine::requirements;
-use machine::requirements::{
-    Envelope, HingeAngle, Housing, JointAxes, KeepOut, Requirements, Swing, TermKind,
-};
+use machine::requirements::{HingeAngle, Housing, JointAxes, KeepOut, Requirements, Swing, TermKind};
+use num::ordered::{OrderedNumber, Sloped};
 use platform::geom::Pose;
 use platform::manipulator::Body;
-
-/// Which requirement: kind, leg (joint), other leg (joint, keep-out, load), part.
-pub(crate) type TermId = (TermKind, usize, usize, usize);
 
 /// A convex form of `value >= 0`: the head at least the norm of the line of the leg, both divided by the size.
 #[derive(Debug, Clone, Copy)]
@@ -438,14 +437,14 @@ impl<'a> RequirementTerms<'a> {
             let reserve = self.required.reserve(kind);
             for (i, j) in self.separate_housings(body) {
                 let at = body.of((&ends.base, &ends.platform));
-                let d = at[j] - at[i];
+                let d = Sloped::point(&(at[j] - at[i]));
                 let gaps = [
-                    self.required.min_joint_distance.map(|least| sphere_gap(&d, least)),
-                    self.housings(body, i, j).map(|pair| housing_gap(&pair, &d)),
+                    self.required.min_joint_distance.map(|least| Sloped::norm(d) - Sloped::from(least)),
+                    self.housings(body, i, j).map(|[a, b]| a.gap(&b, d)),
                 ];
-                for (part, (value, g)) in gaps.into_iter().enumerate().filter_map(|(k, g)| Some((k, g?))) {
-                    let pull = joint_pull(body, i, j, &(g / self.size));
-                    let value = (value - reserve) / self.size;
+                for (part, gap) in gaps.into_iter().enumerate().filter_map(|(k, gap)| Some((k, gap?))) {
+                    let pull = joint_pull(body, i, j, &(gap.slope / self.size));
+                    let value = (gap.value - reserve) / self.size;
                     see(Item { id: (kind, i, j, part), value, pull, exact: None });
                 }
             }
@@ -477,13 +476,13 @@ impl<'a> RequirementTerms<'a> {
             let at = body.of((&ends.base, &ends.platform));
             for i in self.different_housings(body) {
                 let (half, ball) = requirements::room(self.required.hardware.housing(body, i));
-                room_inside(&envelope, &at[i], &half, &mut |part, value, g| {
-                    let mut pull = P::none();
+                envelope.sides(Sloped::point(&at[i]), (&half, ball), &mut |part, margin| {
+                    let (mut pull, g) = (P::none(), margin.slope / self.size);
                     match body {
-                        Body::Base => pull.at_base(i, &(g / self.size)),
-                        Body::Platform => pull.at_arm(i, &(g / self.size)),
+                        Body::Base => pull.at_base(i, &g),
+                        Body::Platform => pull.at_arm(i, &g),
                     }
-                    let value = (value - ball - reserve) / self.size;
+                    let value = (margin.value - reserve) / self.size;
                     see(Item { id: (kind, i, i, part), value, pull, exact: None });
                 });
             }
@@ -499,8 +498,8 @@ impl<'a> RequirementTerms<'a> {
             for body in Body::BOTH {
                 let ball = requirements::ball(self.required.hardware.housing(body, i));
                 let at = body.of((l.base[i], l.base[i] + l.line[i]));
-                room_inside(&envelope, &at, &Vector3::zeros(), &mut |part, value, g| {
-                    let (mut pull, g) = (P::none(), g / self.size);
+                envelope.sides(Sloped::point(&at), (&Vector3::zeros(), ball), &mut |part, margin| {
+                    let (mut pull, g) = (P::none(), margin.slope / self.size);
                     match body {
                         Body::Base => pull.at_base(i, &g),
                         Body::Platform => {
@@ -508,7 +507,7 @@ impl<'a> RequirementTerms<'a> {
                             pull.at_position(&g);
                         }
                     }
-                    let value = (value - ball - reserve) / self.size;
+                    let value = (margin.value - reserve) / self.size;
                     see(Item { id: (kind, i, body.index(), part), value, pull, exact: None });
                 });
             }
@@ -569,48 +568,4 @@ pub(crate) fn joint_pull<P: Gradient>(body: Body, i: usize, j: usize, g: &Vector
         }
     }
     pull
-}
-
-/// Room of a point with half extents along the axes to a cylinder, or to each side of a box, and its gradient.
-fn room_inside(
-    envelope: &Envelope,
-    at: &Vector3<f64>,
-    half: &Vector3<f64>,
-    see: &mut impl FnMut(usize, f64, Vector3<f64>),
-) {
-    match envelope {
-        Envelope::Cylinder { radius, center } => {
-            let d = Vector3::new(at.x - center[0], at.y - center[1], 0.0);
-            let corner = Vector3::new(d.x.abs() + half.x, d.y.abs() + half.y, 0.0);
-            let out = corner.try_normalize(0.0).unwrap_or_default();
-            see(0, radius - corner.norm(), Vector3::new(-out.x * d.x.signum(), -out.y * d.y.signum(), 0.0));
-        }
-        Envelope::Box { min, max } => {
-            for k in 0..3 {
-                see(2 * k, at[k] - min[k] - half[k], Vector3::ith(k, 1.0));
-                see(2 * k + 1, max[k] - at[k] - half[k], Vector3::ith(k, -1.0));
-            }
-        }
-    }
-}
-
-fn sphere_gap(d: &Vector3<f64>, diameter: f64) -> (f64, Vector3<f64>) {
-    (d.norm() - diameter, d.try_normalize(0.0).unwrap_or_else(Vector3::x))
-}
-
-/// Gap of two housings and its gradient ([`Housing::gap`]): outside the distance, inside minus the shortest way out.
-fn housing_gap([a, b]: &[Housing; 2], d: &Vector3<f64>) -> (f64, Vector3<f64>) {
-    let ((half, ball), (other_half, other_ball)) =
-        (requirements::room(Some(*a)), requirements::room(Some(*b)));
-    let balls = ball + other_ball;
-    if let (Housing::Sphere(_), Housing::Sphere(_)) = (a, b) {
-        return sphere_gap(d, balls);
-    }
-    let g = d.abs() - (half + other_half);
-    let out = Vector3::from_fn(|k, _| g[k].max(0.0) * d[k].signum());
-    if g.max() > 0.0 {
-        return (out.norm() - balls, out.normalize());
-    }
-    let k = g.imax();
-    (g[k] - balls, Vector3::ith(k, d[k].signum()))
 }

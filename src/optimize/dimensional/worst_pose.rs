@@ -8,9 +8,10 @@ use nalgebra::Vector6;
 
 use super::leg_lines::{HeldPose, LegLines};
 use super::merit::{Merit, MeritPiece};
-use super::model::{ConstraintGroup, Model, Task};
+use super::model::Model;
 use super::shape::JointEnds;
 use super::terms::Item;
+use crate::climb::{ConstraintGroup, PointValues, Task};
 use machine::requirements::{Objective, TermKind};
 use num::{Purpose, Rng};
 
@@ -199,30 +200,6 @@ pub(crate) fn worse_poses(
     out
 }
 
-/// Values at a point.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PointValues {
-    /// Gain of each objective.
-    pub gains: Vec<f64>,
-    /// Largest violation of each group (0 when met).
-    pub violations: BTreeMap<ConstraintGroup, f64>,
-}
-
-impl PointValues {
-    pub(super) fn violation(&self) -> f64 {
-        self.violations.values().fold(0.0, |m, v| m.max(*v))
-    }
-
-    /// Sum of the largest violations of the groups; soft ones count a hundredth.
-    pub(crate) fn total_violation(&self, task: &Task) -> f64 {
-        self.violations.iter().map(|(g, v)| task.cost(*g) * v).sum()
-    }
-
-    pub(super) fn gain(&self, task: &Task) -> f64 {
-        task.weights.iter().zip(&self.gains).filter(|(w, _)| **w > 0.0).map(|(w, g)| w * g).sum()
-    }
-}
-
 /// A point that is being judged: violations only grow with every pose, and gains only fall.
 pub(crate) struct Judging<'m, 'a> {
     model: &'m Model<'a>,
@@ -254,9 +231,7 @@ impl<'m, 'a> Judging<'m, 'a> {
 
     fn hold(&mut self, group: ConstraintGroup, value: f64) {
         if !self.task.dropped.contains(&group) {
-            let worst = self.so_far.violations.entry(group).or_insert(0.0);
-            let miss = self.model.backoff - value;
-            *worst = if miss.is_nan() { f64::INFINITY } else { worst.max(miss) };
+            self.so_far.hold(group, value, self.model.backoff);
         }
     }
 
@@ -318,16 +293,5 @@ impl<'m, 'a> Judging<'m, 'a> {
                 least
             }
         }
-    }
-}
-
-impl Model<'_> {
-    /// Values at a point over the poses.
-    pub(super) fn judge(&self, poses: &[HeldPose], x: &[f64], task: &Task, sign: f64) -> PointValues {
-        let mut judging = Judging::new(self, x, task, sign);
-        for at in poses {
-            judging.pose(at);
-        }
-        judging.finish()
     }
 }

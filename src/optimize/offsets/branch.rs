@@ -1,10 +1,10 @@
 //! The 3^6 branches of the offsets, their division into cells on which the constraints have one shape, and starting points of
 //! a cell.
 
+use super::climb::violation;
 use super::conditioning::worst_case_above;
 use super::limits::{OffsetLimits, OffsetRanges, SlidingPair};
 use super::problem::{OffsetModel, OffsetProblem};
-use super::scp::violation;
 use super::verdict::Conflict;
 use num::Rng;
 use synthesis::{HexagonSide, offset_determinant};

@@ -27,22 +27,20 @@ pub(crate) struct PoseLegs {
     moment_scale: f64,
 }
 
-/// Rows of `J`, of `dJ/dt` and of `d2J/dt2`.
+/// Rows of `J` and of `dJ/dt`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct JacobianRows {
     pub value: Matrix6<f64>,
     pub rate: Matrix6<f64>,
-    pub bend: Matrix6<f64>,
 }
 
-/// Singular value decomposition at a pose together with `B = (dJ/dt) V` and `F = (d2J/dt2) V`.
+/// Singular value decomposition at a pose together with `(dJ/dt) V`.
 #[derive(Debug, Clone)]
 pub(crate) struct PoseSpectrum {
     /// Singular values, largest first.
     pub sigma: [f64; 6],
     u: Matrix6<f64>,
     rate: Matrix6<f64>,
-    bend: Matrix6<f64>,
 }
 
 fn stack(force: Vector3<f64>, moment: Vector3<f64>) -> Vector6<f64> {
@@ -56,18 +54,14 @@ impl LegLine {
         stack(u, arm.cross(&u) * moment_scale)
     }
 
-    /// `u = c/|c|`, `u' = (c' - k u)/|c|`, `u'' = -(2 k u' + k' u)/|c|` with `k = u.c'`, `k' = u'.c'`.
-    fn row_with_derivatives(&self, t: f64, moment_scale: f64) -> [Vector6<f64>; 3] {
+    /// `u = c/|c|`, `u' = (c' - u (u.c'))/|c|`.
+    fn row_with_rate(&self, t: f64, moment_scale: f64) -> [Vector6<f64>; 2] {
         let (arm, line) = (self.arm + self.arm_rate * t, self.line + self.line_rate * t);
         let length = line.norm();
         let u = line / length;
-        let k = u.dot(&self.line_rate);
-        let u1 = (self.line_rate - u * k) / length;
-        let u2 = -(u1 * (2.0 * k) + u * u1.dot(&self.line_rate)) / length;
-        let m = arm.cross(&u);
-        let m1 = self.arm_rate.cross(&u) + arm.cross(&u1);
-        let m2 = self.arm_rate.cross(&u1) * 2.0 + arm.cross(&u2);
-        [stack(u, m * moment_scale), stack(u1, m1 * moment_scale), stack(u2, m2 * moment_scale)]
+        let rate = (self.line_rate - u * u.dot(&self.line_rate)) / length;
+        let (moment, moment_rate) = (arm.cross(&u), self.arm_rate.cross(&u) + arm.cross(&rate));
+        [stack(u, moment * moment_scale), stack(rate, moment_rate * moment_scale)]
     }
 }
 
@@ -101,13 +95,11 @@ impl PoseLegs {
     }
 
     pub(super) fn rows(&self, t: &[f64; 6]) -> JacobianRows {
-        let mut rows =
-            JacobianRows { value: Matrix6::zeros(), rate: Matrix6::zeros(), bend: Matrix6::zeros() };
+        let mut rows = JacobianRows { value: Matrix6::zeros(), rate: Matrix6::zeros() };
         for i in 0..6 {
-            let [r, r1, r2] = self.legs[i].row_with_derivatives(t[i], self.moment_scale);
-            rows.value.set_row(i, &r.transpose());
-            rows.rate.set_row(i, &r1.transpose());
-            rows.bend.set_row(i, &r2.transpose());
+            let [row, rate] = self.legs[i].row_with_rate(t[i], self.moment_scale);
+            rows.value.set_row(i, &row.transpose());
+            rows.rate.set_row(i, &rate.transpose());
         }
         rows
     }
@@ -122,7 +114,7 @@ impl PoseLegs {
         let (u, v_t) = (svd.u?, svd.v_t?);
         let v = v_t.transpose();
         let sigma = std::array::from_fn(|k| svd.singular_values[k]);
-        Some(PoseSpectrum { sigma, u, rate: rows.rate * v, bend: rows.bend * v })
+        Some(PoseSpectrum { sigma, u, rate: rows.rate * v })
     }
 }
 
@@ -139,41 +131,6 @@ impl PoseSpectrum {
         std::array::from_fn(|j| {
             0.5 * (self.u[(j, a)] * self.rate[(j, b)] + self.u[(j, b)] * self.rate[(j, a)])
         })
-    }
-
-    /// Hessian of `sigma_k` without the coupling to the singular values in `cluster`, whose curvature the
-    /// second-order cones of the subproblem carry exactly.
-    ///
-    /// Second-order perturbation of the symmetric matrix `[0 J; J^T 0]`:
-    /// `u^T J'' v + sum_o ((alpha+beta)^2 / (sigma_k - sigma_o) + (alpha-beta)^2 / (sigma_k + sigma_o)) / 2`,
-    /// `alpha = u_o^T J' v_k`, `beta = u_k^T J' v_o`.
-    fn smooth_hessian(&self, k: usize, cluster: &[usize]) -> Matrix6<f64> {
-        let mut h = Matrix6::from_fn(|j, l| if j == l { self.u[(j, k)] * self.bend[(j, k)] } else { 0.0 });
-        for o in (0..6).filter(|&o| o != k) {
-            let alpha = Vector6::from_fn(|j, _| self.u[(j, o)] * self.rate[(j, k)]);
-            let beta = Vector6::from_fn(|j, _| self.u[(j, k)] * self.rate[(j, o)]);
-            let (plus, minus) = (alpha + beta, alpha - beta);
-            let sum = self.sigma[k] + self.sigma[o];
-            if sum > 0.0 {
-                h += minus * minus.transpose() * (0.5 / sum);
-            }
-            let gap = self.sigma[k] - self.sigma[o];
-            if !cluster.contains(&o) && gap != 0.0 {
-                h += plus * plus.transpose() * (0.5 / gap);
-            }
-        }
-        h
-    }
-
-    /// Hessian of `g = sigma_6 / sigma_1`, couplings inside the two clusters left out:
-    /// `(H_6 - g H_1 - grad g grad sigma_1^T - grad sigma_1 grad g^T) / sigma_1`.
-    pub(crate) fn smooth_ratio_hessian(&self, low: &[usize], high: &[usize]) -> Matrix6<f64> {
-        let (g, top) = (self.inverse_condition(), self.sigma[0]);
-        let d_low = Vector6::from(self.block_gradient(5, 5));
-        let d_top = Vector6::from(self.block_gradient(0, 0));
-        let d_g = (d_low - d_top * g) / top;
-        let cross = d_g * d_top.transpose();
-        (self.smooth_hessian(5, low) - self.smooth_hessian(0, high) * g - cross - cross.transpose()) / top
     }
 }
 
@@ -247,29 +204,21 @@ mod tests {
         for j in 0..6 {
             let (a, b) = (p.rows(&moved(j, h)), p.rows(&moved(j, -h)));
             let rate = (a.value - b.value) / (2.0 * h);
-            let bend = (a.rate - b.rate) / (2.0 * h);
             assert!((rate.row(j) - at.rate.row(j)).norm() < 1e-8);
-            assert!((bend.row(j) - at.bend.row(j)).norm() < 1e-8);
             let others: f64 = (0..6).filter(|&i| i != j).map(|i| rate.row(i).norm()).sum();
             assert!(others < 1e-14, "row {j} alone depends on offset {j}");
         }
     }
 
     #[test]
-    fn gradient_and_hessian_of_the_ratio_match_finite_differences() {
+    fn the_gradient_of_the_ratio_matches_finite_differences() {
         let (p, h) = (legs(2), 1e-5);
-        let ratio_gradient = |t: &[f64; 6]| {
-            let s = p.spectrum(t).unwrap();
-            let (low, top) = (s.block_gradient(5, 5), s.block_gradient(0, 0));
-            Vector6::from_fn(|j, _| (low[j] - s.inverse_condition() * top[j]) / s.sigma[0])
-        };
-        let gradient = ratio_gradient(&T);
-        let hessian = p.spectrum(&T).unwrap().smooth_ratio_hessian(&[], &[]);
+        let s = p.spectrum(&T).unwrap();
+        let (low, top) = (s.block_gradient(5, 5), s.block_gradient(0, 0));
         for j in 0..6 {
             let value = |x: f64| p.inverse_condition(&moved(j, x));
-            assert!(((value(h) - value(-h)) / (2.0 * h) - gradient[j]).abs() < 1e-8);
-            let column = (ratio_gradient(&moved(j, h)) - ratio_gradient(&moved(j, -h))) / (2.0 * h);
-            assert!((column - hessian.column(j)).norm() < 1e-6 * hessian.norm(), "column {j}");
+            let gradient = (low[j] - s.inverse_condition() * top[j]) / s.sigma[0];
+            assert!(((value(h) - value(-h)) / (2.0 * h) - gradient).abs() < 1e-8);
         }
     }
 }

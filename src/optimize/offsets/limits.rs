@@ -289,11 +289,6 @@ impl SlidingPair {
         [2.0 * gap.dot(&self.e), -2.0 * gap.dot(&self.f)]
     }
 
-    /// Second derivatives: by first twice, mixed, by second twice. Constant.
-    pub(super) fn hessian(&self) -> [f64; 3] {
-        [2.0 * self.e.norm_squared(), -2.0 * self.e.dot(&self.f), 2.0 * self.f.norm_squared()]
-    }
-
     pub(super) fn edges(&self) -> (f64, f64) {
         (self.e.norm(), self.f.norm())
     }

@@ -8,12 +8,12 @@
 
 mod bound;
 mod branch;
+mod climb;
 mod conditioning;
 mod feasibility;
 mod limits;
 mod outcome;
 mod problem;
-mod scp;
 mod search;
 #[cfg(test)]
 mod soundness;
@@ -22,6 +22,7 @@ mod tests;
 mod verdict;
 
 pub use self::verdict::Conflict;
+pub use crate::climb::HistoryStep;
 pub use bound::GlobalBound;
 pub use branch::{Branch, Zone};
 pub use num::conic::SolverFailure;
@@ -32,5 +33,4 @@ pub use outcome::{
 pub use problem::{
     DEFAULT_BOUNDS, DEFAULT_MIN_ABS_DET, DEFAULT_SPACING_SHARE, InvalidOffsetProblem, OffsetProblem,
 };
-pub use scp::OffsetHistoryStep;
 pub use search::{OffsetProgress, OffsetSearchOptions, optimize};

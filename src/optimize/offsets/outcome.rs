@@ -5,8 +5,8 @@ use nalgebra::Matrix6;
 use super::bound::GlobalBound;
 use super::branch::Branch;
 use super::problem::OffsetProblem;
-use super::scp::OffsetHistoryStep;
 use super::verdict::Conflict;
+use crate::climb::HistoryStep;
 use num::conic::SolverFailure;
 use num::linalg::svd;
 use platform::manipulator::{Manipulator, jacobian};
@@ -113,7 +113,7 @@ pub struct OffsetSolution {
     /// Local optimality evidence.
     pub evidence: LocalEvidence,
     /// Steps of the run that found it.
-    pub history: Vec<OffsetHistoryStep>,
+    pub history: Vec<HistoryStep>,
     /// The platform, legs in the order of the design.
     pub manipulator: Manipulator,
     /// `s' = A s + c`, legs in the order of the design.

@@ -11,12 +11,13 @@ use super::branch::{
     Branch, BranchCell, Division, best_sample, divide, feasible_points, hopeful_point, in_order, is_feasible,
     tight_point,
 };
+use super::climb::{LocalResult, RANK, RESTORE, climb, violation};
 use super::conditioning::{worst_case, worst_case_above};
 use super::limits::{OffsetLimits, proved_empty};
 use super::outcome::OffsetReport;
 use super::problem::{InvalidOffsetProblem, OffsetModel, OffsetProblem};
-use super::scp::{LocalResult, OffsetEffort, climb, violation};
 use super::verdict::{Conflict, SearchedOffsets, assemble, nothing_fits, vertices_too_close};
+use crate::climb::Effort;
 use num::conic::SolverFailure;
 use num::parallel::parallel;
 use num::{Purpose, Rng};
@@ -174,7 +175,7 @@ fn rank_cell(
     let mut best: Option<LocalResult> = None;
     for _ in 0..o.climbs.max(1) {
         let Some(start) = best_sample(m, cell, &mut rng, samples, DRAWS_PER_SAMPLE * samples) else { break };
-        let run = climb(m, cell, start.t, OffsetEffort::RANK);
+        let run = climb(m, cell, start.t, RANK);
         if best.as_ref().is_none_or(|b| better(&run, b)) {
             best = Some(run);
         }
@@ -183,7 +184,7 @@ fn rank_cell(
         return CellResult::Feasible(run);
     }
     // restoration: such a climb first removes the violation
-    let restored = climb(m, cell, hopeful_point(cell), OffsetEffort::RESTORE);
+    let restored = climb(m, cell, hopeful_point(cell), RESTORE);
     if restored.is_feasible() {
         return CellResult::Feasible(restored);
     }
@@ -315,7 +316,7 @@ fn sample_cells(
     }
     let total = starts.len();
     let run = |i: usize| {
-        let mut run = climb(few, cells[starts[i].0], starts[i].1, OffsetEffort::RANK);
+        let mut run = climb(few, cells[starts[i].0], starts[i].1, RANK);
         run.value = worst_case(&m.poses, &run.t).0;
         best.offer(&run);
         run
@@ -398,7 +399,7 @@ fn polish(
     let run = |i: usize| {
         let (k, start) = tasks[i];
         // the first start is polished whatever happens: it is the answer of an interrupted search
-        let effort = if i > 0 && stopped() { OffsetEffort::RANK } else { OffsetEffort::POLISH };
+        let effort = if i > 0 && stopped() { RANK } else { Effort::POLISH };
         let run = climb(m, cells[k], start, effort);
         best.offer(&run);
         run
@@ -507,7 +508,7 @@ impl Area<'_> {
         let first: usize = self.divisions[..d].iter().map(|d| d.cells.len()).sum();
         let mut own = first..first + self.divisions[d].cells.len();
         if let Some(k) = own.clone().find(|&k| is_feasible(self.m, self.cells[k], t)) {
-            let run = climb(self.m, self.cells[k], *t, OffsetEffort::POLISH);
+            let run = climb(self.m, self.cells[k], *t, Effort::POLISH);
             if run.is_feasible() && run.value > value {
                 return Some((k, run));
             }

@@ -3,12 +3,12 @@
 
 use super::bound::GlobalBound;
 use super::branch::{BranchCell, Division, Zone};
+use super::climb::LocalResult;
 use super::limits::OffsetLimits;
 use super::outcome::{
     BranchReport, BranchVerdict, LocalEvidence, OffsetOutcome, OffsetReport, OffsetSolution,
 };
 use super::problem::{OffsetModel, OffsetProblem};
-use super::scp::LocalResult;
 use super::search::{CellResult, OffsetSearchOptions, better, pattern_search};
 use num::Purpose;
 use synthesis::joint_free;

@@ -2,10 +2,48 @@
 
 use nalgebra::{Point3, Vector3};
 
+/// Two lines `p + s e` and `q + t f` by the products of `p - q`, `e` and `f`, which all their segments share.
+#[derive(Debug, Clone, Copy)]
+pub struct LinePair {
+    /// `p - q`.
+    pub apart: Vector3<f64>,
+    ee: f64,
+    ff: f64,
+    ef: f64,
+    ew: f64,
+    fw: f64,
+}
+
+impl LinePair {
+    /// From `p - q` and the directions.
+    #[must_use]
+    #[inline]
+    pub fn new(apart: Vector3<f64>, e: &Vector3<f64>, f: &Vector3<f64>) -> Self {
+        let (ew, fw) = (e.dot(&apart), f.dot(&apart));
+        Self { apart, ee: e.norm_squared(), ff: f.norm_squared(), ef: e.dot(f), ew, fw }
+    }
+
+    /// Shares `s` and `t`, each between two, at which the lines are closest.
+    ///
+    /// `|p - q + s e - t f|^2` is convex in `(s, t)`. From the share where the gradient vanishes, cut to its range, one
+    /// round of projections ends at the least value. Parallel lines start anywhere.
+    #[must_use]
+    #[inline]
+    pub fn closest(&self, first: (f64, f64), second: (f64, f64)) -> (f64, f64) {
+        let Self { ee, ff, ef, ew, fw, .. } = *self;
+        let on_second =
+            |s: f64| if ff > 0.0 { ((fw + s * ef) / ff).clamp(second.0, second.1) } else { second.0 };
+        let on_first = |t: f64| if ee > 0.0 { ((t * ef - ew) / ee).clamp(first.0, first.1) } else { first.0 };
+        let det = ee * ff - ef * ef;
+        let s =
+            if det > 1e-14 * ee * ff { ((ef * fw - ff * ew) / det).clamp(first.0, first.1) } else { first.0 };
+        let t = on_second(s);
+        let s = on_first(t);
+        (s, on_second(s))
+    }
+}
+
 /// The distance of the segments `p0 p1` and `q0 q1`; a segment may be a point.
-///
-/// `|w + x e - y f|^2` is convex in `(x, y)`, so that its least value on the unit square is at the point where the gradient vanishes, when
-/// that is inside, and on one of the four edges otherwise. All five are tried: for parallel segments, where the first does not exist, the edges decide.
 ///
 /// ```
 /// # mod equipod { pub mod methods { pub use equipod_platform::{geom, manipulator, topology}; } pub mod prelude { pub use equipod_platform::geom::*; } }
@@ -18,26 +56,8 @@ use nalgebra::{Point3, Vector3};
 #[must_use]
 pub fn segment_distance([p0, p1]: [Point3<f64>; 2], [q0, q1]: [Point3<f64>; 2]) -> f64 {
     let (e, f, w) = (p1 - p0, q1 - q0, p0 - q0);
-    let mut best = from_point(&w, &f)
-        .min(from_point(&(p1 - q0), &f))
-        .min(from_point(&(q0 - p0), &e))
-        .min(from_point(&(q1 - p0), &e));
-    let (ee, ff, ef) = (e.norm_squared(), f.norm_squared(), e.dot(&f));
-    let det = ee * ff - ef * ef;
-    if det > 0.0 {
-        let (x, y) = ((ef * f.dot(&w) - ff * e.dot(&w)) / det, (ee * f.dot(&w) - ef * e.dot(&w)) / det);
-        if (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y) {
-            best = best.min((w + e * x - f * y).norm());
-        }
-    }
-    best
-}
-
-/// Distance of the point `w` from the segment between the origin and `f`.
-fn from_point(w: &Vector3<f64>, f: &Vector3<f64>) -> f64 {
-    let ff = f.norm_squared();
-    let t = if ff > 0.0 { (w.dot(f) / ff).clamp(0.0, 1.0) } else { 0.0 };
-    (w - f * t).norm()
+    let (s, t) = LinePair::new(w, &e, &f).closest((0.0, 1.0), (0.0, 1.0));
+    (w + e * s - f * t).norm()
 }
 
 /// Distance of a segment from the box `|x_k - center_k| <= half_k`, 0 when they meet.

@@ -3655,9 +3655,9 @@ class SearchStepRecord(Record):
     poses: int
     #: The step was taken.
     accepted: bool
-    #: Gain the model promised, relative; null: the search does not keep it.
+    #: Gain of the merit that the model promised.
     predicted: Union[float, None]
-    #: Gain found, relative; null: the search does not keep it.
+    #: Gain of the merit found; for a refused step at the poses that refused it.
     actual: Union[float, None]
 
 

@@ -15,7 +15,7 @@ use ask::Design;
 use ask::optimizing::offset_reserves;
 use machine::requirements::Objective;
 use optimize::dimensional::{ChosenVariable, DimensionalSolution, HistoryStep};
-use optimize::offsets::{Branch, OffsetHistoryStep, OffsetProblem, OffsetSolution};
+use optimize::offsets::{Branch, OffsetProblem, OffsetSolution};
 use platform::manipulator::Octahedral;
 use synthesis::edge_lengths;
 use verify::Verification;
@@ -164,7 +164,7 @@ impl FoundPlatformRecord {
                 pattern_gain: Some(Number(s.evidence.pattern_gain)),
                 pattern_trials: Some(s.evidence.pattern_trials),
             }),
-            history: Some(s.history.iter().map(|h| SearchStepRecord::of_offsets(h, count)).collect()),
+            history: Some(s.history.iter().map(SearchStepRecord::from).collect()),
             ..base
         }
     }
@@ -370,10 +370,10 @@ pub struct SearchStepRecord {
     pub poses: usize,
     /// The step was taken.
     pub accepted: bool,
-    /// Gain the model promised, relative; null: the search does not keep it.
-    pub predicted: Option<Number>,
-    /// Gain found, relative; null: the search does not keep it.
-    pub actual: Option<Number>,
+    /// Gain of the merit that the model promised.
+    pub predicted: Number,
+    /// Gain of the merit found; for a refused step at the poses that refused it.
+    pub actual: Number,
 }
 
 impl From<&HistoryStep> for SearchStepRecord {
@@ -384,22 +384,8 @@ impl From<&HistoryStep> for SearchStepRecord {
             radius: Number(h.radius),
             poses: h.poses,
             accepted: h.accepted,
-            predicted: None,
-            actual: None,
-        }
-    }
-}
-
-impl SearchStepRecord {
-    fn of_offsets(h: &OffsetHistoryStep, poses: usize) -> Self {
-        Self {
-            objective: Number(h.value),
-            violation: Number(h.violation),
-            radius: Number(h.radius),
-            poses,
-            accepted: h.accepted,
-            predicted: Some(Number(h.predicted)),
-            actual: Some(Number(h.actual)),
+            predicted: Number(h.predicted),
+            actual: Number(h.actual),
         }
     }
 }

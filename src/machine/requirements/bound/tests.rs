@@ -2,7 +2,6 @@
 
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
-use super::fixed::{housing_gap, room_inside};
 use super::frame::enclosed;
 use super::*;
 use platform::manipulator::Body;
@@ -336,12 +335,11 @@ fn gaps_of_housings_are_enclosed() {
     for _ in 0..200 {
         let d = Vector3::from_fn(|_, _| rng.uniform(-3.0, 3.0));
         let enclosed: IntervalVector = std::array::from_fn(|k| Interval::from(d[k]));
-        let norm = dot_square(&enclosed).sqrt().unwrap();
         let edges = Vector3::from_fn(|_, _| rng.uniform(0.1, 3.0));
         let (ball, block) = (Housing::Sphere(1.0), Housing::Box(edges));
         let wider = Housing::Sphere(1.7);
         for (housing, other) in [(ball, ball), (ball, wider), (block, block), (block, ball), (wider, block)] {
-            let (gap, found) = (housing.gap(&other, &d), housing_gap(&[housing, other], &enclosed, norm));
+            let (gap, found) = (housing.gap(&other, d.into()), housing.gap(&other, enclosed));
             assert!(
                 found.lo() - 1e-14 <= gap && gap <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13
             );
@@ -460,7 +458,7 @@ fn rooms_inside_envelopes_are_enclosed() {
         ];
         for shape in shapes {
             let (room, found) =
-                (shape.margin(&at, &half, 0.3), room_inside(&shape, &enclosed(&at), &half, 0.3));
+                (shape.margin(at.coords.into(), &half, 0.3), shape.margin(enclosed(&at), &half, 0.3));
             assert!(
                 found.lo() - 1e-14 <= room && room <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13
             );

@@ -7,10 +7,10 @@ use std::ops::ControlFlow;
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::leg_lines::HeldPose;
-use super::linear::LinearBound;
-use super::model::{ConstraintGroup, Model, Task};
+use super::model::Model;
 use super::outcome::smallest_cap;
 use super::*;
+use crate::climb::{ConstraintGroup, LinearBound, LinearItem, Task};
 use machine::requirements::{
     AssessOptions, BoltPattern, BoltsFrom, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape,
     LegBody, LegMasses, LegPart, LegsWeight, LengthLimits, Load, MovingBodies, Objective, PlateDesign,
@@ -199,7 +199,7 @@ fn holes_and_plates_are_those_of_the_margins() {
         let (poses, task) = ([at], everything(1));
         let linear = |x: &[f64]| {
             let all = model.linearise(&poses, x, &task, 1.0, 100.0).unwrap().items;
-            let of = |i: &super::linear::LinearItem| matches!(i.group, ConstraintGroup::Term(kind) if kinds.contains(&kind));
+            let of = |i: &LinearItem| matches!(i.group, ConstraintGroup::Term(kind) if kinds.contains(&kind));
             all.into_iter()
                 .filter(of)
                 .map(|i| (i.id, (i.value, i.gradient)))

@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::super::conflict::attempt;
-use super::super::model::Task;
 use super::super::search::{Watch, expects_no_other, refine};
 use super::super::*;
 use super::{ConstraintGroup, Model, everything, problem, quick};
+use crate::climb::Task;
 use machine::requirements::{JointAxes, LengthLimits, Objective, Swing, TermKind, VariableKind};
 use platform::manipulator::Manipulator;
 
@@ -183,11 +183,11 @@ fn what_other_starts_can_meet_is_no_conflict() {
     let task = Task { weights: vec![0.0], floors: vec![None], dropped, soft: None };
     let middle = [0.5, 0.55, 0.6, 0.45, 0.3, 0.6];
     let stuck = refine(&model, &task, &middle, model.first_poses(), 1);
-    assert!(!stuck.run.is_feasible(&model));
+    assert!(!stuck.run.is_feasible());
     let mut silent = |_| ControlFlow::Continue(());
     let mut watch = Watch::new(&model, &mut silent);
     let met = attempt(&model, &task, &[stuck], &quick(), 0, &mut watch);
-    assert!(met.is_ok_and(|r| r.run.is_feasible(&model) && r.complete));
+    assert!(met.is_ok_and(|r| r.run.is_feasible() && r.complete));
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
     let kinds: Vec<Demand> = conflict.demands.iter().map(|g| g.demand).collect();

@@ -7,7 +7,6 @@ use crate::app::cli::files;
 use ::files::plot::{SearchStep, StepsFigure, steps_chart};
 use ask::{OptimizeEvidence, OptimizeReport};
 use optimize::dimensional::HistoryStep;
-use optimize::offsets::OffsetHistoryStep;
 
 /// A step with its trust radius.
 type Row = (SearchStep, f64);
@@ -22,18 +21,15 @@ pub(super) fn write(path: &Path, found: &OptimizeReport) -> Result<(), Failure> 
 
 /// The quantity that was optimised, and the steps of the run.
 fn steps(found: &OptimizeReport) -> Option<(&'static str, Vec<Row>)> {
+    let of = |h: &HistoryStep| {
+        (SearchStep { value: h.gain, violation: h.violation, accepted: h.accepted }, h.radius)
+    };
     match &found.evidence {
         OptimizeEvidence::Offsets(f) => {
-            let of = |h: &OffsetHistoryStep| {
-                (SearchStep { value: h.value, violation: h.violation, accepted: h.accepted }, h.radius)
-            };
             let history = &f.report.solution()?.history;
             Some(("worst inverse condition number", history.iter().map(of).collect()))
         }
         OptimizeEvidence::Dimensions(f) => {
-            let of = |h: &HistoryStep| {
-                (SearchStep { value: h.gain, violation: h.violation, accepted: h.accepted }, h.radius)
-            };
             let history = &f.report.solution().or(f.report.nearest.as_deref())?.history;
             Some(("sum of the weighted objectives", history.iter().map(of).collect()))
         }

@@ -1,0 +1,69 @@
+//! What a climb wants, and what it finds at a point.
+
+use std::collections::BTreeMap;
+
+use machine::requirements::TermKind;
+
+/// Constraints that share one slack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum ConstraintGroup {
+    /// Requirements of one kind.
+    Term(TermKind),
+    /// `|det A|`.
+    Determinant,
+    /// Joints that slide on families stay near the others.
+    Reach,
+    /// An objective that must not fall below a value.
+    Floor(usize),
+}
+
+/// What is wanted in one run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Task {
+    /// Weight of each objective; 0 leaves it out.
+    pub weights: Vec<f64>,
+    /// Least gain of each objective.
+    pub(crate) floors: Vec<Option<f64>>,
+    /// Constraints that are not held.
+    pub dropped: Vec<ConstraintGroup>,
+    /// Constraints whose violation costs a hundredth.
+    pub soft: Option<ConstraintGroup>,
+}
+
+impl Task {
+    /// Relative price of a violation.
+    pub(crate) fn cost(&self, group: ConstraintGroup) -> f64 {
+        if self.soft == Some(group) { 0.01 } else { 1.0 }
+    }
+}
+
+/// Values at a point.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PointValues {
+    /// Gain of each objective.
+    pub gains: Vec<f64>,
+    /// Largest violation of each group (0 when met).
+    pub violations: BTreeMap<ConstraintGroup, f64>,
+}
+
+impl PointValues {
+    pub(crate) fn violation(&self) -> f64 {
+        self.violations.values().fold(0.0, |m, v| m.max(*v))
+    }
+
+    /// Sum of the largest violations of the groups; soft ones count a hundredth.
+    pub(crate) fn total_violation(&self, task: &Task) -> f64 {
+        self.violations.iter().map(|(g, v)| task.cost(*g) * v).sum()
+    }
+
+    pub(crate) fn gain(&self, task: &Task) -> f64 {
+        task.weights.iter().zip(&self.gains).filter(|(w, _)| **w > 0.0).map(|(w, g)| w * g).sum()
+    }
+
+    /// Counts the value of a constraint, which is to be at least `spare`.
+    pub(crate) fn hold(&mut self, group: ConstraintGroup, value: f64, spare: f64) {
+        let worst = self.violations.entry(group).or_insert(0.0);
+        let miss = spare - value;
+        *worst = if miss.is_nan() { f64::INFINITY } else { worst.max(miss) };
+    }
+}
