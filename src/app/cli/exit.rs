@@ -18,6 +18,15 @@ pub(crate) enum Exit {
 }
 
 impl Exit {
+    /// What an answer that may be open means.
+    pub(crate) fn of(answer: Option<bool>) -> Self {
+        match answer {
+            Some(true) => Self::Yes,
+            Some(false) => Self::No,
+            None => Self::Inconclusive,
+        }
+    }
+
     /// The number.
     pub(crate) fn code(self) -> u8 {
         match self {

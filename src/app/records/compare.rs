@@ -185,6 +185,13 @@ pub struct FigureColumn {
     pub cells: Vec<Option<FigureCell>>,
 }
 
+impl FigureColumn {
+    /// The title with the unit.
+    pub fn heading(&self) -> String {
+        if self.unit.is_empty() { self.title.clone() } else { format!("{} [{}]", self.title, self.unit) }
+    }
+}
+
 /// A cell of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FigureCell {

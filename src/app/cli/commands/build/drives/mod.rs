@@ -1,15 +1,13 @@
 //! `equipod build drives`: which drives of a table fit the design.
 
-mod render;
-
 use std::path::{Path, PathBuf};
 
 use crate::app::cli::commands::motion;
 use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::cli::requirements;
 use ::files::design::{Drive, DriveTable, JudgedForces};
 use ask::Design;
 use ask::PlatformMotion;
@@ -86,8 +84,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         design: chosen.map(|fit| (&fit.design).into()),
         output,
     };
-    let text = render::text(&answer);
-    Ok(Answer::new(requirements::exit_of(met), answer, text))
+    let text = sheet::answers::drives(&answer);
+    Ok(Answer::new(Exit::of(met), answer, text))
 }
 
 /// The table of drives that an option names, or the design beside its file.

@@ -12,7 +12,6 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::cli::requirements;
 use ask::Design;
 use ask::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use machine::manufacture::{NoRounding, Rounding};
@@ -238,7 +237,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     });
     let exit = match rounded {
         _ if contradicted => Exit::Inconclusive,
-        Some(_) if taken.is_some() => requirements::exit_of(met),
+        Some(_) if taken.is_some() => Exit::of(met),
         _ => Exit::No,
     };
     let report = render::RoundReport {
@@ -251,6 +250,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         written: written.as_deref(),
     };
     let record = report.record();
-    let text = render::text(&record);
+    let text = sheet::answers::round(&record);
     Ok(Answer::new(exit, record, text))
 }
