@@ -18,15 +18,6 @@ pub(crate) enum Exit {
 }
 
 impl Exit {
-    /// What an answer that may be open means.
-    pub(crate) fn of(answer: Option<bool>) -> Self {
-        match answer {
-            Some(true) => Self::Yes,
-            Some(false) => Self::No,
-            None => Self::Inconclusive,
-        }
-    }
-
     /// The number.
     pub(crate) fn code(self) -> u8 {
         match self {
@@ -35,6 +26,17 @@ impl Exit {
             Self::Refused => 2,
             Self::Inconclusive => 3,
             Self::Internal => 4,
+        }
+    }
+}
+
+/// What an answer that is yes, no or undecided means for the exit code.
+impl From<Option<bool>> for Exit {
+    fn from(answer: Option<bool>) -> Self {
+        match answer {
+            Some(true) => Self::Yes,
+            Some(false) => Self::No,
+            None => Self::Inconclusive,
         }
     }
 }

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use crate::app::cli::commands::motion;
 use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
@@ -85,7 +84,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         output,
     };
     let text = sheet::answers::drives(&answer);
-    Ok(Answer::new(Exit::of(met), answer, text))
+    Ok(Answer::new(met.into(), answer, text))
 }
 
 /// The table of drives that an option names, or the design beside its file.

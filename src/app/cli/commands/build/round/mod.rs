@@ -237,7 +237,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     });
     let exit = match rounded {
         _ if contradicted => Exit::Inconclusive,
-        Some(_) if taken.is_some() => Exit::of(met),
+        Some(_) if taken.is_some() => Exit::from(met),
         _ => Exit::No,
     };
     let report = render::RoundReport {
