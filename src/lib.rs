@@ -147,13 +147,16 @@ pub mod prelude {
 
     #[cfg(feature = "files")]
     #[doc(inline)]
+    pub use crate::app::presets::PRESETS;
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use ::ask::Design;
+    #[cfg(feature = "files")]
+    #[doc(inline)]
     pub use ::ask::equivalents::Equivalents;
     #[cfg(feature = "files")]
     #[doc(inline)]
     pub use ::ask::{AssessReport, CheckReport, SingularHome, VerifyOptions, leg_map, verify, verify_with};
-    #[cfg(feature = "files")]
-    #[doc(inline)]
-    pub use ::ask::{Design, presets::PRESETS};
     #[cfg(feature = "files")]
     #[doc(inline)]
     pub use ::files::design::{Format, Violation, Warning};
@@ -197,9 +200,10 @@ pub mod methods {
     /// Design files: text in, values out, and back to text.
     #[cfg(feature = "files")]
     pub mod design {
+        pub use crate::app::presets::PRESETS;
         pub use ::ask::Design;
         pub use ::ask::design::{parse, parse_ideal, parse_with_cranks};
-        pub use ::ask::presets::{PRESETS, Preset, PresetClass};
+        pub use ::ask::presets::{Preset, PresetClass};
         pub use ::files::design::*;
     }
     /// The best platform that meets its requirements: offsets, triangles, height, joint axes.

@@ -14,5 +14,7 @@
 pub mod cli;
 #[cfg(feature = "page")]
 pub(crate) mod page;
+#[cfg(feature = "files")]
+pub(crate) mod presets;
 #[cfg(feature = "page")]
 pub(crate) mod report;

@@ -21,6 +21,7 @@ impl Design {
     /// ```
     /// use equipod::methods::calibration::{CalibrateOptions, CalibrationStatus, Measurement};
     /// use equipod::prelude::*;
+    /// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
     /// let design = Design::load("designs/symmetric-hexapod.toml")?;
     /// let home = design.home_or_default();
     /// let mut rows = Vec::new();
@@ -161,7 +162,7 @@ mod tests {
 
     #[test]
     fn a_written_calibration_leaves_as_much_open_as_the_one_in_memory() {
-        let design = Design::load("designs/symmetric-hexapod.toml").unwrap();
+        let design = Design::load("../../../designs/symmetric-hexapod.toml").unwrap();
         let home = design.home_or_default();
         let mut rng = Rng::new(11);
         let turned = |k: u32, n: f64| 20.0 * (n * f64::from(k)).sin();

@@ -96,6 +96,7 @@ impl<'a> VerifyOptions<'a> {
 ///
 /// ```
 /// use equipod::prelude::*;
+/// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
 /// let a = Design::load("designs/rbt-octahedral.toml")?;
 /// let b = Design::load("designs/rbt-griffis-duffy.toml")?;
 /// let found = verify(&a, &b)?;

@@ -26,6 +26,7 @@ impl Design {
     ///
     /// ```
     /// use equipod::prelude::*;
+    /// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
     /// let design = Design::load("designs/presets/bench-l16.toml")?;
     /// let files = design.export("dxf".parse()?)?;
     /// assert!(files.iter().all(|f| f.name.ends_with(".dxf")));

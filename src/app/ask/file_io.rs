@@ -16,6 +16,7 @@ impl Design {
     ///
     /// ```
     /// use equipod::prelude::*;
+    /// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
     /// let design = Design::load("designs/rbt-octahedral.toml")?;
     /// assert_eq!((design.name.as_str(), design.warnings().len()), ("octahedral 12-6", 0));
     /// # Ok::<(), Error>(())

@@ -295,6 +295,7 @@ impl Design {
     ///
     /// ```
     /// use equipod::prelude::*;
+    /// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
     /// let midpoints = Design::load("designs/rbt-midline.toml")?;
     /// assert_eq!(midpoints.check()?.is_singular(), Some(true));
     /// # Ok::<(), Error>(())
@@ -465,6 +466,7 @@ impl Design {
     ///
     /// ```
     /// use equipod::prelude::*;
+    /// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
     /// let design = Design::load("designs/rbt-octahedral.toml")?;
     /// let (free, map) = design.equivalents()?.joint_free([0.25, 0.5, 0.25, 0.5, 0.25, 0.75])?;
     /// assert_eq!((free.base_names().len(), free.platform_names().len()), (6, 6));

@@ -43,6 +43,10 @@ mod reaching;
 mod reaching_space;
 #[cfg(feature = "files")]
 pub mod rounding;
+#[cfg(feature = "files")]
+mod self_motions;
+#[cfg(feature = "files")]
+mod singular_poses;
 mod solving;
 #[cfg(all(feature = "files", not(target_family = "wasm")))]
 pub mod whole;
@@ -68,6 +72,12 @@ pub use optimizing::{
 };
 #[cfg(feature = "files")]
 pub use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
+#[cfg(feature = "files")]
+pub use self_motions::{MotionOrigin, MotionStart, NoSelfMotion, SelfMotionOptions, SelfMotionReport};
+#[cfg(feature = "files")]
+pub use singular_poses::{
+    NoSingularPoses, PoseFigures, SignPath, SignsBetween, SingularPosesOptions, SingularPosesReport,
+};
 #[cfg(feature = "files")]
 pub use solving::solve_angles;
 pub use solving::{Batch, Kinematics, Solver, Tracker};

@@ -12,6 +12,7 @@ impl Design {
     /// ```
     /// use equipod::methods::reach::PoseAxis;
     /// use equipod::prelude::*;
+    /// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
     /// let design = Design::load("designs/presets/bench-l16.toml")?;
     /// let ranges = design.free_ranges(&design.home_or_default()).unwrap();
     /// let up = &ranges[2].forth;
@@ -29,6 +30,7 @@ impl Design {
     /// ```
     /// use equipod::methods::reach::NearestPoseOptions;
     /// use equipod::prelude::*;
+    /// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
     /// let design = Design::load("designs/presets/bench-l16.toml")?;
     /// let mut asked = design.home_or_default();
     /// asked.position.z += 1000.0;

@@ -15,6 +15,7 @@ use super::context::{Context, format_of};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::files::{self, OutputPath};
+use crate::app::presets::PRESETS;
 use ::files::design::{Format, Violation};
 use ask::whole::{WholeFile, part_of};
 use records::{
@@ -471,8 +472,9 @@ impl SweepTexts {
         let text = files::read_text(path)?;
         let format = format_of(path, &text);
         let shown = files::shown(path);
-        let PlanFiles { base, drives } = plan::files_named(PlanText { text: &text, format })
-            .map_err(|violations| bad_plan(&shown, &text, violations))?;
+        let PlanFiles { base, drives } =
+            plan::files_named(PlanText::new(&text, format).with_presets(&PRESETS))
+                .map_err(|violations| bad_plan(&shown, &text, violations))?;
         let beside = |name: String| path.parent().unwrap_or(Path::new("")).join(name);
         let mut drives = drives.map(|name| files::read_text(&beside(name))).transpose()?;
         let (design, poses) = match base {
@@ -503,9 +505,10 @@ impl SweepTexts {
 
     /// The sweep that they describe; `shown` is where the plan is from.
     pub(crate) fn sweep(&self, seed: u64, shown: &str) -> Result<Sweep, Failure> {
-        let base = BasePlan::new(PlanText { text: &self.design.text, format: self.design.format }).map_err(
-            |violations| Failure::bad_design("base design".into(), self.design.text.clone(), violations),
-        )?;
+        let base =
+            BasePlan::new(PlanText::new(&self.design.text, self.design.format)).map_err(|violations| {
+                Failure::bad_design("base design".into(), self.design.text.clone(), violations)
+            })?;
         let base = match &self.drives {
             None => base,
             Some(table) => base.with_drives(table.as_bytes()).map_err(|why| {
@@ -520,7 +523,7 @@ impl SweepTexts {
                 Failure::refused("design::bad_trajectory", message)
             })?,
         };
-        let text = PlanText { text: &self.plan.text, format: self.plan.format };
+        let text = PlanText::new(&self.plan.text, self.plan.format).with_presets(&PRESETS);
         let plan =
             plan::read(text, &base).map_err(|violations| bad_plan(shown, &self.plan.text, violations))?;
         Sweep::new(plan, base, seed).map_err(|why| Failure::refused("sweep::no_candidates", why))

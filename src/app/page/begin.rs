@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::request::Refusal;
 use super::session::{InvalidStart, Session};
+use crate::app::presets::PRESETS;
 use ask::design::parse;
-use ask::presets::PRESETS;
 use files::design::{Format, HexapodSizes, PointTable, Violation};
 
 /// A hexapod as makers describe it: pairs of joints on two circles.

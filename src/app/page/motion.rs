@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::request::Refusal;
+use ask::{Design, MotionStart, SelfMotionOptions};
 use platform::geom::Pose;
-use platform::manipulator::Manipulator;
 use records::PoseRecord;
-use synthesis::singularity::{CurveEnd, MotionCurve, MotionOptions, self_motion};
+use synthesis::singularity::{CurveEnd, MotionCurve, MotionOptions};
 
 /// Most poses of an animation.
 const FRAMES: usize = 240;
@@ -26,14 +26,14 @@ pub(super) struct SelfMotionRecord {
 }
 
 /// The curve of poses with constant leg lengths on which the pose lies, the longest where several cross.
-pub(super) fn record(m: &Manipulator, at: &Pose) -> Result<SelfMotionRecord, Refusal> {
-    let s = at.squared_lengths(m).ok_or_else(|| Refusal::new("pose", "a leg has no length at this pose"))?;
-    let found = self_motion(m, &s, &[*at], &OPTIONS);
-    let length = |c: &&MotionCurve| c.points.last().map_or(0.0, |p| p.arc);
-    let longest = found.curves.iter().max_by(|x, y| length(x).total_cmp(&length(y)));
+pub(super) fn record(design: &Design, at: &Pose) -> Result<SelfMotionRecord, Refusal> {
+    let options = SelfMotionOptions { start: MotionStart::Pose(*at), sections: 0, motion: OPTIONS };
+    let report = design.self_motions(&options).map_err(|why| Refusal::new("pose", why.to_string()))?;
+    let found = &report.motion;
+    let longest = report.longest().map(|k| &found.curves[k]);
     let poses = longest.map(frames).unwrap_or_default();
     Ok(SelfMotionRecord {
-        dimension: found.dimension(),
+        dimension: report.dimension,
         curves: found.curves.len(),
         closed: longest.is_some_and(|c| c.end == CurveEnd::Closed),
         end: longest.map(|c| c.end.name()),

@@ -212,8 +212,7 @@ impl Session {
                 surface::locus(&design, &self.home, &Pose::from(&pose), points).map(value)
             }
             Request::Motion { pose, which, chosen } => {
-                motion::record(self.platform(which, equivalent(chosen)?)?.manipulator(), &Pose::from(&pose))
-                    .map(value)
+                motion::record(&self.platform(which, equivalent(chosen)?)?, &Pose::from(&pose)).map(value)
             }
             Request::Presets => Ok(value(begin::presets())),
             Request::Preset { name } => begin::preset(&name).map(value),

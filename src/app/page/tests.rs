@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 
 use super::{Session, page};
+use crate::app::presets::PRESETS;
 use ask::Design;
 use ask::design::parse;
-use ask::presets::PRESETS;
 use files::design::Format;
 use machine::requirements::{AssessOptions, assess};
 use platform::geom::{Angles, Pose};
@@ -515,7 +515,7 @@ fn the_surface_of_singular_positions_is_where_the_sign_of_det_j_changes() {
 
 #[test]
 fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths() {
-    let preset = ask::presets::PRESETS.iter().find(|p| p.name == "reachy-mini").unwrap();
+    let preset = PRESETS.iter().find(|p| p.name == "reachy-mini").unwrap();
     let session = Session::open(&json!({"design": preset.text, "start": null}).to_string()).unwrap();
     let open = ask(&session, &json!({"op": "open"}));
     assert_eq!(

@@ -10,8 +10,8 @@ use serde::Serialize;
 use super::design::{NativeDesign, OF_LEG_MAPS, threads_of};
 use super::failure::{interrupted, raised};
 use ask::Design;
-use ask::presets::PRESETS;
 use ask::{VerifyOptions, sample_plan};
+use equipod::PRESETS;
 use records::{Document, FramesRecord, MapAnswer, ProvenanceRecord, VerifyAnswer};
 use synthesis::LegCorrespondence;
 

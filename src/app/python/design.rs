@@ -15,8 +15,8 @@ use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedF
 use super::tracker::{Followed, NativeTracker};
 use ask::Design;
 use ask::design::parse_ideal;
-use ask::presets::PRESETS;
 use ask::{Error, Solver, solve_angles};
+use equipod::PRESETS;
 use files::design::Format;
 use fk::{FkOptions, Method, Threads};
 use machine::requirements::{AssessOptions, Terms};

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CompletenessWord, Number, PoseQuaternionRecord};
+use ask::MotionOrigin;
 use synthesis::singularity::{CriticalPoses, CurveDegree, MotionCurve, MotionEvidence, PoseVerdict};
 
 /// The answer of `singular motion`.
@@ -160,36 +161,9 @@ pub struct MotionCurveRecord {
     /// Its degree, where that was computed.
     pub degree: Option<CurveDegreeRecord>,
     /// How its first pose was found.
-    pub found_by: Option<OriginWord>,
+    pub found_by: Option<MotionOrigin>,
     /// Its poses.
     pub points: Vec<MotionPointRecord>,
-}
-
-/// How the first pose of a curve was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum OriginWord {
-    /// It was given.
-    Pose,
-    /// On a section of the set of poses.
-    Section,
-    /// As a critical point.
-    CriticalPoint,
-    /// By a search.
-    Search,
-}
-
-impl OriginWord {
-    /// The word.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Pose => "pose",
-            Self::Section => "section",
-            Self::CriticalPoint => "critical_point",
-            Self::Search => "search",
-        }
-    }
 }
 
 /// Where a curve crosses others.
@@ -218,7 +192,7 @@ pub struct MotionPointRecord {
 impl MotionCurveRecord {
     /// The record of a curve.
     #[must_use]
-    pub fn new(curve: &MotionCurve, degree: Option<&CurveDegree>, found_by: Option<OriginWord>) -> Self {
+    pub fn new(curve: &MotionCurve, degree: Option<&CurveDegree>, found_by: Option<MotionOrigin>) -> Self {
         let crossing = |(after_point, crossing): &(usize, usize)| CurveCrossingRecord {
             after_point: *after_point,
             crossing: *crossing,

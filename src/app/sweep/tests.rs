@@ -15,10 +15,9 @@ use platform::manipulator::{inverse_condition, jacobian};
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
 
 fn sweep_of(design: &str, plan: &str) -> Sweep {
-    let base = BasePlan::new(PlanText { text: design, format: Format::Toml }).unwrap();
+    let base = BasePlan::new(PlanText::new(design, Format::Toml)).unwrap();
     let plan = format!("name = 'p'\ndesign = 'd.toml'\n{plan}");
-    let plan =
-        read(PlanText { text: &plan, format: Format::Toml }, &base).unwrap_or_else(|v| panic!("{v:#?}"));
+    let plan = read(PlanText::new(&plan, Format::Toml), &base).unwrap_or_else(|v| panic!("{v:#?}"));
     Sweep::new(plan, base, 1).unwrap()
 }
 
@@ -65,10 +64,10 @@ fn figures_are_those_of_the_design_that_the_candidate_is() {
 #[ignore = "evidence"]
 fn a_candidate_with_a_drive_is_judged_by_its_limits() {
     let table = b"name,stroke,dead_length,force,price_EUR\nshort,1,12,1e6,50\nlong,30,1,1e6,90\n";
-    let base = BasePlan::new(PlanText { text: OCTAHEDRAL, format: Format::Toml }).unwrap();
+    let base = BasePlan::new(PlanText::new(OCTAHEDRAL, Format::Toml)).unwrap();
     let base = base.with_drives(table).unwrap();
     let text = "name = 'p'\ndesign = 'd.toml'\ndrives = 't.csv'\ncompute = ['drive', 'margins']\n[vary]\nby = 'grid'\nvalues = { drive = ['long', 'short'] }\n";
-    let plan = read(PlanText { text, format: Format::Toml }, &base).unwrap_or_else(|v| panic!("{v:#?}"));
+    let plan = read(PlanText::new(text, Format::Toml), &base).unwrap_or_else(|v| panic!("{v:#?}"));
     let drives: Vec<_> = ["long", "short"].map(|name| base.drive(name).unwrap().clone()).into();
     let sweep = Sweep::new(plan, base, 1).unwrap();
     let (original, _) = parse(OCTAHEDRAL, Format::Toml).unwrap();
@@ -98,14 +97,13 @@ fn the_poses_of_a_table_belong_to_the_workspace_of_every_candidate() {
     let region = "translation = [2.0, 2.0, 2.0]\nrotation_deg = [10.0, 10.0, 10.0]\ngrid = 2\n";
     assert!(OCTAHEDRAL.contains(region));
     let text = OCTAHEDRAL.replace(region, "trajectory = \"data/path.csv\"\nrelative_to = \"home\"\n");
-    let base = BasePlan::new(PlanText { text: &text, format: Format::Toml }).unwrap();
+    let base = BasePlan::new(PlanText::new(&text, Format::Toml)).unwrap();
     assert!(base.clone().with_poses(b"1,2\n").is_err(), "no pose has two numbers");
     let base = base.with_poses(table.as_bytes()).unwrap();
     let sweep = |vary: &str| {
         let plan =
             format!("name = 'p'\ndesign = 'd.toml'\ncompute = ['conditioning', 'length_range']\n{vary}");
-        let plan =
-            read(PlanText { text: &plan, format: Format::Toml }, &base).unwrap_or_else(|v| panic!("{v:#?}"));
+        let plan = read(PlanText::new(&plan, Format::Toml), &base).unwrap_or_else(|v| panic!("{v:#?}"));
         Sweep::new(plan, base.clone(), 1).unwrap()
     };
     // numbers in the text, offsets of an equivalent platform
@@ -255,7 +253,7 @@ fn equivalent_platforms_have_one_region_without_singular_poses_and_tolerances_of
 #[test]
 fn a_base_design_with_cranks_is_refused_at_its_place() {
     let text = include_str!("../../../designs/presets/reachy-mini.toml");
-    let violations = BasePlan::new(PlanText { text, format: Format::Toml }).unwrap_err();
+    let violations = BasePlan::new(PlanText::new(text, Format::Toml)).unwrap_err();
     let refused = violations.iter().find(|v| v.code == files::design::Code::Rotary).unwrap();
     let line = text.lines().position(|l| l.starts_with("drive = \"rotary\"")).unwrap() + 1;
     assert_eq!(refused.line, line);
@@ -295,9 +293,9 @@ fn a_platform_whose_pattern_leaves_offsets_unused_has_one_row() {
 
 #[test]
 fn all_slips_of_a_plan_are_said_at_once() {
-    let base = BasePlan::new(PlanText { text: OCTAHEDRAL, format: Format::Toml }).unwrap();
+    let base = BasePlan::new(PlanText::new(OCTAHEDRAL, Format::Toml)).unwrap();
     let text = "name = 5\ndesign = 'd.toml'\ncompute = ['det_b']\nkeep = ['x']\nbogus = 1\n[[vary]]\nby = 'sobl'\ncount = -4\n[vary.values]\noffsets = { from = 0.1, tu = 0.9 }\n[[vary]]\nby = 'grid'\n[vary.values]\npatern = 'all'\n";
-    let violations = read(PlanText { text, format: Format::Toml }, &base).unwrap_err();
+    let violations = read(PlanText::new(text, Format::Toml), &base).unwrap_err();
     let lines: Vec<usize> = violations.iter().map(|v| v.line).collect();
     assert_eq!(lines, [1, 3, 4, 5, 7, 8, 10, 10, 14], "{violations:#?}");
 }

@@ -259,7 +259,7 @@ mod tests {
     }
 
     fn bench(limits: &str) -> Design {
-        let text = std::fs::read_to_string("designs/presets/bench-l16.toml").unwrap();
+        let text = include_str!("../../../../designs/presets/bench-l16.toml");
         parse(&format!("{text}\n{limits}"), Format::Toml).unwrap().0
     }
 

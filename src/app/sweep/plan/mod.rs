@@ -18,6 +18,7 @@ pub use read::{files_named, read};
 pub use values::{AxisValues, PlanAxis, PlanBlock, Spreading};
 
 use super::column::{CANDIDATE, ColumnKind, SweepColumn};
+use ask::presets::Preset;
 
 /// Candidates of a plan, at most.
 const MOST_CANDIDATES: u64 = 1 << 53;
@@ -70,6 +71,22 @@ pub struct PlanText<'a> {
     pub text: &'a str,
     /// Its notation.
     pub format: Format,
+    /// The designs that it may name as presets.
+    pub presets: &'static [Preset],
+}
+
+impl<'a> PlanText<'a> {
+    /// A text that names no preset.
+    #[must_use]
+    pub fn new(text: &'a str, format: Format) -> Self {
+        Self { text, format, presets: &[] }
+    }
+
+    /// The same with the presets that it may name.
+    #[must_use]
+    pub fn with_presets(self, presets: &'static [Preset]) -> Self {
+        Self { presets, ..self }
+    }
 }
 
 /// The poses over which figures are the worst ones.

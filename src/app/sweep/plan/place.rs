@@ -68,7 +68,7 @@ impl BasePlan {
             if name != own.file {
                 let text = self.with_values(&[(place, serde_json::Value::from(name).to_string())]);
                 let drives = self.drives.take();
-                if let Ok(moved) = Self::new(PlanText { text: &text, format: self.format }) {
+                if let Ok(moved) = Self::new(PlanText::new(&text, self.format)) {
                     self = Self { drives, ..moved };
                 }
             }

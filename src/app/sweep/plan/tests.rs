@@ -2,16 +2,23 @@
 
 use super::*;
 use crate::column::SweepCell;
+use ask::presets::{Preset, PresetClass};
 use files::design::Violation;
 
 const DESIGN: &str = include_str!("../../../../designs/rbt-octahedral.toml");
 
+const PRESETS: [Preset; 1] = [Preset {
+    name: "bench-l16",
+    class: PresetClass::Bench,
+    text: include_str!("../../../../designs/presets/bench-l16.toml"),
+}];
+
 fn base() -> BasePlan {
-    BasePlan::new(PlanText { text: DESIGN, format: Format::Toml }).unwrap()
+    BasePlan::new(PlanText::new(DESIGN, Format::Toml)).unwrap()
 }
 
 fn plan(text: &str) -> Result<SweepPlan, Vec<Violation>> {
-    read(PlanText { text, format: Format::Toml }, &base())
+    read(PlanText::new(text, Format::Toml).with_presets(&PRESETS), &base())
 }
 
 const HEAD: &str = "name = 'p'\ndesign = 'd.toml'\ncompute = ['conditioning']\n";
@@ -89,9 +96,9 @@ fn json_says_the_same_as_toml() {
     let toml =
         with("[[vary]]\nby = 'sobol'\ncount = 8\nvalues = { offsets = { from = 0.1, to = 0.9 } }\n").unwrap();
     let text = r#"{"name": "p", "design": "d.toml", "compute": ["conditioning"], "vary": [{"by": "sobol", "count": 8, "values": {"offsets": {"from": 0.1, "to": 0.9}}}]}"#;
-    let json = read(PlanText { text, format: Format::Json }, &base()).unwrap();
+    let json = read(PlanText::new(text, Format::Json), &base()).unwrap();
     assert_eq!(toml.values(3, 5), json.values(3, 5));
-    let named = files_named(PlanText { text, format: Format::Json }).unwrap();
+    let named = files_named(PlanText::new(text, Format::Json)).unwrap();
     assert_eq!(named, PlanFiles { base: BaseName::File("d.toml".into()), drives: None });
 }
 
@@ -102,8 +109,8 @@ const DRIVES: &[u8] =
 fn drives_of_a_table_vary_by_their_names() {
     let based = || base().with_drives(DRIVES).unwrap();
     let head = "name = 'p'\ndesign = 'd.toml'\ndrives = 'drives.csv'\ncompute = ['drive']\n";
-    let of = |text: &str| read(PlanText { text, format: Format::Toml }, &based());
-    let named = files_named(PlanText { text: head, format: Format::Toml }).unwrap();
+    let of = |text: &str| read(PlanText::new(text, Format::Toml), &based());
+    let named = files_named(PlanText::new(head, Format::Toml)).unwrap();
     assert_eq!(named.drives.as_deref(), Some("drives.csv"));
     let whole = of(&format!("{head}[vary]\nby = 'grid'\nvalues = {{ drive = 'all' }}\n")).unwrap();
     let names: Vec<String> = (0..2).map(|k| whole.values(1, k)[0].to_string()).collect();
@@ -127,11 +134,11 @@ fn drives_of_a_table_vary_by_their_names() {
 #[test]
 fn the_table_of_poses_is_the_same_for_all_candidates() {
     let design = DESIGN.replace("[workspace]\n", "[workspace]\ntrajectory = 'path.csv'\n");
-    let base = BasePlan::new(PlanText { text: &design, format: Format::Toml }).unwrap();
+    let base = BasePlan::new(PlanText::new(&design, Format::Toml)).unwrap();
     let base = base.with_poses(b"0,0,16,0,0,0\n").unwrap();
     let text =
         format!("{HEAD}[vary]\nby = 'grid'\nvalues = {{ 'workspace.trajectory' = ['a.csv', 'b.csv'] }}\n");
-    let refused = read(PlanText { text: &text, format: Format::Toml }, &base).unwrap_err();
+    let refused = read(PlanText::new(&text, Format::Toml), &base).unwrap_err();
     assert!(refused[0].message.contains("read once for all candidates"), "{refused:#?}");
 }
 

@@ -6,10 +6,11 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
+use crate::app::presets::PRESETS;
 use ::files::design::Format;
 use ask::Design;
 use ask::design::parse_with_cranks;
-use ask::presets::{PRESETS, Preset};
+use ask::presets::Preset;
 use records::{PresetAnswer, PresetFile, PresetRecord, PresetsAnswer};
 
 /// Arguments of `design presets`.

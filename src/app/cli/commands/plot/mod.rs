@@ -107,7 +107,7 @@ impl Figure {
                 let design = context.load(design)?;
                 let pose = poses::parse(pose, &design, "--pose", "plot::bad_pose")?;
                 // the picture needs the shape of the box only
-                let options = singular_poses::box_options(None, 0, &design, seed)?;
+                let options = design.box_options(0, seed);
                 let figure = singular_poses::slice::figure(&design, *slice, &pose, &options);
                 (FigureWord::SingularPoses, singular_slice(&figure))
             }

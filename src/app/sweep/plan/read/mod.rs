@@ -7,7 +7,7 @@ mod settings;
 mod tasks;
 
 use super::{BaseName, BasePlan, PlanFiles, PlanText, PoseChoice, SweepPlan};
-use ask::presets::PRESETS;
+use ask::presets::Preset;
 use files::design::spanned::{
     Entry, Findings, Node, Span, Value, check_keys, find, nearest_help, number, read as read_tree, shown,
     text,
@@ -72,7 +72,7 @@ pub fn files_named(plan: PlanText<'_>) -> Result<PlanFiles, Vec<Violation>> {
     let found = root.as_ref().and_then(|root| {
         let entries = entries(root, &mut report)?;
         check_keys(&mut report, entries, &TOP_LEVEL, "a plan");
-        let base = base(root, entries, &mut report)?;
+        let base = base(root, entries, plan.presets, &mut report)?;
         let drives = match find(entries, "drives") {
             Some(entry) => Some(text(&mut report, entry)?),
             None => None,
@@ -83,14 +83,15 @@ pub fn files_named(plan: PlanText<'_>) -> Result<PlanFiles, Vec<Violation>> {
     found.ok_or_else(|| report.into_violations())
 }
 
-fn base(root: &Node, entries: &[Entry], report: &mut Findings<'_>) -> Option<BaseName> {
+fn base(root: &Node, entries: &[Entry], presets: &[Preset], report: &mut Findings<'_>) -> Option<BaseName> {
     match (find(entries, "design"), find(entries, "preset")) {
         (Some(design), None) => text(report, design).map(BaseName::File),
         (None, Some(preset)) => {
             let name = text(report, preset)?;
-            let found = PRESETS.iter().find(|p| p.name == name);
+            let found = presets.iter().find(|p| p.name == name);
             if found.is_none() {
-                let help = nearest_help("presets", &name, &PRESETS.map(|p| p.name));
+                let names: Vec<&str> = presets.iter().map(|p| p.name).collect();
+                let help = nearest_help("presets", &name, &names);
                 report.refuse(
                     Code::UnknownName,
                     &preset.node.span,
@@ -133,7 +134,8 @@ fn missing(report: &mut Findings<'_>, root: &Node, key: &str, help: &str) {
 pub fn read(plan: PlanText<'_>, base_plan: &BasePlan) -> Result<SweepPlan, Vec<Violation>> {
     let mut report = Findings::new(plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text));
     let root = tree(plan, &mut report);
-    let found = root.and_then(|root| Reader { report: &mut report, base: base_plan }.plan(&root));
+    let found = root
+        .and_then(|root| Reader { report: &mut report, base: base_plan, presets: plan.presets }.plan(&root));
     match found {
         Some(plan) if report.is_clean() => Ok(plan),
         _ => Err(report.into_violations()),
@@ -143,6 +145,7 @@ pub fn read(plan: PlanText<'_>, base_plan: &BasePlan) -> Result<SweepPlan, Vec<V
 struct Reader<'r, 't> {
     report: &'r mut Findings<'t>,
     base: &'r BasePlan,
+    presets: &'r [Preset],
 }
 
 impl Reader<'_, '_> {
@@ -155,7 +158,7 @@ impl Reader<'_, '_> {
         }
         let name = named.and_then(|e| text(self.report, e));
         let description = find(entries, "description").and_then(|e| text(self.report, e));
-        base(root, entries, self.report);
+        base(root, entries, self.presets, self.report);
         let poses = self.poses(find(entries, "poses"));
         let assess = self.assess(find(entries, "assess"));
         let accuracy = match find(entries, "accuracy") {

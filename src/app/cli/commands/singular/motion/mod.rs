@@ -12,15 +12,8 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ::files::plot::{MotionFigure, motion};
-use ask::Design;
-use fk::{FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, SolutionSet};
-use platform::geom::{ComplexPose, Pose};
-use platform::manipulator::{Manipulator, SquaredLegLengths};
-use records::OriginWord;
-use synthesis::singularity::{
-    CriticalPoses, CurveDegree, CurveEnd, MotionOptions, SelfMotion, critical_poses, curve_degree,
-    rounds_to_singular, self_motion,
-};
+use ask::{Design, MotionStart, NoSelfMotion, SelfMotionOptions, SelfMotionReport};
+use synthesis::singularity::{CurveEnd, MotionOptions};
 
 /// Arguments of `singular motion`.
 #[derive(Debug, clap::Args)]
@@ -59,27 +52,6 @@ fn turn(text: &str) -> Result<f64, String> {
     if (1e-3..=0.2).contains(&value) { Ok(value) } else { Err("give 0.001 to 0.2".to_string()) }
 }
 
-/// What was found, for [`render`].
-struct Found {
-    /// The pose given.
-    start: Option<Pose>,
-    squares: SquaredLegLengths,
-    /// Of the motion through the pose, or of the poses with the lengths, also where no real pose is on them; `None`
-    /// undecided.
-    dimension: Option<usize>,
-    motion: SelfMotion,
-    /// Of each curve.
-    degrees: Vec<Option<CurveDegree>>,
-    /// Of every starting pose.
-    origins: Vec<OriginWord>,
-    /// Real poses on surfaces and sets of higher dimension, which are not followed.
-    real_poses: Vec<Pose>,
-    critical: Option<CriticalPoses>,
-    /// Whether, numerically, no real component is missing; `None` when no search was made.
-    accounted: Option<bool>,
-    exit: Exit,
-}
-
 /// Follows the motion.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let (design, found) = trace(&args.question, context)?;
@@ -101,127 +73,39 @@ pub(in crate::app::cli::commands) fn drawing(
     picture(&design, &found)
 }
 
-fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, Found), Failure> {
+fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, SelfMotionReport), Failure> {
     let design = context.load(&args.design)?;
-    let m = design.manipulator();
-    if rounds_to_singular(m) {
-        let message = format!(
-            "{} is regular, proved about the exact joints, but their doubles are singular: curves are followed in doubles, and would be those of another design",
-            design.name
-        );
-        return Err(Failure::new(Exit::Inconclusive, "motion::beyond_doubles", message));
-    }
-    let (start, squares) = beginning(args, &design)?;
-    let options = MotionOptions { turn: args.turn, seed: context.seed(), ..MotionOptions::default() };
-    let given: Vec<Pose> = start.into_iter().collect();
-    let mut motion = self_motion(m, &squares, &given, &options);
-    let mut starts: Vec<(Pose, OriginWord)> = given.iter().map(|p| (*p, OriginWord::Pose)).collect();
-    let mut dimension = motion.dimension();
-    let (mut critical, mut accounted) = (None, None);
-    if start.is_none() && args.sections == 0 {
-        let message =
-            "--sections 0 leaves no pose to start from: with --lengths the curves are found by sections";
-        return Err(
-            Failure::refused("motion::no_start", message).with_help("give --pose, or --sections 1 or more")
-        );
-    }
-    let searches = args.sections;
-    if searches > 0 && (start.is_none() || dimension == Some(1)) {
-        let sections = sections(m, &squares, searches, context.seed())?;
-        dimension = if start.is_none() { Some(sections.dimension) } else { dimension };
-        if sections.dimension == 1 {
-            let real = sections.points.iter().filter(|r| r.reality == Reality::Real);
-            starts.extend(real.map(|r| (r.pose.real_part(), OriginWord::Section)));
-            let mut on: Vec<ComplexPose> = given.iter().map(|p| (*p).into()).collect();
-            on.extend(sections.points.iter().map(|r| r.pose));
-            let found = critical_poses(m, &squares, &on, context.seed());
-            starts.extend(found.poses.iter().map(|p| (*p, OriginWord::CriticalPoint)));
-            accounted = Some(found.is_accounted() && sections.established);
-            critical = Some(found);
-        } else {
-            // surfaces are not followed: a real pose on each real component that was met has to do
-            let real = sections.points.iter().filter(|r| r.reality == Reality::Real);
-            starts.extend(real.map(|r| (r.pose.real_part(), OriginWord::Search)));
-            // no search counts the components of a surface
-            let counted = sections.dimension == 0 || start.is_some();
-            accounted = counted.then_some(start.is_none() && sections.established);
-        }
-        let all: Vec<Pose> = starts.iter().map(|s| s.0).collect();
-        motion = self_motion(m, &squares, &all, &options);
-    }
-    let degrees = motion.curves.iter().map(|c| {
-        let best = c.points.iter().max_by(|x, y| x.gap.total_cmp(&y.gap))?;
-        curve_degree(m, &squares, &best.pose, context.seed())
-    });
-    let degrees = degrees.collect();
-    let whole = motion.curves.iter().all(|c| matches!(c.end, CurveEnd::Closed | CurveEnd::Joined));
-    let followed = dimension != Some(1) || starts.is_empty() || motion.dimension() == Some(1);
-    accounted = accounted.map(|a| a && whole && followed);
-    let exit = match dimension {
-        Some(0) if start.is_some() || accounted == Some(true) => Exit::No,
-        Some(1) if whole && !motion.curves.is_empty() && accounted != Some(false) => Exit::Yes,
-        Some(1) if start.is_none() && accounted == Some(true) => Exit::No,
-        // it moves, over a surface or more
-        Some(d) if d > 1 && !starts.is_empty() => Exit::Yes,
-        _ => Exit::Inconclusive,
-    };
-    let origins = starts.iter().map(|s| s.1).collect();
-    let real_poses = starts.iter().filter(|s| s.1 == OriginWord::Search).map(|s| s.0).collect();
-    let found =
-        Found { start, squares, dimension, motion, degrees, origins, real_poses, critical, accounted, exit };
+    let motion = MotionOptions { turn: args.turn, seed: context.seed(), ..MotionOptions::default() };
+    let options = SelfMotionOptions { start: start(args, &design)?, sections: args.sections, motion };
+    let found = design.self_motions(&options).map_err(|why| failure(&why))?;
     Ok((design, found))
 }
 
-/// The pose, if it is one, and the leg lengths.
-fn beginning(args: &CurveQuestion, design: &Design) -> Result<(Option<Pose>, SquaredLegLengths), Failure> {
+fn failure(why: &NoSelfMotion) -> Failure {
+    let message = why.to_string();
+    match why {
+        NoSelfMotion::BeyondDoubles(_) => Failure::new(Exit::Inconclusive, "motion::beyond_doubles", message),
+        NoSelfMotion::NoLengths => Failure::refused("motion::bad_pose", message),
+        NoSelfMotion::NoStart => {
+            Failure::refused("motion::no_start", message).with_help("give --pose, or --sections 1 or more")
+        }
+        NoSelfMotion::Poses(_) => Failure::internal(message),
+    }
+}
+
+/// The pose or the leg lengths.
+fn start(args: &CurveQuestion, design: &Design) -> Result<MotionStart, Failure> {
     if let Some(text) = &args.lengths {
         let bad = |message: String| Failure::refused("motion::bad_lengths", format!("--lengths: {message}"));
         let lengths = six(text, &design.leg_offsets()).map_err(bad)?;
-        return Ok((None, lengths.distances.squared()));
+        return Ok(MotionStart::Lengths(lengths.distances.squared()));
     }
-    let start = poses::parse(&args.pose, design, "--pose", "motion::bad_pose")?;
-    let squares = start.squared_lengths(design.manipulator()).ok_or_else(|| {
-        Failure::refused("motion::bad_pose", "the leg lengths at this pose are not finite positive numbers")
-    })?;
-    Ok((Some(start), squares))
-}
-
-/// Points on random sections of the poses with these lengths, over the complex numbers.
-struct PoseSections {
-    /// Of the set: 0 when it is empty or isolated poses only.
-    dimension: usize,
-    points: Vec<FkRoot>,
-    /// The relation between the legs is proved, and all points of every section were found.
-    established: bool,
-}
-
-fn sections(
-    m: &Manipulator,
-    s: &SquaredLegLengths,
-    searches: u64,
-    seed: u64,
-) -> Result<PoseSections, Failure> {
-    let mut out = PoseSections { dimension: 0, points: Vec::new(), established: true };
-    for k in 0..searches {
-        let options = FkOptions::new().seed(seed.wrapping_add(k));
-        let found = Homotopy.solve(m, s, &options);
-        let found = found.map_err(|e| Failure::internal(format!("looking for further poses: {e}")))?;
-        if let SolutionSet::PositiveDimensional { witnesses, dimension, established } = &found.solution_set {
-            out.dimension = out.dimension.max(*dimension);
-            out.established &= established;
-            out.points.extend(witnesses.iter().cloned());
-        } else {
-            out.established &= found.all_accounted();
-        }
-    }
-    Ok(out)
+    poses::parse(&args.pose, design, "--pose", "motion::bad_pose").map(MotionStart::Pose)
 }
 
 /// The longest curve, animated.
-fn picture(design: &Design, found: &Found) -> Result<String, Failure> {
-    let length = |k: &usize| found.motion.curves[*k].points.last().map_or(0.0, |p| p.arc);
-    let longest = (0..found.motion.curves.len()).max_by(|x, y| length(x).total_cmp(&length(y)));
-    let Some(longest) = longest else {
+fn picture(design: &Design, found: &SelfMotionReport) -> Result<String, Failure> {
+    let Some(longest) = found.longest() else {
         return Err(Failure::new(Exit::No, "motion::no_curve", "there is no curve of poses to draw"));
     };
     let curve = &found.motion.curves[longest];

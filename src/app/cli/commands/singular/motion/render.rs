@@ -2,18 +2,17 @@
 
 use std::fmt::Write as _;
 
-use super::Found;
 use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use ask::Design;
+use ask::{Design, MotionOrigin, SelfMotionReport};
 use records::{
     CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, IsolatedRecord, MotionCurveRecord,
-    MotionEvidenceWord, Number, OriginWord, PoseQuaternionRecord, SelfmotionAnswer,
+    MotionEvidenceWord, Number, PoseQuaternionRecord, SelfmotionAnswer,
 };
 
 /// The answer.
-pub(super) fn answer(design: &Design, found: &Found) -> Answer {
+pub(super) fn answer(design: &Design, found: &SelfMotionReport) -> Answer {
     let motion = &found.motion;
     let critical = found.critical.as_ref();
     let curves = motion.curves.iter().zip(&found.degrees);
@@ -42,7 +41,7 @@ pub(super) fn answer(design: &Design, found: &Found) -> Answer {
             .collect(),
     };
     let text = text(&record);
-    Answer::new(found.exit, record, text)
+    Answer::new(found.moves().into(), record, text)
 }
 
 fn text(r: &SelfmotionAnswer) -> String {
@@ -73,7 +72,7 @@ fn text(r: &SelfmotionAnswer) -> String {
             Some(d) => write!(out, ", degree at least {}", d.degree),
             None => Ok(()),
         };
-        let origin = curve.found_by.map_or("", OriginWord::as_str);
+        let origin = curve.found_by.map_or("", MotionOrigin::as_str);
         let _ = writeln!(out, ", found from a {}", origin.replace('_', " "));
     }
     if !r.curves.is_empty() {
@@ -149,12 +148,12 @@ fn verdict(r: &SelfmotionAnswer) -> String {
 }
 
 /// Starting poses beside the one given.
-fn further(found: &Found) -> usize {
-    found.origins.iter().filter(|o| **o != OriginWord::Pose).count()
+fn further(found: &SelfMotionReport) -> usize {
+    found.origins.iter().filter(|o| **o != MotionOrigin::Pose).count()
 }
 
 /// One line a pose.
-pub(super) fn csv(found: &Found) -> String {
+pub(super) fn csv(found: &SelfMotionReport) -> String {
     let mut out = String::from("curve,point,arc,px,py,pz,qw,qx,qy,qz,length_error,gap\n");
     for (k, curve) in found.motion.curves.iter().enumerate() {
         for (i, point) in curve.points.iter().enumerate() {

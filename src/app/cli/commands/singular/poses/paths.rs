@@ -2,37 +2,18 @@
 
 use std::fmt::Write as _;
 
-use super::{Args, Judged};
+use super::Args;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::poses;
 use ::files::plot::{AlongFigure, AlongPart, sign_along};
-use ask::Design;
+use ask::{Design, SignPath, SignsBetween, SingularPosesReport};
 use platform::geom::Pose;
-use platform::manipulator::leg_determinant;
 use records::{
     Number, PoseQuaternionRecord, SignOutcome, SignPairRecord, SignPairsRecord, SignPartRecord,
     SignPathRecord, WayRecord,
 };
-use synthesis::singularity::{JoinOptions, Joined, Sign, SignsAlong, between, join, signs_along};
-
-/// Values of det J listed on each straight part of a path.
-const STEPS: usize = 100;
-
-/// The path of `--path`: its poses and the signs on each straight part.
-pub(super) struct Path {
-    ends: [usize; 2],
-    poses: Vec<Pose>,
-    parts: Vec<SignsAlong>,
-    /// `(part, u, pose, det J)`.
-    values: Vec<(usize, f64, Pose, f64)>,
-}
-
-/// What `--between` found: straight paths of all pairs of modes, and groups of modes.
-pub(super) struct Between {
-    straight: Vec<([usize; 2], SignsAlong)>,
-    joined: Joined,
-}
+use synthesis::singularity::{Sign, SignsAlong};
 
 fn refuse(message: String) -> Failure {
     Failure::refused("poses::bad_path", message)
@@ -43,130 +24,75 @@ fn refuse(message: String) -> Failure {
 pub(super) fn path(
     args: &Args,
     design: &Design,
-    middle: &Pose,
-    modes: &[Judged],
-) -> Result<Option<Path>, Failure> {
+    report: &SingularPosesReport,
+) -> Result<Option<SignPath>, Failure> {
     let Some(text) = &args.path else { return Ok(None) };
     let numbers =
-        text.split_once(',').and_then(|(a, b)| Some((a.trim().parse().ok()?, b.trim().parse().ok()?)));
-    let Some((from, to)) = numbers else {
-        return Err(refuse(format!("--path: `{text}` is not two numbers")));
-    };
-    let end = |k: usize| match k.checked_sub(1) {
-        None => Ok(*middle),
-        Some(k) => modes.get(k).map(|m| m.pose).ok_or_else(|| {
-            refuse(format!("--path: there is no assembly mode {}, there are {}", k + 1, modes.len()))
-        }),
-    };
-    let mut chain = vec![end(from)?];
-    for via in &args.via {
-        chain.push(poses::parse(via, design, "--via", "poses::bad_pose")?);
-    }
-    chain.push(end(to)?);
-    let m = design.manipulator();
-    let parts = chain.windows(2).map(|w| signs_along(m, &w[0], &w[1])).collect();
-    let mut values = Vec::new();
-    for (part, w) in chain.windows(2).enumerate() {
-        for k in 0..=STEPS {
-            let u = k as f64 / STEPS as f64;
-            let pose = between(&w[0], &w[1], u);
-            values.push((part, u, pose, leg_determinant(m, &pose)));
-        }
-    }
-    let path = Path { ends: [from, to], poses: chain, parts, values };
+        text.split_once(',').and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
+    let ends = numbers.ok_or_else(|| refuse(format!("--path: `{text}` is not two numbers")))?;
+    let via = args.via.iter().map(|text| poses::parse(text, design, "--via", "poses::bad_pose"));
+    let via: Vec<Pose> = via.collect::<Result<_, _>>()?;
+    let path = report.path(design, ends, &via).map_err(|k| {
+        refuse(format!("--path: there is no assembly mode {k}, there are {}", report.modes.len()))
+    })?;
     if let Some(file) = &args.csv {
-        files::write_text(file, &path.csv())?;
+        files::write_text(file, &csv(&path))?;
     }
     if let Some(file) = &args.path_svg {
-        files::write_text(file, &sign_along(&path.figure(design)))?;
+        files::write_text(file, &sign_along(&figure(&path, design)))?;
     }
     Ok(Some(path))
 }
 
-/// All pairs of modes, and the search for paths between those of equal sign.
-pub(super) fn all_pairs(args: &Args, design: &Design, modes: &[Judged], seed: u64) -> Option<Between> {
-    if !args.between {
-        return None;
+fn csv(path: &SignPath) -> String {
+    let mut out = String::from("part,u,x,y,z,qw,qx,qy,qz,det\n");
+    for (part, u, pose, det) in &path.values {
+        let _ = writeln!(out, "{},{u},{},{det}", part + 1, poses::csv_fields(pose));
     }
-    let m = design.manipulator();
-    let ends: Vec<Pose> = modes.iter().map(|mode| mode.pose).collect();
-    let pairs = (0..ends.len()).flat_map(|i| (i + 1..ends.len()).map(move |j| [i, j]));
-    let straight = pairs.map(|[i, j]| ([i, j], signs_along(m, &ends[i], &ends[j]))).collect();
-    let joined = join(m, &ends, &JoinOptions { samples: args.samples, seed });
-    Some(Between { straight, joined })
+    out
 }
 
-impl Path {
-    fn csv(&self) -> String {
-        let mut out = String::from("part,u,x,y,z,qw,qx,qy,qz,det\n");
-        for (part, u, pose, det) in &self.values {
-            let _ = writeln!(out, "{},{u},{},{det}", part + 1, poses::csv_fields(pose));
-        }
-        out
-    }
-
-    pub(super) fn record(&self) -> SignPathRecord {
-        let parts = self.parts.iter().enumerate().map(|(k, s)| {
-            let values = self.values.iter().filter(|v| v.0 == k).map(|v| [Number(v.1), Number(v.3)]);
-            SignPartRecord::new(s, values.collect())
-        });
-        SignPathRecord {
-            from: self.ends[0],
-            to: self.ends[1],
-            poses: self.poses.iter().map(PoseQuaternionRecord::from).collect(),
-            keeps_sign: self.keeps_sign(),
-            parts: parts.collect(),
-        }
-    }
-
-    fn figure(&self, design: &Design) -> AlongFigure {
-        let part = |(k, s): (usize, &SignsAlong)| AlongPart {
-            values: self.values.iter().filter(|v| v.0 == k).map(|v| (v.1, v.3)).collect(),
-            pieces: s.pieces.iter().map(|p| (p.from, p.to, p.sign.map_or(0, Sign::value))).collect(),
-        };
-        AlongFigure {
-            title: format!("{}: from mode {} to mode {}", design.name, self.ends[0], self.ends[1]),
-            note: "grounds: proved sign of det J; lines: no sign proved. Leg lines not divided by lengths, over the size to the sixth; 0 is the pose"
-                .into(),
-            quantity: "det J".into(),
-            parts: self.parts.iter().enumerate().map(part).collect(),
-        }
-    }
-
-    /// Whether det J is proved to keep its sign (`true`), proved to change it (`false`), or neither.
-    fn keeps_sign(&self) -> Option<bool> {
-        if self.parts.iter().all(|s| s.kept().is_some()) {
-            return Some(true);
-        }
-        self.parts.iter().any(|s| s.changes().next().is_some()).then_some(false)
+pub(super) fn path_record(path: &SignPath) -> SignPathRecord {
+    let parts = path.parts.iter().enumerate().map(|(k, s)| {
+        let values = path.values.iter().filter(|v| v.0 == k).map(|v| [Number(v.1), Number(v.3)]);
+        SignPartRecord::new(s, values.collect())
+    });
+    SignPathRecord {
+        from: path.ends[0],
+        to: path.ends[1],
+        poses: path.poses.iter().map(PoseQuaternionRecord::from).collect(),
+        keeps_sign: path.keeps_sign(),
+        parts: parts.collect(),
     }
 }
 
-impl Between {
-    fn joined(&self, i: usize, j: usize) -> Option<bool> {
-        if self.joined.groups.iter().any(|g| g.contains(&i) && g.contains(&j)) {
-            return Some(true);
-        }
-        match (self.joined.signs[i], self.joined.signs[j]) {
-            (Some(x), Some(y)) if x != y => Some(false),
-            _ => None,
-        }
+fn figure(path: &SignPath, design: &Design) -> AlongFigure {
+    let part = |(k, s): (usize, &SignsAlong)| AlongPart {
+        values: path.values.iter().filter(|v| v.0 == k).map(|v| (v.1, v.3)).collect(),
+        pieces: s.pieces.iter().map(|p| (p.from, p.to, p.sign.map_or(0, Sign::value))).collect(),
+    };
+    AlongFigure {
+        title: format!("{}: from mode {} to mode {}", design.name, path.ends[0], path.ends[1]),
+        note: "grounds: proved sign of det J; lines: no sign proved. Leg lines not divided by lengths, over the size to the sixth; 0 is the pose"
+            .into(),
+        quantity: "det J".into(),
+        parts: path.parts.iter().enumerate().map(part).collect(),
     }
+}
 
-    pub(super) fn record(&self) -> SignPairsRecord {
-        let pair = |([i, j], s): &([usize; 2], SignsAlong)| SignPairRecord {
-            modes: [i + 1, j + 1],
-            straight: s.into(),
-            changes: s.changes().count(),
-            joined: self.joined(*i, *j),
-        };
-        let groups = self.joined.groups.iter().map(|g| g.iter().map(|k| k + 1).collect());
-        SignPairsRecord {
-            signs: self.joined.signs.iter().map(|s| (*s).into()).collect(),
-            pairs: self.straight.iter().map(pair).collect(),
-            groups: groups.collect(),
-            ways: self.joined.ways.iter().map(WayRecord::from).collect(),
-        }
+pub(super) fn pairs_record(between: &SignsBetween) -> SignPairsRecord {
+    let pair = |([i, j], s): &([usize; 2], SignsAlong)| SignPairRecord {
+        modes: [i + 1, j + 1],
+        straight: s.into(),
+        changes: s.changes().count(),
+        joined: between.joins(*i, *j),
+    };
+    let groups = between.joined.groups.iter().map(|g| g.iter().map(|k| k + 1).collect());
+    SignPairsRecord {
+        signs: between.joined.signs.iter().map(|s| (*s).into()).collect(),
+        pairs: between.straight.iter().map(pair).collect(),
+        groups: groups.collect(),
+        ways: between.joined.ways.iter().map(WayRecord::from).collect(),
     }
 }
 

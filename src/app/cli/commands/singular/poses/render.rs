@@ -2,18 +2,17 @@
 
 use std::fmt::Write as _;
 
-use super::{Found, Judged, paths};
+use super::{Found, paths};
 use crate::app::cli::output::Answer;
-use ask::Design;
+use ask::{Design, PoseFigures};
 use platform::geom::Region;
-use platform::manipulator::LegLengths;
 use records::{
     JudgedPoseRecord, Number, PoseQuaternionRecord, RegionWord, RegularBoxRecord, RegularityRecord,
     RegularityWord, ScaledPoseRecord, SingularitiesAnswer,
 };
 use synthesis::singularity::BoxOptions;
 
-fn judged(j: &Judged) -> JudgedPoseRecord {
+fn judged(j: &PoseFigures) -> JudgedPoseRecord {
     JudgedPoseRecord {
         pose: (&j.pose).into(),
         determinant: Number(j.determinant),
@@ -30,20 +29,21 @@ fn region(options: &BoxOptions) -> RegionWord {
 }
 
 /// The answer.
-pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> Answer {
-    let regular = &found.regular;
+pub(super) fn answer(design: &Design, found: &Found) -> Answer {
+    let report = &found.report;
+    let regular = &report.regular;
     let record = SingularitiesAnswer {
         name: design.name.clone(),
         units: design.units.clone(),
-        regular: found.safe.as_ref().map(|(regularity, cells)| RegularityRecord::new(regularity, *cells)),
-        pose: judged(&found.middle),
-        lengths: lengths.get(),
-        assembly_modes: found.modes.iter().map(judged).collect(),
-        assembly_modes_accounted: found.modes_complete,
+        regular: report.safe.as_ref().map(|(regularity, cells)| RegularityRecord::new(regularity, *cells)),
+        pose: judged(&report.middle),
+        lengths: report.lengths.get(),
+        assembly_modes: report.modes.iter().map(judged).collect(),
+        assembly_modes_accounted: report.modes_complete,
         regular_box: RegularBoxRecord {
-            translation: found.options.translation,
-            rotation_deg: found.options.rotation_deg,
-            region: region(&found.options),
+            translation: report.options.translation,
+            rotation_deg: report.options.rotation_deg,
+            region: region(&report.options),
             proved_scale: Number(regular.proved),
             singular_within: regular
                 .refuted
@@ -51,11 +51,11 @@ pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> An
             searched_scale: Number(regular.searched),
             cells: regular.regions,
         },
-        path: found.path.as_ref().map(paths::Path::record),
-        between: found.between.as_ref().map(paths::Between::record),
+        path: found.path.as_ref().map(paths::path_record),
+        between: found.between.as_ref().map(paths::pairs_record),
     };
     let text = text(&record, found.of_the_design);
-    Answer::new(found.exit, record, text)
+    Answer::new(report.is_regular().into(), record, text)
 }
 
 fn text(r: &SingularitiesAnswer, of_the_design: bool) -> String {

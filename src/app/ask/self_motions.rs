@@ -1,0 +1,228 @@
+//! With which curves of poses does the platform move while all legs are locked?
+
+use thiserror::Error;
+
+use crate::Design;
+use fk::{FkError, FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, SolutionSet};
+use platform::geom::{ComplexPose, Pose};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
+use synthesis::singularity::{
+    CriticalPoses, CurveDegree, CurveEnd, MotionOptions, SelfMotion, critical_poses, curve_degree,
+    rounds_to_singular, self_motion,
+};
+
+/// What the curves begin with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MotionStart {
+    /// A pose, whose leg lengths are kept.
+    Pose(Pose),
+    /// Leg lengths, at which all real components are looked for.
+    Lengths(SquaredLegLengths),
+}
+
+/// Which curves are looked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SelfMotionOptions {
+    /// What they begin with.
+    pub start: MotionStart,
+    /// Random sections by which all curves over the complex numbers are cut; 0 follows only what hangs together with the
+    /// pose.
+    pub sections: u64,
+    /// How finely curves are followed, and the seed.
+    pub motion: MotionOptions,
+}
+
+/// How the first pose of a curve was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "OriginWord")]
+pub enum MotionOrigin {
+    /// It was given.
+    Pose,
+    /// On a section of the set of poses.
+    Section,
+    /// As a critical point.
+    CriticalPoint,
+    /// By a search.
+    Search,
+}
+
+impl MotionOrigin {
+    /// The word.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Pose => "pose",
+            Self::Section => "section",
+            Self::CriticalPoint => "critical_point",
+            Self::Search => "search",
+        }
+    }
+}
+
+/// Why no curve is looked for.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum NoSelfMotion {
+    /// The exact joints are regular and their doubles singular.
+    #[error(
+        "{0} is regular, proved about the exact joints, but their doubles are singular: curves are followed in doubles, and would be those of another design"
+    )]
+    BeyondDoubles(String),
+    /// A leg without a length at the pose.
+    #[error("the leg lengths at this pose are not finite positive numbers")]
+    NoLengths,
+    /// Lengths without sections leave no pose to start from.
+    #[error("no sections leave no pose to start from: with lengths the curves are found by sections")]
+    NoStart,
+    /// Forward kinematics failed.
+    #[error("looking for further poses: {0}")]
+    Poses(#[from] FkError),
+}
+
+/// The curves of poses with constant leg lengths.
+#[derive(Debug, Clone)]
+pub struct SelfMotionReport {
+    /// The pose given.
+    pub start: Option<Pose>,
+    /// The squared leg lengths.
+    pub squares: SquaredLegLengths,
+    /// Of the motion through the pose, or of the poses with the lengths, also where no real pose is on them; `None`:
+    /// undecided.
+    pub dimension: Option<usize>,
+    /// The curves.
+    pub motion: SelfMotion,
+    /// Of each curve.
+    pub degrees: Vec<Option<CurveDegree>>,
+    /// Of every starting pose.
+    pub origins: Vec<MotionOrigin>,
+    /// Real poses on surfaces and sets of higher dimension, which are not followed.
+    pub real_poses: Vec<Pose>,
+    /// Critical points of a distance on the curves, where they were looked for.
+    pub critical: Option<CriticalPoses>,
+    /// Whether, numerically, no real component is missing; `None` when no search was made.
+    pub accounted: Option<bool>,
+}
+
+impl SelfMotionReport {
+    fn is_whole(&self) -> bool {
+        self.motion.curves.iter().all(|c| matches!(c.end, CurveEnd::Closed | CurveEnd::Joined))
+    }
+
+    /// Whether the platform moves at the pose, or at some pose with the lengths; `None`: undecided.
+    #[must_use]
+    pub fn moves(&self) -> Option<bool> {
+        match self.dimension {
+            Some(0) if self.start.is_some() || self.accounted == Some(true) => Some(false),
+            Some(1) if self.is_whole() && !self.motion.curves.is_empty() && self.accounted != Some(false) => {
+                Some(true)
+            }
+            Some(1) if self.start.is_none() && self.accounted == Some(true) => Some(false),
+            // it moves, over a surface or more
+            Some(d) if d > 1 && !self.origins.is_empty() => Some(true),
+            _ => None,
+        }
+    }
+
+    /// The longest curve, counted from 0.
+    #[must_use]
+    pub fn longest(&self) -> Option<usize> {
+        let length = |k: &usize| self.motion.curves[*k].points.last().map_or(0.0, |p| p.arc);
+        (0..self.motion.curves.len()).max_by(|x, y| length(x).total_cmp(&length(y)))
+    }
+}
+
+impl Design {
+    /// The curves of poses with constant leg lengths, through a pose or for given lengths.
+    ///
+    /// # Errors
+    /// [`NoSelfMotion`].
+    pub fn self_motions(&self, options: &SelfMotionOptions) -> Result<SelfMotionReport, NoSelfMotion> {
+        let m = self.manipulator();
+        if rounds_to_singular(m) {
+            return Err(NoSelfMotion::BeyondDoubles(self.name.clone()));
+        }
+        let (start, squares) = match options.start {
+            MotionStart::Pose(pose) => (Some(pose), pose.squared_lengths(m).ok_or(NoSelfMotion::NoLengths)?),
+            MotionStart::Lengths(_) if options.sections == 0 => return Err(NoSelfMotion::NoStart),
+            MotionStart::Lengths(squares) => (None, squares),
+        };
+        let seed = options.motion.seed;
+        let mut starts: Vec<(Pose, MotionOrigin)> =
+            start.into_iter().map(|p| (p, MotionOrigin::Pose)).collect();
+        let mut motion = self_motion(m, &squares, start.as_slice(), &options.motion);
+        let mut dimension = motion.dimension();
+        let (mut critical, mut accounted) = (None, None);
+        if options.sections > 0 && (start.is_none() || dimension == Some(1)) {
+            let cut = PoseSections::of(m, &squares, options.sections, seed)?;
+            dimension = if start.is_none() { Some(cut.dimension) } else { dimension };
+            if cut.dimension == 1 {
+                starts.extend(cut.real().map(|pose| (pose, MotionOrigin::Section)));
+                let given = start.into_iter().map(ComplexPose::from);
+                let on: Vec<ComplexPose> = given.chain(cut.points.iter().map(|r| r.pose)).collect();
+                let found = critical_poses(m, &squares, &on, seed);
+                starts.extend(found.poses.iter().map(|p| (*p, MotionOrigin::CriticalPoint)));
+                accounted = Some(found.is_accounted() && cut.established);
+                critical = Some(found);
+            } else {
+                // surfaces are not followed: a real pose on each real component that was met has to do
+                starts.extend(cut.real().map(|pose| (pose, MotionOrigin::Search)));
+                // no search counts the components of a surface
+                let counted = cut.dimension == 0 || start.is_some();
+                accounted = counted.then_some(start.is_none() && cut.established);
+            }
+            let all: Vec<Pose> = starts.iter().map(|s| s.0).collect();
+            motion = self_motion(m, &squares, &all, &options.motion);
+        }
+        let degree = |curve: &synthesis::singularity::MotionCurve| {
+            let best = curve.points.iter().max_by(|x, y| x.gap.total_cmp(&y.gap))?;
+            curve_degree(m, &squares, &best.pose, seed)
+        };
+        let real_poses = starts.iter().filter(|s| s.1 == MotionOrigin::Search).map(|s| s.0).collect();
+        let mut report = SelfMotionReport {
+            degrees: motion.curves.iter().map(degree).collect(),
+            origins: starts.iter().map(|s| s.1).collect(),
+            start,
+            squares,
+            dimension,
+            motion,
+            real_poses,
+            critical,
+            accounted,
+        };
+        let followed = dimension != Some(1) || starts.is_empty() || report.motion.dimension() == Some(1);
+        report.accounted = accounted.map(|a| a && report.is_whole() && followed);
+        Ok(report)
+    }
+}
+
+/// Points on random sections of the poses with these lengths, over the complex numbers.
+struct PoseSections {
+    /// Of the set: 0 when it is empty or isolated poses only.
+    dimension: usize,
+    points: Vec<FkRoot>,
+    /// The relation between the legs is proved, and all points of every section were found.
+    established: bool,
+}
+
+impl PoseSections {
+    fn of(m: &Manipulator, s: &SquaredLegLengths, sections: u64, seed: u64) -> Result<Self, FkError> {
+        let mut out = Self { dimension: 0, points: Vec::new(), established: true };
+        for k in 0..sections {
+            let found = Homotopy.solve(m, s, &FkOptions::new().seed(seed.wrapping_add(k)))?;
+            if let SolutionSet::PositiveDimensional { witnesses, dimension, established } =
+                &found.solution_set
+            {
+                out.dimension = out.dimension.max(*dimension);
+                out.established &= established;
+                out.points.extend(witnesses.iter().cloned());
+            } else {
+                out.established &= found.all_accounted();
+            }
+        }
+        Ok(out)
+    }
+
+    fn real(&self) -> impl Iterator<Item = Pose> {
+        self.points.iter().filter(|r| r.reality == Reality::Real).map(|r| r.pose.real_part())
+    }
+}
