@@ -4,6 +4,7 @@
 //!
 //! * `ask` (a package): one function for each question.
 //! * `records` (a package): every answer as plain data.
+//! * `sheet` (a package): every answer as lines and tables, in text, Markdown and HTML.
 //! * [`cli`]: the program.
 //!
 //! A door reads its arguments, asks one question, and shows the record of the answer as text, JSON, HTML or arrays.

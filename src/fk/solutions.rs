@@ -214,7 +214,7 @@ impl PathEnd {
 
 /// What a path of the homotopy did.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
 pub struct PathReport {
     /// Index of the start point.
     pub start: usize,
@@ -259,7 +259,7 @@ pub enum RejectionReason {
 
 /// A candidate that is no root.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "RejectedRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "RejectedRecord", transform = num::nullable))]
 pub struct Rejected {
     /// Why.
     pub reason: RejectionReason,

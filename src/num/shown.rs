@@ -9,6 +9,26 @@ pub fn fixed(x: f64, decimals: usize) -> String {
     }
 }
 
+/// Six significant digits.
+pub fn significant(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return format!("{}", x + 0.0);
+    }
+    let digits = 5 - x.abs().log10().floor() as i64;
+    match usize::try_from(digits) {
+        Ok(digits) if digits <= 12 => {
+            let text = format!("{x:.digits$}");
+            if text.contains('.') {
+                text.trim_end_matches('0').trim_end_matches('.').to_string()
+            } else {
+                text
+            }
+        }
+        Err(_) if x.abs() < 1e15 => format!("{x:.0}"),
+        _ => format!("{x:.5e}"),
+    }
+}
+
 /// A positive number, rounded down to three digits that count: a limit that is kept where this one is.
 pub fn rounded_down(x: f64) -> String {
     let (mut decimals, mut scale) = (0, 1.0);
@@ -30,5 +50,22 @@ mod tests {
         let down = [0.012_399, 1.0, 0.999_99, 123.4, 5432.1, 6.015e-7].map(rounded_down);
         assert_eq!(down, ["0.0123", "1.00", "0.999", "123", "5432", "0.000000601"]);
         assert_eq!([-0.4, -0.6, f64::NEG_INFINITY].map(|x| fixed(x, 0)), ["0", "-1", "-inf"]);
+    }
+
+    #[test]
+    fn numbers_for_people_have_six_digits_that_count() {
+        for (x, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1"),
+            (-123.456_789, "-123.457"),
+            (123_456_789.0, "123456789"),
+            (1.25e-6, "0.00000125"),
+            (1.25e-9, "1.25000e-9"),
+            (1e300, "1.00000e300"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(significant(x), text);
+        }
     }
 }

@@ -39,7 +39,7 @@ pub struct FamilyTopology {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     schemars(rename = "CountsRecord")
 )]
 pub struct FamilyCounts {

@@ -57,7 +57,7 @@ impl RoundingChoices {
 }
 
 /// Which rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "VariantWord")]
 pub enum RoundingWay {

@@ -18,7 +18,6 @@ mod output;
 mod poses;
 mod progress;
 mod reference;
-mod requirements;
 mod rows;
 mod streams;
 mod sweep_folder;

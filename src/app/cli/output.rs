@@ -1,6 +1,6 @@
 //! Answers and failures to standard output and standard error.
 
-use std::fmt::Debug;
+use std::fmt::{Debug, Display};
 use std::io;
 
 use serde::Serialize;
@@ -22,8 +22,8 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    pub(crate) fn new(exit: Exit, record: impl Serialize + Debug + 'static, text: String) -> Self {
-        Self { exit, record: Box::new(record), text }
+    pub(crate) fn new(exit: Exit, record: impl Serialize + Debug + 'static, text: impl Display) -> Self {
+        Self { exit, record: Box::new(record), text: text.to_string() }
     }
 }
 

@@ -27,6 +27,13 @@ pub(super) fn preset_names() -> Vec<&'static str> {
     PRESETS.iter().map(|p| p.name).collect()
 }
 
+/// What a notebook shows of an answer: the sheet of its JSON document.
+#[pyfunction]
+pub(super) fn sheet_html(document: &str) -> PyResult<String> {
+    let fields = serde_json::from_str(document).map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
+    Ok(sheet::shown(&sheet::answers::document(&fields).html()))
+}
+
 /// `A` and `c` of the affine map of squared leg lengths, and the answer of `equipod equivalents map`.
 #[pyfunction]
 #[allow(clippy::type_complexity)]

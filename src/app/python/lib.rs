@@ -30,7 +30,7 @@ fn main(py: Python<'_>, args: Vec<String>) -> u8 {
 #[pyo3(name = "_core")]
 mod core {
     #[pymodule_export]
-    use super::answers::{leg_map, preset_names, verify};
+    use super::answers::{leg_map, preset_names, sheet_html, verify};
     #[pymodule_export]
     use super::command::ask;
     #[pymodule_export]

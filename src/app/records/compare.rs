@@ -1,7 +1,7 @@
 //! Answers that set designs side by side.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::nearest::short;
 use super::{AssessAnswer, JudgedPosesRecord, LightestDriveRecord, Number};
@@ -10,7 +10,7 @@ use ask::DesignFigures;
 use files::design::JudgedForces;
 
 /// The answer of `compare`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CompareAnswer {
     /// Of all designs.
     pub length_unit: String,
@@ -29,7 +29,7 @@ pub struct CompareAnswer {
 }
 
 /// How far the pose may be off.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AccuracyRecord {
     /// Of the platform origin, design units.
     pub position: f64,
@@ -38,7 +38,7 @@ pub struct AccuracyRecord {
 }
 
 /// The figures of a design over the poses of its workspace, at home where it states none. Null: the design says nothing about it, or the value is not finite.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FiguresRecord {
     /// Name of the design.
     pub name: String,
@@ -99,7 +99,7 @@ pub struct FiguresRecord {
 }
 
 /// What cranks do over the poses that all rods reach.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CrankFiguresRecord {
     /// Least angle; null: no pose is reached.
     pub least_deg: Option<Number>,
@@ -183,6 +183,13 @@ pub struct FigureColumn {
     pub unit: String,
     /// By design; `None` where a design has none.
     pub cells: Vec<Option<FigureCell>>,
+}
+
+impl FigureColumn {
+    /// The title with the unit.
+    pub fn heading(&self) -> String {
+        if self.unit.is_empty() { self.title.clone() } else { format!("{} [{}]", self.title, self.unit) }
+    }
 }
 
 /// A cell of the table.

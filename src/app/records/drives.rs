@@ -1,13 +1,13 @@
 //! Answers about the drives of a table.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{AssessAnswer, DesignRecord, MotionRunRecord, Number};
 use ask::driving::{DriveFit, LightestDrive};
 
 /// The answer of `build drives`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DrivesAnswer {
     /// The name of the design.
     pub name: String,
@@ -34,7 +34,7 @@ pub struct DrivesAnswer {
 }
 
 /// A drive of the table, in the units of the design.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DriveRecord {
     /// Its name.
     pub name: String,
@@ -93,7 +93,7 @@ impl DriveRecord {
 }
 
 /// The lightest drive of the table that a design names with which its requirements are met.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LightestDriveRecord {
     /// Its name; null: none is proved to suffice.
     pub name: Option<String>,

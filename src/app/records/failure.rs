@@ -1,10 +1,10 @@
 //! Warnings, refusals and failures.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Something odd about a design file that does not keep it from being used.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct WarningRecord {
     /// A stable short code.
     pub code: String,
@@ -19,14 +19,14 @@ pub struct WarningRecord {
 }
 
 /// Why there is no answer: a refusal of what was asked, or a failure of the program.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct ErrorAnswer {
     /// What went wrong.
     pub error: FailureRecord,
 }
 
 /// A refusal or a failure.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FailureRecord {
     /// A stable short code, `fk::not_applicable` for example.
     pub code: String,
@@ -43,7 +43,7 @@ pub struct FailureRecord {
 }
 
 /// One thing that is wrong with a design file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct ViolationRecord {
     /// A stable short code.
     pub code: String,
@@ -58,7 +58,7 @@ pub struct ViolationRecord {
 }
 
 /// What `--help`, `--version` and `--licences` print.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct HelpAnswer {
     /// The text.
     pub help: String,

@@ -1,7 +1,7 @@
 //! Answers about every platform equivalent to an octahedral design.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::map::matrix;
 use super::{Number, leg_number};
@@ -14,7 +14,7 @@ use synthesis::{
 };
 
 /// The answer of `equivalents family`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FamilyAnswer {
     /// The name of the design.
     pub name: String,
@@ -51,7 +51,7 @@ impl FamilyAnswer {
 }
 
 /// Which legs are kept and which are moved along which edge.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PatternRecord {
     /// Its name: V and the vertices kept, S and the sides of the moved ones.
     pub id: String,
@@ -83,7 +83,7 @@ pub struct PatternRecord {
 }
 
 /// One leg of a pattern.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PatternLegRecord {
     /// Its base joint.
     pub base: String,
@@ -95,7 +95,7 @@ pub struct PatternLegRecord {
 }
 
 /// Where a leg of a pattern stands on the hexagon.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum PatternPlace {
     /// Kept.
@@ -112,7 +112,7 @@ pub enum PatternPlace {
 }
 
 /// A joint that holds more than one leg.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SharedJointRecord {
     /// The body it is on.
     pub body: Body,
@@ -164,7 +164,7 @@ impl PatternRecord {
 }
 
 /// A way in which the legs of equivalent platforms share joints.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FamilyTopologyRecord {
     /// Its number, from 1.
     pub topology: usize,
@@ -197,7 +197,7 @@ impl From<(usize, &synthesis::FamilyTopology)> for FamilyTopologyRecord {
 }
 
 /// The platform of a pattern at given offsets.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct InstanceRecord {
     /// The pattern.
     pub pattern: String,

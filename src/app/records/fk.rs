@@ -6,7 +6,7 @@ mod pose_count;
 
 use num_complex::Complex64;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use self::certificate::{CertificateRecord, DiscsRecord, EnclosureRecord};
 pub use self::closure::{ClosurePolynomialRecord, ClosureRecord, TrilaterationStepRecord};
@@ -19,7 +19,7 @@ use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, height_above_base};
 
 /// The answer of `fk`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FkAnswer {
     /// The lengths come from a CSV file: one record a row.
@@ -29,14 +29,14 @@ pub enum FkAnswer {
 }
 
 /// The poses with the lengths of each row of a file.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FkRowsAnswer {
     /// In the order of the file.
     pub rows: Vec<FkRowRecord>,
 }
 
 /// One row of a file of lengths.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FkRowRecord {
     /// The line of the CSV file, from 1.
     pub line: usize,
@@ -54,7 +54,7 @@ pub struct FkRowRecord {
 }
 
 /// What came of a row.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FkRowOutcome {
     /// It was solved.
@@ -64,14 +64,14 @@ pub enum FkRowOutcome {
 }
 
 /// Why a row has no poses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RowFailure {
     /// The failure, as the command would have reported it for this row alone.
     pub error: FailureRecord,
 }
 
 /// The poses with one set of lengths, and what was asked for besides.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FkOneAnswer {
     /// The poses.
     #[serde(flatten)]
@@ -126,7 +126,7 @@ impl FkOneAnswer {
 }
 
 /// All finite complex poses with given leg lengths, and whether these are all.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SolvedRecord {
     /// The method that found them.
     pub method: Method,
@@ -165,7 +165,7 @@ pub struct SolvedRecord {
 }
 
 /// Whether all poses are known to be listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CompletenessWord {
     /// By a theorem.
@@ -263,7 +263,7 @@ impl SolvedRecord {
 }
 
 /// What the finite poses form.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "solution_set", rename_all = "snake_case")]
 pub enum SolutionSetRecord {
     /// Nothing speaks against isolated poses.
@@ -320,7 +320,7 @@ impl From<&FkSolutions> for SolutionSetRecord {
 }
 
 /// A pose over the complex numbers.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ComplexPoseRecord {
     /// Rotation matrix, rows.
     #[serde(rename = "R")]
@@ -349,7 +349,7 @@ impl From<&ComplexPoseRecord> for ComplexPose {
 }
 
 /// A real pose in real numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RealPoseRecord {
     /// Position of the platform origin, base frame, design units.
     pub position: [f64; 3],
@@ -371,7 +371,7 @@ pub struct RealPoseRecord {
 }
 
 /// A side of the plane of the base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SideWord {
     /// The side where the platform is at home.
@@ -381,7 +381,7 @@ pub enum SideWord {
 }
 
 /// One pose with its evidence.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SolutionRecord {
     /// The pose.
     #[serde(flatten)]

@@ -1,7 +1,7 @@
 //! Answers of inverse kinematics: the leg lengths at given poses.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{
     DriveLengthsRecord, Number, PoseRecord, PoseUncertaintyRecord, RotaryIkRecord, RotaryIkRowsAnswer,
@@ -14,7 +14,7 @@ use platform::geom::Pose;
 use platform::manipulator::{inverse_condition, jacobian};
 
 /// The answer of `ik`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum IkAnswer {
     /// Several poses were given, or a table.
@@ -28,14 +28,14 @@ pub enum IkAnswer {
 }
 
 /// The lengths at several poses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IkRowsAnswer {
     /// In the order given.
     pub rows: Vec<IkRecord>,
 }
 
 /// The lengths at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IkRecord {
     /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
@@ -72,7 +72,7 @@ pub struct IkRecord {
 }
 
 /// How the joints stand, in leg order, measured from their axes: `base_axes` and `platform_axes` of the design, else the legs at home.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JointAnglesRecord {
     /// Angles between legs and the axes of their base joints.
     pub base_swing_deg: [Number; 6],
@@ -85,7 +85,7 @@ pub struct JointAnglesRecord {
 }
 
 /// The wrench of the flexures on the platform about its origin, base frame.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FlexureRecord {
     /// Force units.
     pub force: [Number; 3],
@@ -94,7 +94,7 @@ pub struct FlexureRecord {
 }
 
 /// By how much a kind of requirement is met at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseMarginRecord {
     /// The kind.
     pub name: TermKind,

@@ -54,7 +54,7 @@ mod verify;
 mod written;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 #[cfg(feature = "lab")]
 pub use self::bench::*;
@@ -104,7 +104,7 @@ pub use num::Number;
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// One JSON document: an answer between what all answers have.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Document<T> {
     /// Always 1: the version of these definitions.
     #[schemars(extend("const" = SCHEMA_VERSION))]

@@ -1,7 +1,7 @@
 //! Answers about how far the platform may move from a pose.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord};
 use ask::Design;
@@ -11,7 +11,7 @@ use machine::requirements::{Limit, TermKind};
 use platform::geom::Pose;
 
 /// The answer of `limits`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LimitsAnswer {
     /// The pose of `--at`.
     pub pose: PoseQuaternionRecord,
@@ -32,7 +32,7 @@ pub struct LimitsAnswer {
 }
 
 /// How large the workspace is around home.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorkspaceSizeRecord {
     /// Volume of the positions that straight ways from home at its orientation reach, design units cubed; an estimate from the ways that were followed.
     pub volume: f64,
@@ -61,7 +61,7 @@ pub struct WorkspaceSizeRecord {
 }
 
 /// What ends ways.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RayEndRecord {
     /// The kind of requirement; null: a singular pose, or nothing within ten sizes.
     pub name: Option<TermKind>,
@@ -72,7 +72,7 @@ pub struct RayEndRecord {
 }
 
 /// Up to which size a region around home is free.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeSizeRecord {
     /// Proved: all poses of the region of this size meet all requirements that depend on the pose, and none is singular; 0: nothing is proved.
     pub proved: f64,
@@ -83,7 +83,7 @@ pub struct FreeSizeRecord {
 }
 
 /// How far the platform may turn about an axis.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeTurnRecord {
     /// `x`, `y` or `z` of the base frame.
     pub axis: String,
@@ -98,7 +98,7 @@ pub struct FreeTurnRecord {
 }
 
 /// The region that a design asks for.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RequiredSizeRecord {
     /// Of its translations, design units cubed.
     pub volume: f64,
@@ -166,7 +166,7 @@ impl WorkspaceSizeRecord {
 }
 
 /// A requirement that binds or is violated.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LimitRecord {
     /// The kind; null: a singular pose, where det J vanishes.
     pub name: Option<TermKind>,
@@ -181,7 +181,7 @@ pub struct LimitRecord {
 }
 
 /// How far one of the six numbers of a pose may move.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeRangeRecord {
     /// Which number, with `R = Rz(yaw) Ry(pitch) Rx(roll)`.
     pub axis: PoseAxis,
@@ -196,7 +196,7 @@ pub struct FreeRangeRecord {
 }
 
 /// A free way and its end.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TravelRecord {
     /// How far, not negative.
     pub free: f64,
@@ -207,7 +207,7 @@ pub struct TravelRecord {
 }
 
 /// The straight way to another pose: the platform origin moves on a line while the platform turns about one axis.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StraightWayRecord {
     /// Where it ends.
     pub to: PoseQuaternionRecord,
@@ -220,7 +220,7 @@ pub struct StraightWayRecord {
 }
 
 /// An allowed pose near one that is not.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearestAllowedRecord {
     /// The pose.
     pub pose: PoseQuaternionRecord,

@@ -1,7 +1,7 @@
 //! Answers about the affine map between the squared leg lengths of two designs, and the frames in which they are compared.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, leg_number};
 use platform::manipulator::Level;
@@ -9,7 +9,7 @@ use synthesis::alignment::{Alignment, AlignmentUndecided, Difference, Motion, Ne
 use synthesis::{AffineLegMap, LegCorrespondence, LegMapOutcome, Relation};
 
 /// The answer of `equivalents map`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapAnswer {
     /// The map.
     #[serde(flatten)]
@@ -22,7 +22,7 @@ pub struct MapAnswer {
 }
 
 /// The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapRecord {
     /// What the designs have to do with each other; null: undecided, exit 3.
     pub relation: Option<Relation>,
@@ -70,7 +70,7 @@ pub struct MapRecord {
 }
 
 /// Limits of the decision about a map.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapTolerancesRecord {
     /// Of `residual`.
     pub residual: f64,
@@ -117,7 +117,7 @@ impl From<&LegMapOutcome> for MapRecord {
 }
 
 /// Which leg of FROM each leg of TO is.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CorrespondenceRecord {
     /// The leg of FROM, from 1; null: none of them.
     pub legs: [Option<usize>; 6],
@@ -141,7 +141,7 @@ impl From<&LegCorrespondence> for CorrespondenceRecord {
 }
 
 /// What `--exchange`, `--align` and `--output` did with the second design.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct FramesRecord {
     /// Base and platform of the second design were exchanged first.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -155,7 +155,7 @@ pub struct FramesRecord {
 }
 
 /// The rigid motions that make one design equivalent to another.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AlignmentRecord {
     /// One sentence with the numbers that decided.
     pub explanation: String,
@@ -169,7 +169,7 @@ pub struct AlignmentRecord {
 }
 
 /// What a search for rigid motions found.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum AlignmentOutcome {
     /// These motions.
@@ -229,7 +229,7 @@ impl From<&Alignment> for AlignmentOutcome {
 }
 
 /// A pair of rigid motions of the second design.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionRecord {
     /// Of its base.
     pub base: PoseRecord,
@@ -256,7 +256,7 @@ impl From<&Motion> for MotionRecord {
 }
 
 /// What was found for the second design taken otherwise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct OtherAlignmentRecord {
     /// Whether there are motions.
     pub status: AlignmentWord,
@@ -265,7 +265,7 @@ pub struct OtherAlignmentRecord {
 }
 
 /// Whether rigid motions were found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AlignmentWord {
     /// They were.

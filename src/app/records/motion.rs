@@ -1,7 +1,7 @@
 //! Answers about the legs along a motion.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{MarginRecord, Number, PoseQuaternionRecord};
 use ask::Design;
@@ -10,7 +10,7 @@ use machine::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vib
 use synthesis::singularity::SingularEvidence;
 
 /// The answer of `motion`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionAnswer {
     /// The name of the design.
     pub name: String,
@@ -31,7 +31,7 @@ pub struct MotionAnswer {
 }
 
 /// Stiffness and natural motions at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StiffnessRecord {
     /// The pose.
     pub pose: PoseQuaternionRecord,
@@ -47,7 +47,7 @@ pub struct StiffnessRecord {
 }
 
 /// A natural motion.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NaturalMotionRecord {
     /// Its frequency.
     pub frequency_hz: Number,
@@ -78,7 +78,7 @@ impl StiffnessRecord {
 }
 
 /// The legs along a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionRunRecord {
     /// The file of the trajectory, or the manoeuvre as it was asked for.
     pub motion: String,
@@ -109,7 +109,7 @@ pub struct MotionRunRecord {
 }
 
 /// Whether every pose of a motion is regular.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionRegularity {
     /// det J is proved to keep its sign on the whole motion, between the instants too.
@@ -156,7 +156,7 @@ fn each<T>(found: &MotionReport, record: fn(usize, &LegExtremes) -> T) -> Vec<T>
 }
 
 /// A margin with its time.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TimedMarginRecord {
     /// When the margin is least.
     pub time_s: f64,
@@ -171,7 +171,7 @@ impl TimedMarginRecord {
 }
 
 /// A leg along a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LegMotionRecord {
     /// From 1.
     pub leg: usize,
@@ -210,7 +210,7 @@ impl LegMotionRecord {
 }
 
 /// A crank along a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CrankMotionRecord {
     /// From 1.
     pub leg: usize,

@@ -1,14 +1,14 @@
 //! How one pose was followed from a known one.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, PoseUncertaintyRecord};
 use fk::NearOutcome;
 use platform::geom::Pose;
 
 /// The way from the start to the pose reached, with the numbers that prove it free of singularities.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearRecord {
     /// What came of it.
     pub outcome: NearWord,
@@ -40,7 +40,7 @@ pub struct NearRecord {
 }
 
 /// What came of following a pose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum NearWord {
     /// The pose for the lengths asked for.

@@ -1,13 +1,13 @@
 //! The answer of `new`.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{PoseRecord, PresetFile};
 use synthesis::singularity::SingularEvidence;
 
 /// The answer of `new`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NewAnswer {
     /// The name of the design.
     pub name: String,

@@ -2,12 +2,12 @@
 
 use num_complex::Complex64;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use num::Number;
 
 /// Complex numbers in some arrangement: real and imaginary parts, each in that arrangement.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ComplexRecord<T> {
     /// Real parts.
     pub re: T,
@@ -28,7 +28,7 @@ impl<const N: usize, const M: usize> From<[[Complex64; N]; M]> for ComplexRecord
 }
 
 /// The fields of a record that stand among those of another: all of them or none.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum AllOrNone<T> {
     /// There is one.

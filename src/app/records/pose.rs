@@ -4,14 +4,14 @@ use std::borrow::Cow;
 
 use nalgebra::Point3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Number;
 pub use platform::geom::{PoseQuaternionRecord, PoseRecord};
 use platform::manipulator::LegIndex;
 
 /// Where a home pose or a workspace comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SourceWord {
     /// The design.
@@ -52,6 +52,17 @@ impl NamedPoints {
 impl Serialize for NamedPoints {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_map(self.0.iter().map(|(name, point)| (name, point)))
+    }
+}
+
+impl<'de> Deserialize<'de> for NamedPoints {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        // in the order of the text
+        let points = serde_json::Map::deserialize(from)?.into_iter();
+        let point = |(name, value)| {
+            serde_json::from_value(value).map(|point| (name, point)).map_err(serde::de::Error::custom)
+        };
+        points.map(point).collect::<Result<_, _>>().map(Self)
     }
 }
 

@@ -2,13 +2,13 @@
 
 use data_encoding::HEXLOWER;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use ask::Design;
 
 /// What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a machine in it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct ProvenanceRecord {
     /// The version of the program.
     pub version: String,
@@ -21,7 +21,7 @@ pub struct ProvenanceRecord {
 }
 
 /// A design that an answer is about.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct DesignSourceRecord {
     /// The name of the design.
     pub name: String,
@@ -33,7 +33,7 @@ pub struct DesignSourceRecord {
 }
 
 /// A file that is no design.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FileSourceRecord {
     /// The file, as it was named.
     pub path: String,

@@ -11,7 +11,7 @@ use machine::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Stan
 use synthesis::singularity::Regularity;
 
 /// The least margin of a kind of requirement.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MarginRecord {
     /// The kind.
     pub name: TermKind,
@@ -97,7 +97,7 @@ impl MarginRecord {
 }
 
 /// The answer of `assess`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AssessAnswer {
     /// The design judged.
     pub name: String,
@@ -222,7 +222,7 @@ impl DesignRoleWord {
 }
 
 /// The poses that a judgement is about, with home.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct JudgedPosesRecord {
     /// The design states a workspace; else home alone is judged.
     pub stated: bool,
@@ -249,7 +249,7 @@ impl From<JudgedPoses> for JudgedPosesRecord {
 }
 
 /// The worst conditioned pose.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LeastConditioningRecord {
     /// Smallest over largest singular value of the Jacobian with unit lines and moments over the characteristic length: 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
@@ -260,7 +260,7 @@ pub struct LeastConditioningRecord {
 }
 
 /// Whether det J vanishes at no pose of the workspace.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RegularityRecord {
     /// Null: undecided.
     pub met: Option<bool>,
@@ -273,7 +273,7 @@ pub struct RegularityRecord {
 }
 
 /// What is known of the sign of det J.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RegularityWord {
     /// It vanishes at no pose.

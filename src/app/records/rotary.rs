@@ -1,7 +1,7 @@
 //! Answers of inverse kinematics where the legs are rods of constant length on cranks: angles in place of lengths.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseMarginRecord, PoseRecord};
 use ask::Design;
@@ -11,14 +11,14 @@ use platform::geom::Pose;
 use platform::manipulator::{inverse_condition, jacobian};
 
 /// The angles of cranks at several poses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RotaryIkRowsAnswer {
     /// In the order given.
     pub rows: Vec<RotaryIkRecord>,
 }
 
 /// The angles of cranks at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RotaryIkRecord {
     /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
@@ -51,7 +51,7 @@ pub struct RotaryIkRecord {
 }
 
 /// A rod that does not reach from the circle of its crank to the platform joint.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OutOfReachRecord {
     /// The leg, from 1.
     pub leg: usize,
@@ -60,7 +60,7 @@ pub struct OutOfReachRecord {
 }
 
 /// How a crank stands at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CrankRecord {
     /// The side that the design keeps.
     pub elbow: Elbow,
@@ -79,7 +79,7 @@ pub struct CrankRecord {
 }
 
 /// Torques that hold a load.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CrankTorquesRecord {
     /// The load.
     pub load: String,

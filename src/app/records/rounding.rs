@@ -1,7 +1,7 @@
 //! Answers about joints on grids of holes.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::tolerances::joint_name;
 use super::{AssessAnswer, DesignRecord, Number, PoseErrorRecord, VerdictWord};
@@ -15,7 +15,7 @@ use platform::manipulator::Body;
 use verify::{Verification, VerifyError};
 
 /// The answer of `build round`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundAnswer {
     /// The name of the design.
     pub name: String,
@@ -44,7 +44,7 @@ pub struct RoundAnswer {
 }
 
 /// The grids of both bodies.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GridsRecord {
     /// Of the base; null: its joints stay where they are.
     pub base: Option<GridRecord>,
@@ -53,7 +53,7 @@ pub struct GridsRecord {
 }
 
 /// A grid of holes in the plane of a body.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GridRecord {
     /// How the holes lie.
     pub pattern: HolePattern,
@@ -101,7 +101,7 @@ impl From<&[Option<Grid>; 2]> for GridsRecord {
 }
 
 /// The exact rounding, or why there is none.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExactRoundingOutcome {
     /// There is one.
@@ -111,7 +111,7 @@ pub enum ExactRoundingOutcome {
 }
 
 /// The nearest rounding, or why there is none.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum NearestRoundingOutcome {
     /// There is one.
@@ -121,14 +121,14 @@ pub enum NearestRoundingOutcome {
 }
 
 /// Why there is no rounding.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct NoRoundingRecord {
     /// What stands against it.
     pub error: NoRoundingError,
 }
 
 /// What stands against a rounding.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct NoRoundingError {
     /// A short code.
     pub code: NoRoundingWord,
@@ -137,7 +137,7 @@ pub struct NoRoundingError {
 }
 
 /// A short code for what stands against a rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum NoRoundingWord {
     /// The joints are not on the sides of two triangles.
@@ -175,7 +175,7 @@ impl From<NoRounding> for NoRoundingRecord {
 }
 
 /// The word for a verification that may not have been computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RoundingVerdict {
     /// It could not be computed.
@@ -203,7 +203,7 @@ impl From<&Result<Verification, VerifyError>> for RoundingVerdict {
 }
 
 /// All joints exactly on the sides of two triangles whose corners are holes.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ExactRoundingRecord {
     /// The grids used.
     pub grids: GridsRecord,
@@ -224,7 +224,7 @@ pub struct ExactRoundingRecord {
 }
 
 /// How an exact rounding was found.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundingSearchRecord {
     /// Triangles of base and platform that were combined.
     pub triangles: [usize; 2],
@@ -235,7 +235,7 @@ pub struct RoundingSearchRecord {
 }
 
 /// All joints on holes next to where they are wanted.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearestRoundingRecord {
     /// The grids used.
     pub grids: GridsRecord,
@@ -256,7 +256,7 @@ pub struct NearestRoundingRecord {
 }
 
 /// The error of the pose when a rounded platform is controlled as the wanted one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundingErrorRecord {
     /// To first order.
     pub first_order: PoseErrorRecord,
@@ -269,7 +269,7 @@ pub struct RoundingErrorRecord {
 }
 
 /// A joint on a hole.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundedJointRecord {
     /// Its body.
     pub body: Body,

@@ -1,7 +1,7 @@
 //! Answers about the curves of poses with constant leg lengths.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{CompletenessWord, Number, PoseQuaternionRecord};
 use ask::MotionOrigin;
@@ -10,7 +10,7 @@ use synthesis::singularity::{
 };
 
 /// The answer of `singular motion`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SelfmotionAnswer {
     /// The name of the design.
     pub name: String,
@@ -51,7 +51,7 @@ pub struct SelfmotionAnswer {
 }
 
 /// What shows the dimension of a self-motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionEvidenceWord {
     /// Proved: the leg lines are independent at the pose.
@@ -81,7 +81,7 @@ impl From<PoseVerdict> for MotionEvidenceWord {
 }
 
 /// The surroundings of an isolated pose, in displacements `(t / size, c)`: translation over the size, axis times tangent of half the angle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IsolatedRecord {
     /// Every pose with these lengths within this distance lies within `within`.
     pub radius: Number,
@@ -103,7 +103,7 @@ impl IsolatedRecord {
 }
 
 /// What became of the paths to critical points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct CriticalPointsRecord {
     /// Paths followed.
     pub paths: usize,
@@ -136,7 +136,7 @@ impl From<&CriticalPoses> for CriticalPointsRecord {
 }
 
 /// A curve of poses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionCurveRecord {
     /// How it ends: closed, joined, unfinished or stuck.
     #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]
@@ -152,7 +152,7 @@ pub struct MotionCurveRecord {
 }
 
 /// Where a curve crosses others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct CurveCrossingRecord {
     /// After this point of the curve, from 0.
     pub after_point: usize,

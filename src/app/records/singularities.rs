@@ -1,14 +1,14 @@
 //! Answers about singular poses: the sign of det J at poses, along paths and in a box.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord, RegularityRecord};
 use platform::geom::Region;
 use synthesis::singularity::{PathPiece, Sign, SignsAlong, Way};
 
 /// The answer of `singular poses`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SingularitiesAnswer {
     /// The name of the design.
     pub name: String,
@@ -36,7 +36,7 @@ pub struct SingularitiesAnswer {
 }
 
 /// A pose with figures of its Jacobian.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JudgedPoseRecord {
     /// The pose.
     #[serde(flatten)]
@@ -51,7 +51,7 @@ pub struct JudgedPoseRecord {
 }
 
 /// A box of poses about a pose that holds no singular one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RegularBoxRecord {
     /// Half widths of positions at scale 1, design units, base frame.
     pub translation: [f64; 3],
@@ -70,7 +70,7 @@ pub struct RegularBoxRecord {
 }
 
 /// A pose and the scale of the smallest box that holds it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ScaledPoseRecord {
     /// The pose.
     #[serde(flatten)]
@@ -80,7 +80,7 @@ pub struct ScaledPoseRecord {
 }
 
 /// A proved sign of det J: 1 or -1; null: not proved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct SignRecord(#[schemars(extend("enum" = [1, -1, null]))] pub Option<i8>);
 
@@ -91,7 +91,7 @@ impl From<Option<Sign>> for SignRecord {
 }
 
 /// What det J does along a straight path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SignOutcome {
     /// It keeps its sign, proved.
@@ -115,7 +115,7 @@ impl From<&SignsAlong> for SignOutcome {
 }
 
 /// det J along a path of straight parts.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SignPathRecord {
     /// Number of the assembly mode it begins at, from 1; 0: the pose.
     pub from: usize,
@@ -130,7 +130,7 @@ pub struct SignPathRecord {
 }
 
 /// det J along a straight part of a path, with parameter u from 0 to 1.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SignPartRecord {
     /// What it does.
     pub outcome: SignOutcome,
@@ -159,7 +159,7 @@ impl SignPartRecord {
 }
 
 /// A piece of a straight path.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SignPieceRecord {
     /// Where it begins.
     pub from: Number,
@@ -178,7 +178,7 @@ impl SignPieceRecord {
 }
 
 /// Which assembly modes paths without singular pose join.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SignPairsRecord {
     /// The sign of det J at each assembly mode.
     pub signs: Vec<SignRecord>,
@@ -191,7 +191,7 @@ pub struct SignPairsRecord {
 }
 
 /// The straight path between two assembly modes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SignPairRecord {
     /// Their numbers, from 1.
     pub modes: [usize; 2],
@@ -204,7 +204,7 @@ pub struct SignPairRecord {
 }
 
 /// A path without singular pose between two assembly modes.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WayRecord {
     /// Their numbers, from 1.
     pub modes: [usize; 2],

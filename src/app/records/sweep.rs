@@ -82,7 +82,7 @@ pub struct SweepManifestRecord {
 }
 
 /// A part that is not what its manifest says.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct DamagedPartRecord {
     /// The shard, from 0.
     pub shard: u64,
@@ -91,7 +91,7 @@ pub struct DamagedPartRecord {
 }
 
 /// The answer of `sweep run`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SweepRunAnswer {
     /// With --estimate: nothing was written.
@@ -101,7 +101,7 @@ pub enum SweepRunAnswer {
 }
 
 /// How long a sweep takes, from a sample of its candidates.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepEstimateAnswer {
     /// The name of the plan.
     pub name: String,
@@ -126,7 +126,7 @@ pub struct SweepEstimateAnswer {
 }
 
 /// A column of the table.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepColumnRecord {
     /// Its name.
     pub name: String,
@@ -140,7 +140,7 @@ pub struct SweepColumnRecord {
 }
 
 /// What is done of a sweep, and what is missing.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepStatusAnswer {
     /// The name of the plan.
     pub name: String,
@@ -173,7 +173,7 @@ pub struct SweepStatusAnswer {
 }
 
 /// The answer of `sweep merge`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepMergeAnswer {
     /// The file written.
     pub output: String,
@@ -189,7 +189,7 @@ pub struct SweepMergeAnswer {
 }
 
 /// The answer of `sweep verify`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepVerifyAnswer {
     /// All parts are there, with their digests, and every candidate that was computed again has the same row.
     pub same: bool,
@@ -202,7 +202,7 @@ pub struct SweepVerifyAnswer {
 }
 
 /// The answer of `sweep design`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepDesignAnswer {
     /// The candidate.
     pub candidate: u64,
@@ -212,7 +212,7 @@ pub struct SweepDesignAnswer {
 }
 
 /// The answer of `sweep best`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepBestAnswer {
     /// The column by which candidates are ranked.
     pub column: String,
@@ -225,7 +225,7 @@ pub struct SweepBestAnswer {
 }
 
 /// One of the best candidates of a sweep.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepBestRecord {
     /// The candidate.
     pub candidate: u64,
@@ -236,7 +236,7 @@ pub struct SweepBestRecord {
 }
 
 /// The answer of `sweep script`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepScriptAnswer {
     /// Shards.
     pub shards: u64,
@@ -250,7 +250,7 @@ pub struct SweepScriptAnswer {
 }
 
 /// Where a design or a script is.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SweepDesignFile {
     /// Written.

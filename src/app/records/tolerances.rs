@@ -1,7 +1,7 @@
 //! Answers on how far joints may be off for the pose to stay within a bound.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::uncertainty::{CorrelationsWord, in_degrees};
 use super::{AssessAnswer, Number, PoseQuaternionRecord};
@@ -14,7 +14,7 @@ use platform::geom::Pose;
 use platform::manipulator::Body;
 
 /// The answer of `build tolerances`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TolerancesAnswer {
     /// What `assess` says of the design; null: it requires nothing.
     pub assessment: Option<AssessAnswer>,
@@ -47,7 +47,7 @@ pub struct TolerancesAnswer {
 }
 
 /// Standard deviations of poses computed from lengths with the calibrated machine; the noise of these lengths comes on top.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CalibratedPosesRecord {
     /// Whether the design file has correlations.
     pub correlations: CorrelationsWord,
@@ -60,7 +60,7 @@ pub struct CalibratedPosesRecord {
 }
 
 /// A standard deviation over the poses looked at.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DeviationRecord {
     /// Half of the poses have at most this.
     pub median: Number,
@@ -114,7 +114,7 @@ impl CalibratedPosesRecord {
 }
 
 /// How far one joint may be off while the others are where they should be.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JointBudgetRecord {
     /// Its body.
     pub body: Body,
@@ -157,7 +157,7 @@ pub(super) fn joint_name(design: &Design, joint: Joint) -> &str {
 }
 
 /// Errors of the pose with all joints off in the worst way, solved.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorstErrorsRecord {
     /// By the radius; null: the pose was lost.
     pub in_budget: Option<PoseErrorRecord>,
@@ -168,7 +168,7 @@ pub struct WorstErrorsRecord {
 }
 
 /// What solving says about the radius, which is of first order.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SolvedBudgetRecord {
     /// No error looked at in the budget goes beyond the bound when its pose is solved.
     pub within_bound: bool,
@@ -179,7 +179,7 @@ pub struct SolvedBudgetRecord {
 }
 
 /// Random errors in the budget.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TrialsRecord {
     /// How many.
     pub count: usize,
@@ -215,7 +215,7 @@ impl From<&Trials> for TrialsRecord {
 }
 
 /// The poses looked at.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct BudgetPosesRecord {
     /// How many.
     pub count: usize,
@@ -224,7 +224,7 @@ pub struct BudgetPosesRecord {
 }
 
 /// Where a workspace comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WorkspaceWord {
     /// The design.
@@ -234,7 +234,7 @@ pub enum WorkspaceWord {
 }
 
 /// The greatest errors of the pose by all causes together, to first order.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ErrorMapRecord {
     /// Every joint is off by at most this in any direction.
     pub joint_error: Number,
@@ -253,7 +253,7 @@ pub struct ErrorMapRecord {
 }
 
 /// The greatest error over the poses of a map.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GreatestErrorRecord {
     /// By all causes.
     pub greatest: Number,
@@ -303,7 +303,7 @@ impl ErrorMapRecord {
 }
 
 /// The error of a pose.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseErrorRecord {
     /// Of the tool point, design units.
     pub position: Number,

@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Number;
 use ask::Design;
@@ -10,7 +10,7 @@ use machine::manufacture::{MachineUncertainty, PoseCovariance};
 use platform::geom::Pose;
 
 /// How the errors of a calibration go together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CorrelationsWord {
     /// As the design file says.
@@ -29,7 +29,7 @@ impl CorrelationsWord {
 }
 
 /// How uncertain a pose is that is computed from lengths with the calibrated machine, by what the calibration does not know, to first order; the noise of these lengths comes on top.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseUncertaintyRecord {
     /// Whether the design file has correlations.
     pub correlations: CorrelationsWord,

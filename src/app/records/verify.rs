@@ -1,7 +1,7 @@
 //! Answers on whether two designs are kinematically equivalent, with the evidence of both sides.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{CompletenessWord, ComplexRecord, FramesRecord, MapRecord, Number, PoseRecord, leg_number};
 use fk::{FkSolutions, Method};
@@ -10,7 +10,7 @@ use synthesis::LegMapOutcome;
 use verify::{Counterexample, Sample, Verdict, Verification};
 
 /// The answer of `verify`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct VerifyAnswer {
     /// The verdict.
     pub verdict: VerdictWord,
@@ -42,7 +42,7 @@ pub struct VerifyAnswer {
 }
 
 /// Whether two designs are kinematically equivalent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum VerdictWord {
     /// They are.
@@ -122,7 +122,7 @@ impl VerifyAnswer {
 }
 
 /// Numbers of poses that were set aside.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct BeyondPrecisionRecord {
     /// Of A.
     pub a: usize,
@@ -131,7 +131,7 @@ pub struct BeyondPrecisionRecord {
 }
 
 /// Both designs at one set of corresponding leg lengths.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SampleRecord {
     /// Leg lengths of A, design units.
     pub lengths_a: [Number; 6],
@@ -176,7 +176,7 @@ impl From<&Sample> for SampleRecord {
 }
 
 /// What forward kinematics found for one design at one set of lengths.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SolvedSampleRecord {
     /// The method.
     pub method: Method,
@@ -209,7 +209,7 @@ impl From<&FkSolutions> for SolvedSampleRecord {
 }
 
 /// A pose that belongs to the lengths of one design and not to those of the other.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CounterexampleRecord {
     /// Index into `samples`, from 0.
     pub sample: usize,
@@ -252,7 +252,7 @@ fn parts(pose: &ComplexPose) -> ComplexRecord<PoseRecord> {
 }
 
 /// The random poses at which designs were compared.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SamplingRecord {
     /// How many.
     pub count: usize,

@@ -1,4 +1,4 @@
-//! Which command wrote a result, and what it says in a word.
+//! What a result says in a word.
 
 use serde_json::{Map, Value};
 
@@ -29,26 +29,6 @@ const YES: [&str; 10] = [
 /// Words for no.
 const NO: [&str; 7] =
     ["not_equivalent", "not equivalent", "infeasible", "singular", "not_realizable", "violated", "none"];
-
-/// A heading for the fields of a result.
-pub(super) fn heading(fields: &Map<String, Value>) -> &'static str {
-    let has = |key: &str| fields.contains_key(key);
-    match () {
-        () if has("samples") && has("map") => "Equivalence",
-        () if has("finite_count") => "Forward kinematics",
-        () if fields.get("front").is_some_and(Value::is_array) => "Optimisation: a front",
-        () if has("status") && has("objective") => "Optimisation",
-        () if has("patterns") && has("topologies") => "Equivalence class",
-        () if has("requirements") && has("met") => "Requirements",
-        () if has("components") => "Replaceable legs",
-        () if has("curves") => "Self-motions",
-        () if has("topologies") => "Topologies",
-        () if has("exact") && has("nearest") => "Joints on holes",
-        () if has("relation") && has("A") => "Leg map",
-        () if has("architecturally_singular") => "Architectural singularity",
-        () => "Result",
-    }
-}
 
 /// The answer, where the result has one.
 pub(super) fn verdict(fields: &Map<String, Value>) -> Option<ResultVerdict> {

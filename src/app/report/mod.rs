@@ -4,12 +4,9 @@
 //! can tell whether the page belongs to them, or in the comparison of the designs among them.
 
 mod comparison;
-mod facts;
-mod inputs;
 mod kind;
 mod page;
 mod parts;
-mod requirements;
 
 pub use comparison::{Comparison, comparison_page};
 pub use kind::ResultVerdict;

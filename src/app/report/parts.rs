@@ -1,34 +1,21 @@
 //! The bill of materials as a table of the page.
 
-use std::fmt::Write as _;
+use maud::{Markup, html};
 
-use super::facts::words;
-use files::plot::escape;
+use sheet::{Sheet, Table, answers::words, left};
 
 /// How the line of titles of a bill of materials begins.
 const TITLES: &str = "part,count,";
 
 /// The table of a bill of materials as `export` writes it (`parts.csv`), without columns that say nothing; `None` for another text. `link` leads to its file.
-pub(super) fn section(link: &str, text: &str) -> Option<String> {
+pub(super) fn section(link: &Markup, text: &str) -> Option<Markup> {
     let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
     let titles = cells(lines.next().filter(|line| line.starts_with(TITLES))?);
     let rows: Vec<Vec<String>> = lines.map(cells).filter(|row| row.len() == titles.len()).collect();
     let told: Vec<usize> = (0..titles.len()).filter(|k| rows.iter().any(|row| !row[*k].is_empty())).collect();
-    let mut out = String::from("<div class=\"wide\"><table><thead><tr>");
-    for k in &told {
-        let _ = write!(out, "<th scope=\"col\">{}</th>", words(&titles[*k]));
-    }
-    out.push_str("</tr></thead><tbody>\n");
-    for row in &rows {
-        out.push_str("<tr>");
-        for k in &told {
-            let (tag, end) = if *k == 0 { ("<th scope=\"row\">", "</th>") } else { ("<td>", "</td>") };
-            let _ = write!(out, "{tag}{}{end}", escape(&row[*k]));
-        }
-        out.push_str("</tr>\n");
-    }
-    let _ = writeln!(out, "</tbody></table></div>\n<p class=\"note\">From {link}</p>");
-    Some(out)
+    let table = Table::new(told.iter().map(|k| left(words(&titles[*k]), 0)));
+    let table = table.with_rows(rows.iter().map(|row| told.iter().map(|k| row[*k].as_str())));
+    Some(html! { (Sheet::from(table).html()) p.note { "From " (link) } })
 }
 
 /// The cells of a line; quotation marks keep commas together, and two of them in a quoted cell are one.
@@ -57,12 +44,12 @@ mod tests {
     #[test]
     fn a_bill_of_materials_is_a_table_without_empty_columns() {
         let text = "# design\npart,count,mass_each_kg,remark\nbase plate,1,,6 holes\n\"leg, kind 1\",2,,\"<b>, \"\"x\"\"\"\n";
-        let table = section("link", text).unwrap();
+        let table = section(&html! { "link" }, text).unwrap().into_string();
         assert!(
             table.contains("<th scope=\"row\">leg, kind 1</th><td>2</td><td>&lt;b&gt;, &quot;x&quot;</td>"),
             "{table}"
         );
         assert!(!table.contains("mass") && table.contains("<th scope=\"col\">remark</th>"));
-        assert!(section("link", "x,y,z\n1,2,3\n").is_none());
+        assert!(section(&html! {}, "x,y,z\n1,2,3\n").is_none());
     }
 }

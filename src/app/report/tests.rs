@@ -153,7 +153,7 @@ fn tags(html: &str) -> Vec<(String, Vec<(String, String)>)> {
 /// The tags and attributes of the page itself, links within it, to the files beside it, and pictures that are data: nothing else.
 fn only_its_own(html: &str) -> Result<(), String> {
     const TAGS: [&str; 29] = [
-        "!doctype", "html", "head", "meta", "title", "style", "body", "main", "section", "h1", "h2", "h3",
+        "!DOCTYPE", "html", "head", "meta", "title", "style", "body", "main", "section", "h1", "h2", "h3",
         "p", "ul", "li", "a", "strong", "span", "table", "caption", "thead", "tbody", "tr", "th", "td",
         "div", "details", "summary", "pre",
     ];
@@ -272,30 +272,56 @@ fn toml_text(text: &str) -> String {
     format!("\"{escaped}\"")
 }
 
+/// An answer of `assess` about a design of this name, with one requirement.
+fn assessment(name: &str, role: &str, margin: f64) -> String {
+    let (met, status) = if margin < 0.0 { (false, "violated") } else { (true, "met") };
+    let pose = r#"{"p":[32.4443,14.3,371.8],"q":[1,0,0,0]}"#;
+    format!(
+        r#"{{"schema_version":1,"name":"{name}","role":"{role}","met":{met},"explanation":"meets all",
+            "judged":{{"stated":true,"region":true,"listed":0,"trajectory":0,"met_in_words":"met"}},"reserve_kept":null,
+            "requirements":[{{"name":"leg_too_long","margin":{margin},"reserve":0,"margin_with_reserve":{margin},
+            "reserve_kept":null,"met":{met},"at_limit":false,"status":"{status}","proved_margin":null,"unit":"mm",
+            "between":["leg <1>"],"legs":[1],"pose":{pose}}}],
+            "regular":{{"met":true,"status":"proved","pose":null,"cells":1}},"regular_explanation":"No singular pose",
+            "conditioning":{{"inverse_condition":0.3359123,"pose":{pose},"characteristic_length":1}},
+            "poses":1,"cells":1,"lightest_drive":null,"provenance":{{"version":"0","designs":[{{"name":"mine"}}]}}}}"#
+    )
+}
+
 /// The margins of another platform once stood under the title of the design, and two tables had one title.
 #[test]
 fn every_table_of_requirements_has_the_role_of_its_design() {
-    let assessment = |name: &str, role: &str, margin: f64| {
-        format!(
-            r#"{{"schema_version":1,"name":"{name}","role":"{role}","met":true,"explanation":"meets all","provenance":{{"version":"0","designs":[{{"name":"mine"}}]}},
-                "requirements":[{{"name":"leg_too_long","margin":{margin},"met":true,"status":"met","unit":"mm","between":[]}}]}}"#
-        )
-    };
     let text = report(vec![
         file("assess.json", &assessment("mine", "design", 1.5)),
-        file("nearest-assess.json", &assessment("mine, nearest", "nearest_equivalent", 2.5)),
+        file("nearest-assess.json", &assessment("<b>, nearest", "nearest_equivalent", -25.156_342_1)),
     ]);
     let section = text.split("id=\"requirements\"").nth(1).unwrap().split("</section>").next().unwrap();
     let tables: Vec<&str> = section.split("<h3>").skip(1).collect();
     assert_eq!(tables.len(), 2, "{section}");
-    assert!(tables[0].starts_with("Original: mine</h3>") && tables[0].contains("1.5 mm"), "{section}");
-    let other = "Equivalent of the nearest octahedral platform: mine, nearest</h3>";
-    assert!(tables[1].starts_with(other) && tables[1].contains("2.5 mm"), "{section}");
+    assert!(
+        tables[0].starts_with("Original: mine</h3>")
+            && tables[0].contains("<td class=\"right\">1.500000</td>")
+    );
+    for shown in [
+        "Equivalent of the nearest octahedral platform: &lt;b&gt;, nearest</h3>",
+        "<th scope=\"row\">leg_too_long</th><td class=\"no\"><span aria-hidden=\"true\">\u{2717}</span> violated</td>",
+        "-25.156342",
+        "leg &lt;1&gt;",
+        "32.4443,14.3000,371.8000",
+        "0.335912",
+        "<p>No singular pose.</p>",
+    ] {
+        assert!(tables[1].contains(shown), "{shown}: {section}");
+    }
     for role in ["Requirements: Original", "Requirements: Equivalent of the nearest octahedral platform"] {
         assert!(text.contains(role), "{role}");
     }
-    // an answer of an earlier version has no role, and no name of another design
+    // one that carries an assessment has the same table
+    let carried = assessment("mine", "design", 1.5);
+    let carried = report(vec![file("a.json", &format!(r#"{{"schema_version":1,"assessment":{carried}}}"#))]);
+    assert!(carried.contains(tables[0].split("From").next().unwrap()), "{carried}");
+    // an answer of an earlier version lacks fields: all that it has are listed
     let old = assessment("mine", "design", 1.5).replace("\"role\"", "\"rule\"");
     let text = report(vec![file("old.json", &old)]);
-    assert!(text.contains("1.5 mm") && !text.contains("Original"), "{text}");
+    assert!(text.contains("<td>1.5</td>") && !text.contains("Original"), "{text}");
 }

@@ -26,7 +26,7 @@ mod thumbnail;
 mod topologies;
 mod workspace;
 
-pub use style::escape;
+pub use style::{escape, visible};
 pub use surface::{TriangleSurface, ValueBox};
 pub use sweep::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_histogram, swept_parallel};
 

@@ -73,23 +73,25 @@ pub const LIMIT_FILLS: [(&str, &str); 34] = [
     ("singular", "#777777"),
 ];
 
-/// Text of an XML or HTML node or attribute: the only door of foreign text to either.
+/// Text of an XML node or attribute: the only door of foreign text to pictures.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
+    for c in visible(text).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            // XML 1.0 knows no other control characters; and text is shown as it is written
-            c if c.is_control() && !matches!(c, '\t' | '\n' | '\r') || changes_direction(c) => {
-                out.push('\u{fffd}');
-            }
             c => out.push(c),
         }
     }
     out
+}
+
+/// The text as it is written: characters that XML 1.0 does not know, or that change the direction of a text, are replaced.
+pub fn visible(text: &str) -> String {
+    let hides = |c: char| c.is_control() && !matches!(c, '\t' | '\n' | '\r') || changes_direction(c);
+    text.chars().map(|c| if hides(c) { '\u{fffd}' } else { c }).collect()
 }
 
 /// A coordinate with two decimals, never `-0.00`.

@@ -79,7 +79,7 @@ pub enum StartName {
 
 /// Where the fit began, and what came of the other start.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "StartRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "StartRecord", transform = num::nullable))]
 pub struct Starts {
     /// The start whose end was taken.
     pub taken: StartName,
@@ -206,7 +206,7 @@ impl ResidualSpread {
 
 /// Agreement of residuals with the noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ChiSquareRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "ChiSquareRecord", transform = num::nullable))]
 pub struct ChiSquare {
     /// Sum of the squares of whitened residuals.
     // without outliers where a loss takes them for possible

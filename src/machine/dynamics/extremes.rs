@@ -6,7 +6,7 @@ use super::LegMotion;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     schemars(rename = "ExtremeRecord")
 )]
 pub struct Extreme {

@@ -21,7 +21,7 @@ const NO_INFLUENCE: f64 = 1e-12;
 
 /// How far joints may be off.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "JointLimitRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "JointLimitRecord", transform = num::nullable))]
 pub struct LimitedAllowance {
     /// Keeps the bound to first order, design units.
     // no error of this size uses up the bound at the poses looked at
@@ -36,7 +36,10 @@ pub struct LimitedAllowance {
     /// The pose at which it is.
     #[cfg_attr(
         feature = "serde",
-        serde(serialize_with = "platform::geom::PoseQuaternionRecord::write"),
+        serde(
+            serialize_with = "platform::geom::PoseQuaternionRecord::write",
+            deserialize_with = "platform::geom::PoseQuaternionRecord::read"
+        ),
         schemars(with = "platform::geom::PoseQuaternionRecord")
     )]
     pub pose: Pose,

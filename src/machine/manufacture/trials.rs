@@ -49,7 +49,7 @@ fn in_ball(rng: &mut Rng) -> Vector3<f64> {
 /// How values spread.
 // by the nearest rank; all zero when there is none
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "QuantilesRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "QuantilesRecord", transform = num::nullable))]
 pub struct Quantiles {
     /// Half of the values is at most this.
     pub median: f64,
@@ -76,7 +76,7 @@ impl Quantiles {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     schemars(rename = "PoseErrorsRecord")
 )]
 pub struct ErrorSpread {

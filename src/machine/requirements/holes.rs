@@ -47,7 +47,7 @@ impl HolePattern {
 
 /// Holes on a circle, equally spaced.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "HoleCircleRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "HoleCircleRecord", transform = num::nullable))]
 pub struct HoleCircle {
     /// The radius.
     // design units, positive

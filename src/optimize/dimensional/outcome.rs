@@ -19,7 +19,7 @@ use synthesis::{Normalisation, leg_vector};
 
 /// A quantity that was chosen.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "VariableRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "VariableRecord", transform = num::nullable))]
 pub struct ChosenVariable {
     // no component of a joint axis
     /// Which.

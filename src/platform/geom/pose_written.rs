@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use num::Number;
 use num::shown::fixed;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Pose, nearest_rotation};
 
@@ -48,6 +48,12 @@ impl Serialize for Pose {
     }
 }
 
+impl<'de> Deserialize<'de> for Pose {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        PoseRecord::deserialize(from).map(|record| Self::from(&record))
+    }
+}
+
 impl JsonSchema for Pose {
     fn schema_name() -> Cow<'static, str> {
         PoseRecord::schema_name()
@@ -63,7 +69,7 @@ impl JsonSchema for Pose {
 }
 
 /// A pose by its quaternion: a platform point x is at R(q) x + p in the base frame.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseQuaternionRecord {
     /// Position of the platform origin, base frame, design units.
     #[serde(rename = "p")]
@@ -87,6 +93,22 @@ impl PoseQuaternionRecord {
     /// Those of the serializer.
     pub fn write<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
         Self::from(pose).serialize(to)
+    }
+
+    /// Reads a pose in this form: the function of `deserialize_with`.
+    ///
+    /// # Errors
+    /// Those of the deserializer.
+    pub fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Pose, D::Error> {
+        Self::deserialize(from).map(|record| Pose::from(&record))
+    }
+}
+
+impl From<&PoseQuaternionRecord> for Pose {
+    fn from(record: &PoseQuaternionRecord) -> Self {
+        let [w, x, y, z] = record.quaternion.map(|x| x.0);
+        let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)).to_rotation_matrix();
+        Self { rotation, position: Vector3::from(record.position.map(|x| x.0)) }
     }
 }
 

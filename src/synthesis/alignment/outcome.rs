@@ -42,7 +42,7 @@ impl Motion {
 
 /// The pair of rigid motions that comes nearest.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "NearestMotionRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "NearestMotionRecord", transform = num::nullable))]
 pub struct NearestMotion {
     /// Of the base of the second design.
     pub base: Pose,
@@ -93,7 +93,7 @@ impl Invariant {
 
 /// An invariant that tells two designs apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "DifferenceRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "DifferenceRecord", transform = num::nullable))]
 pub struct Difference {
     /// Which.
     pub invariant: Invariant,

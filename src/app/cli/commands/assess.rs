@@ -1,6 +1,5 @@
 //! `equipod assess`: by how much a design meets its requirements.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use super::build::drives;
@@ -8,10 +7,9 @@ use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::cli::progress::ProgressLine;
-use crate::app::cli::requirements;
 use ask::Error;
 use machine::requirements::AssessOptions;
-use records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
+use records::AssessAnswer;
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
@@ -66,27 +64,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     })?;
     let lightest_drive = drives::lightest(&args.design, &design, context)?;
     let record = AssessAnswer { lightest_drive, ..AssessAnswer::new(&design, &found) };
-    let text = text(&design.name, &record);
+    let text = sheet::answers::assess(&record);
     Ok(Answer::new(record.met.into(), record, text))
-}
-
-fn text(name: &str, found: &AssessAnswer) -> String {
-    let mut out = requirements::lead(name, Some(found));
-    let at = found.regular.pose.as_ref().map_or_else(|| "any".to_owned(), PoseQuaternionRecord::short);
-    let said = &found.regular_explanation;
-    let _ = match found.regular.status {
-        RegularityWord::Proved => writeln!(out, "\n{said}."),
-        RegularityWord::ChangesSign => writeln!(out, "\n{said}, {at}."),
-        RegularityWord::Undecided => writeln!(out, "\n{said}; undecided near {at}."),
-    };
-    if let Some(d) = &found.lightest_drive {
-        let _ = writeln!(out, "{}.", d.message);
-    }
-    out.push_str("A margin below 0 is a violation (!); = at the limit, as far as rounding can tell, which is none. The proved margin is one that no pose judged falls below.\n");
-    if found.met.is_none() {
-        out.push_str(
-            "What is only searched may be violated between the poses looked at; more --cells may prove it.\n",
-        );
-    }
-    out
 }

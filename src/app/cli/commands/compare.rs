@@ -1,7 +1,6 @@
 //! `equipod compare`: designs side by side.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use super::build::drives;
@@ -10,7 +9,6 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::numbers::significant;
 use crate::app::cli::output::Answer;
 use crate::app::cli::table::{csv_line, number};
 use crate::app::report::{Comparison, comparison_page};
@@ -22,7 +20,7 @@ use machine::dynamics::Manoeuvre;
 use machine::manufacture::ErrorBound;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
-use records::{AccuracyRecord, CompareAnswer, FigureCell, FiguresRecord};
+use records::{AccuracyRecord, CompareAnswer, FigureCell, FigureColumn, FiguresRecord};
 
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
@@ -88,7 +86,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         files::write_text(path, &comparison_page(&comparison))?;
         comparison.answer.paths.push(path.display().to_string());
     }
-    let text = text(&comparison.answer);
+    let text = sheet::answers::compare(&comparison.answer);
     Ok(Answer::new(Exit::Yes, comparison.answer, text))
 }
 
@@ -179,61 +177,11 @@ fn drawn(design: &Design, pose: &Pose) -> Manipulator {
     tips.unwrap_or_else(|| design.manipulator().clone())
 }
 
-/// Width of the names of figures and of the columns of designs.
-const WIDTHS: (usize, usize) = (34, 18);
-
-/// A line for every figure, a column for every design.
-fn text(answer: &CompareAnswer) -> String {
-    let (first, wide) = WIDTHS;
-    let mut out = String::new();
-    for (k, design) in answer.designs.iter().enumerate() {
-        let _ = writeln!(out, "{}: {} ({})", k + 1, design.name, design.path);
-    }
-    let _ = write!(out, "\n{:first$}", "figure");
-    for k in 1..=answer.designs.len() {
-        let _ = write!(out, " {k:>wide$}");
-    }
-    out.push('\n');
-    for column in answer.columns() {
-        let unit = if column.unit.is_empty() { String::new() } else { format!(" [{}]", column.unit) };
-        let _ = write!(out, "{:first$}", format!("{}{unit}", column.title));
-        for cell in &column.cells {
-            let shown = match cell {
-                None => "-".to_string(),
-                Some(FigureCell::Word(word)) => word.clone(),
-                Some(FigureCell::Number(x, violated)) => {
-                    format!("{}{}", if *violated { "!" } else { "" }, significant(*x))
-                }
-            };
-            let _ = write!(out, " {shown:>wide$}");
-        }
-        out.push('\n');
-    }
-    let _ = writeln!(out, "\n{}", answer.verdicts().join("\n"));
-    let _ = writeln!(out, "{}", answer.yardstick());
-    for design in &answer.designs {
-        if let Some(why) = &design.no_tolerance {
-            let _ = writeln!(out, "{} has no joint tolerance: {why}", design.name);
-        }
-    }
-    for line in answer.assumptions() {
-        let _ = writeln!(out, "{line}");
-    }
-    for path in &answer.paths {
-        let _ = writeln!(out, "wrote {path}");
-    }
-    out
-}
-
 /// A line for every design.
 fn csv(answer: &CompareAnswer) -> String {
     let columns = answer.columns();
     let mut header = vec!["name".to_string(), "path".to_string()];
-    header.extend(
-        columns
-            .iter()
-            .map(|c| if c.unit.is_empty() { c.title.clone() } else { format!("{} [{}]", c.title, c.unit) }),
-    );
+    header.extend(columns.iter().map(FigureColumn::heading));
     let mut out = csv_line(&header);
     for (row, design) in answer.designs.iter().enumerate() {
         let mut cells = vec![design.name.clone(), design.path.clone()];

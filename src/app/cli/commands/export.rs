@@ -10,12 +10,11 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::numbers::significant;
 use crate::app::cli::output::Answer;
-use crate::app::cli::requirements;
 use ::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 use ask::Design;
 use ask::exporting::octahedral_of_controllers;
+use num::shown::significant;
 use records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord};
 
 /// Arguments of `export`.
@@ -167,7 +166,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let lead = if design.has_cranks() {
         format!("{} has cranks: `equipod ik` says what remains of their limits at a pose\n", design.name)
     } else {
-        requirements::lead(&design.name, assessment.as_ref())
+        sheet::answers::requirements(&design.name, assessment.as_ref()).to_string()
     };
     let mut text = format!("{lead}\n{text}");
     let assumptions = if simulated { simulator_assumptions(&design, &export) } else { Vec::new() };

@@ -11,7 +11,6 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::cli::requirements;
 use crate::app::cli::streams::output_is_terminal;
 use crate::app::page::{CORE, Session, page as view};
 use crate::app::report::{Comparison, Report, ReportFile, html};
@@ -54,10 +53,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let assessment = first.as_ref().and_then(|d| AssessAnswer::of(d, context.seed()));
     // the path, for programs; before it the requirements, for people
     let shown = first.as_ref().filter(|_| output_is_terminal());
-    let lead = shown.map(|d| requirements::lead(&d.name, assessment.as_ref()));
+    let lead = shown.map(|d| sheet::answers::requirements(&d.name, assessment.as_ref()));
     files::write_text(&output, &page(found, args.title.clone()))?;
     let record = ReportAnswer { output: output.display().to_string(), files, assessment };
-    let text = format!("{}{}\n", lead.map_or_else(String::new, |lead| lead + "\n"), record.output);
+    let text = format!("{}{}\n", lead.map_or_else(String::new, |lead| format!("{lead}\n")), record.output);
     Ok(Answer::new(Exit::Yes, record, text))
 }
 

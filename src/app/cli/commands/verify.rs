@@ -1,6 +1,5 @@
 //! `equipod verify`: are two designs kinematically equivalent?
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::app::cli::alignment::{FrameArgs, same_units};
@@ -10,7 +9,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use ask::{SAMPLES, sample_plan};
 use fk::FkOptions;
-use records::{SampleRecord, VerifyAnswer};
+use records::VerifyAnswer;
 use synthesis::Relation;
 use verify::{Verdict, VerifyError, verify_mapped};
 
@@ -55,7 +54,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let found = verify_mapped(a.manipulator(), &second.manipulator, map, &plan, &options)
         .map_err(|e| failure_of(&e))?;
     let record = VerifyAnswer::new(&found, &plan, second.record());
-    let text = second.text() + &text(&record, &a.name, &b.name);
+    let text = format!("{}{}", second.text(), sheet::answers::verify(&record, &a.name, &b.name));
     Ok(Answer::new(exit_of(&found.verdict), record, text))
 }
 
@@ -79,48 +78,4 @@ pub(crate) fn failure_of(error: &VerifyError) -> Failure {
                 .with_help("try another --seed")
         }
     }
-}
-
-/// The remark behind the row of a sample.
-fn remark(s: &SampleRecord) -> String {
-    let mut out = String::new();
-    for (platform, beyond) in [("A", s.beyond_precision_a), ("B", s.beyond_precision_b)] {
-        if beyond > 0 {
-            let _ = write!(out, "  {beyond} of {platform} beyond double precision");
-        }
-    }
-    if !(s.a.all_paths_accounted && s.b.all_paths_accounted) {
-        out.push_str("  poses may be missing");
-    }
-    out
-}
-
-/// What people read.
-fn text(v: &VerifyAnswer, a: &str, b: &str) -> String {
-    let mut out = format!("{a} ~ {b}: {}\n{}\n", v.verdict.as_str(), v.explanation);
-    if let Some(polynomial) = &v.map.det_of_shares {
-        let _ = writeln!(
-            out,
-            "singular offsets: with any shares t of the edges that the leg ends of B are on, det A = {polynomial}, and B is singular where it is zero"
-        );
-    }
-    if !v.samples.is_empty() {
-        out.push_str("\nsample  poses A  poses B  matched  real  certified  worst distance\n");
-    }
-    for (k, s) in v.samples.iter().enumerate() {
-        let _ = writeln!(
-            out,
-            "{:>6}  {:>7}  {:>7}  {:>7}  {:>4}  {:>4}+{:<4}  {:>14.1e}{}",
-            k + 1,
-            s.a.finite_count,
-            s.b.finite_count,
-            s.matched,
-            s.b.real_count,
-            s.a.certified_count,
-            s.b.certified_count,
-            s.worst_distance.0,
-            remark(s),
-        );
-    }
-    out
 }

@@ -7,7 +7,6 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use crate::app::cli::requirements;
 use crate::app::page::{CORE, Session, page};
 use records::{AssessAnswer, ViewAnswer};
 
@@ -68,7 +67,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let how = if record.live { "" } else { ", with recorded data only" };
     let wrote = format!("wrote {}{how}\n", record.output);
     // the page without a design has only an example
-    let lead = args.design.as_ref().map(|_| requirements::lead(&shown.name, record.assessment.as_ref()));
+    let lead =
+        args.design.as_ref().map(|_| sheet::answers::requirements(&shown.name, record.assessment.as_ref()));
     let text = lead.map_or_else(|| wrote.clone(), |lead| format!("{lead}\n{wrote}"));
     Ok(Answer::new(Exit::Yes, record, text))
 }

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import copy
-import html
 import json
 import types
 import typing
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Callable, ClassVar, TypeVar
+
+from . import _core
 
 if TYPE_CHECKING:
     import pyarrow  # type: ignore[import-untyped]
@@ -58,12 +59,7 @@ class Record:
         return f"{type(self).__name__}({shown})"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
-            f"<td style='text-align:left'>{html.escape(_short(getattr(self, name), 400))}</td></tr>"
-            for name in self._fields()
-        )
-        return f"<table><caption>{type(self).__name__}</caption>{rows}</table>"
+        return _core.sheet_html(json.dumps(self._document))
 
 
 def _short(value: Any, limit: int = 60) -> str:

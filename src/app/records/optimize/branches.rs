@@ -1,14 +1,14 @@
 //! The branches of the offsets: a zone for each, what became of it, and the bound over all of them.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::platform::ZONES;
 use crate::Number;
 use optimize::offsets::{BranchReport, BranchVerdict, Conflict};
 
 /// A branch: a zone for each offset.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BranchRecord {
     /// Zone of each offset: before, inside, beyond its edge.
     #[schemars(extend("pattern" = ZONES))]
@@ -26,7 +26,7 @@ pub struct BranchRecord {
 }
 
 /// What became of a branch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BranchWord {
     /// It holds the best solution.
@@ -67,7 +67,7 @@ impl From<&BranchReport> for BranchRecord {
 }
 
 /// Why a branch or a part of it is empty.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct BranchConflictRecord {
     /// A short stable code.
     #[schemars(extend("enum" = Conflict::CODES))]

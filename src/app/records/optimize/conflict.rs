@@ -1,7 +1,7 @@
 //! What cannot be met together.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{BranchRecord, BranchWord};
 use crate::Number;
@@ -11,7 +11,7 @@ use optimize::dimensional::{ConstraintConflict, Demand, Give};
 use optimize::offsets::Conflict;
 
 /// Requirements that cannot be met together; without any one of them the others were met.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ConflictRecord {
     /// The set is proved to be in conflict.
     pub proved: bool,
@@ -22,7 +22,7 @@ pub struct ConflictRecord {
 }
 
 /// A kind of proof that branches of the offsets are empty.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct ConflictReasonRecord {
     /// A short stable code.
     #[schemars(extend("enum" = Conflict::CODES))]
@@ -70,7 +70,7 @@ impl ConflictReasonRecord {
 }
 
 /// A requirement of a conflict.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GiveRecord {
     /// Which.
     pub name: DemandWord,
@@ -166,7 +166,7 @@ pub(super) fn words(design: &Design, d: Demand) -> (String, String) {
 }
 
 /// What is demanded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum DemandWord {
     /// A requirement of the design.
@@ -178,7 +178,7 @@ pub enum DemandWord {
 }
 
 /// What the search itself demands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SpecialDemand {
     /// A least |det A|.

@@ -1,7 +1,7 @@
 //! The drives of a table, each with what the search for a platform came to with it.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{ConflictRecord, SymmetryRecord};
 use crate::{MarginRecord, Number};
@@ -10,7 +10,7 @@ use machine::requirements::TermKind;
 use optimize::dimensional::DimensionalOutcome;
 
 /// The search over the drives of a table.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DriveSearchRecord {
     /// The name of the drive of the answer; null: with no drive was a platform found that is proved to meet the requirements.
     pub chosen: Option<String>,
@@ -27,7 +27,7 @@ pub struct DriveSearchRecord {
 }
 
 /// A drive of the table, in the units of the design, with what the search came to.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchedDriveRecord {
     /// Its name.
     pub name: String,
@@ -56,7 +56,7 @@ pub struct SearchedDriveRecord {
 }
 
 /// What came of a drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DriveSearchWord {
     /// A platform with it is proved to meet the requirements.

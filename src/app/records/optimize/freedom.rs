@@ -1,7 +1,7 @@
 //! Freedoms that resolve a conflict, or do not.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
 use ask::Design;
@@ -9,7 +9,7 @@ use ask::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
 
 /// A freedom that the design does not have, and what came of the search with it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreedomRecord {
     /// Which.
     pub freedom: ConflictFreedom,
@@ -30,7 +30,7 @@ pub struct FreedomRecord {
 }
 
 /// What came of a search with a freedom more.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FreedomWord {
     /// A platform was found that is proved to meet all requirements.

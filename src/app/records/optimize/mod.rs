@@ -11,7 +11,7 @@ mod riding;
 mod symmetry;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use self::branches::{BranchConflictRecord, BranchRecord, BranchWord};
 pub use self::conflict::{ConflictReasonRecord, ConflictRecord, DemandWord, GiveRecord, SpecialDemand};
@@ -39,7 +39,7 @@ const SIZES: &str = "no leg of the design can be replaced without another kinema
 const RUNNERS_UP: usize = 5;
 
 /// The answer of `optimize`. Every field is there whichever search found it; null: it does not apply, or nothing is known of it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OptimizeAnswer {
     /// What came of the search.
     pub status: OptimizeStatus,
@@ -89,7 +89,7 @@ pub struct OptimizeAnswer {
 }
 
 /// What is known of platforms better than the one found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OptimalityWord {
     /// No platform that could be chosen exceeds it by more than the tolerance: proved by branch and bound.
@@ -99,7 +99,7 @@ pub enum OptimalityWord {
 }
 
 /// Which search found the answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchMethodWord {
     /// The search for offsets alone, with a bound over all offsets.
@@ -109,7 +109,7 @@ pub enum SearchMethodWord {
 }
 
 /// How a search went.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchRecord {
     /// Which search it was.
     pub method: SearchMethodWord,
@@ -132,7 +132,7 @@ impl SearchRecord {
 }
 
 /// What a search is held to besides the requirements of the design.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchLimitsRecord {
     /// Of joint centres of a body, design units; null: none.
     pub min_joint_distance: Option<f64>,
@@ -167,7 +167,7 @@ impl SearchLimitsRecord {
 }
 
 /// The poses that a design asks for.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseRegionRecord {
     /// Where home comes from.
     pub home: SourceWord,

@@ -2,7 +2,7 @@
 
 use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::riding::{DetMargin, RidingRecord};
 use crate::map::matrix;
@@ -24,7 +24,7 @@ use verify::Verification;
 pub(super) const ZONES: &str = "^[-0+]{6}$";
 
 /// A platform found by a search; every field is null where there is none.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct FoundPlatformRecord {
     /// Value of the first objective.
     pub objective: Option<Number>,
@@ -200,7 +200,7 @@ fn room(v: &ChosenVariable) -> f64 {
 }
 
 /// By how much what a search demands besides the requirements is met.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchMarginsRecord {
     /// |det A| less the required value; null: the variables do not keep the class of the design.
     pub abs_det: Option<Number>,
@@ -209,7 +209,7 @@ pub struct SearchMarginsRecord {
 }
 
 /// A local optimum beside the best one.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OptimumRecord {
     /// All objectives.
     pub objectives: Vec<ObjectiveRecord>,
@@ -241,7 +241,7 @@ impl OptimumRecord {
 }
 
 /// The platform that comes nearest to its requirements.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearestPlatformRecord {
     /// What was chosen, axes left out.
     pub variables: Vec<ChosenVariable>,
@@ -265,7 +265,7 @@ impl NearestPlatformRecord {
 }
 
 /// A member of a front.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FrontMemberRecord {
     /// The platform with its evidence.
     #[serde(flatten)]
@@ -279,7 +279,7 @@ pub struct FrontMemberRecord {
 }
 
 /// An objective and its value.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ObjectiveRecord {
     /// Which.
     pub name: Objective,
@@ -305,7 +305,7 @@ impl ObjectiveRecord {
 }
 
 /// Axes of joints: unit vectors, frame of the body; null: not chosen.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JointAxesRecord {
     /// Of the base ends of the legs.
     pub base: Option<[[Number; 3]; 6]>,
@@ -314,7 +314,7 @@ pub struct JointAxesRecord {
 }
 
 /// A verification in short.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct VerifiedRecord {
     /// The verdict.
     pub verdict: VerdictWord,
@@ -335,7 +335,7 @@ impl From<&Verification> for VerifiedRecord {
 }
 
 /// The pose with the worst conditioning.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorstPoseRecord {
     /// Its place among the poses held, from 0.
     pub index: usize,
@@ -345,7 +345,7 @@ pub struct WorstPoseRecord {
 }
 
 /// Evidence of local optimality.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LocalOptimalityRecord {
     /// The model of the last step promised no further gain.
     pub converged: bool,
@@ -358,7 +358,7 @@ pub struct LocalOptimalityRecord {
 }
 
 /// A step of the run that found a platform.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchStepRecord {
     /// Value after the step: the weighted gain of the objectives, for offsets the worst inverse condition number.
     pub objective: Number,
@@ -391,7 +391,7 @@ impl From<&HistoryStep> for SearchStepRecord {
 }
 
 /// Numbers of poses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct HeldPosesRecord {
     /// Where the search held the requirements.
     pub held: usize,

@@ -1,7 +1,7 @@
 //! What a platform found rides on: limits and ends of ranges of which next to nothing is left.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::nearest::short;
 use crate::{MarginRecord, Number};
@@ -18,7 +18,7 @@ const AT_END: f64 = 1e-6;
 const GROWN: f64 = 1.2;
 
 /// The bounds that decide about a platform, and the growth of its bodies.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RidingRecord {
     /// Ranges of variables and limits of which nothing is left.
     pub bounds: Vec<RiddenBoundRecord>,
@@ -31,7 +31,7 @@ pub struct RidingRecord {
 }
 
 /// A bound of which nothing is left.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RiddenBoundRecord {
     /// A variable, a requirement, or `abs_det`.
     pub name: String,
@@ -44,7 +44,7 @@ pub struct RiddenBoundRecord {
 }
 
 /// What bounds a quantity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RiddenWord {
     /// The range of the variable ends there.

@@ -1,12 +1,12 @@
 //! What became of the symmetry of a design that names none.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use machine::requirements::StartSymmetry;
 
 /// What became of the three-fold symmetry that a design has at home and does not ask for.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SymmetryRecord {
     /// What became of it.
     pub three_fold: StartSymmetry,

@@ -45,7 +45,7 @@ pub enum ClosureError {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     schemars(rename = "SingularFactorRecord")
 )]
 pub struct SingularFactor {

@@ -159,7 +159,7 @@ impl PoseCount {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     schemars(rename = "CommonPointsRecord")
 )]
 pub struct CommonPoints {

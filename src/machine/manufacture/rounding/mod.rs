@@ -292,14 +292,17 @@ fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
 
 /// How good a design is.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "JudgementRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "JudgementRecord", transform = num::nullable))]
 pub struct Judgement {
     /// The worst inverse condition number over the poses.
     pub objective: f64,
     /// Where it is.
     #[cfg_attr(
         feature = "serde",
-        serde(serialize_with = "platform::geom::PoseQuaternionRecord::write"),
+        serde(
+            serialize_with = "platform::geom::PoseQuaternionRecord::write",
+            deserialize_with = "platform::geom::PoseQuaternionRecord::read"
+        ),
         schemars(with = "platform::geom::PoseQuaternionRecord")
     )]
     pub worst_pose: Pose,
@@ -320,7 +323,7 @@ pub struct Judgement {
 
 /// The least margin of a requirement.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "RequirementMarginRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "RequirementMarginRecord", transform = num::nullable))]
 pub struct LeastMargin {
     /// Which.
     #[cfg_attr(feature = "serde", serde(rename = "name"))]

@@ -24,7 +24,7 @@ use synthesis::sides;
 
 /// What no offsets can exceed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "GlobalBoundRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "GlobalBoundRecord", transform = num::nullable))]
 pub struct GlobalBound {
     /// No offsets within the limits reach more.
     // of the worst-case inverse condition number, proved in interval arithmetic

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use crate::app::cli::numbers::significant;
 use machine::calibration::{NoiseSource, StartName};
 use num::shown::fixed;
+use num::shown::significant;
 use records::{
     CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationRecord, Number, ResidualsRecord,
 };

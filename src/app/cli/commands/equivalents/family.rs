@@ -1,6 +1,5 @@
 //! `equipod equivalents family`: every platform equivalent to an octahedral design.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::app::cli::commands::{GENERAL, NEAREST};
@@ -12,8 +11,9 @@ use crate::app::cli::output::Answer;
 use ask::Design;
 use ask::equivalents::{Original, Origins};
 use ask::leg_map;
-use platform::manipulator::{Body, Octahedral};
-use records::{FamilyAnswer, InstanceRecord, PatternPlace, PatternRecord};
+use platform::manipulator::Octahedral;
+use records::{FamilyAnswer, InstanceRecord};
+use sheet::Sheet;
 use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
 /// Arguments of `equivalents family`.
@@ -64,18 +64,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         let (record, found) = realise(args, pattern, &design, &original, offsets)?;
         (answer.instance, built) = (Some(record), Some(found));
     }
-    let mut text = summary(&answer);
-    if wanted.is_some() {
-        answer.patterns.iter().for_each(|p| describe(&mut text, p, &answer));
-    } else {
-        list_topologies(&mut text, &answer);
-    }
-    if let Some(r) = &answer.instance {
-        let _ = writeln!(text, "\nat these offsets det A = {}", r.determinant.0);
-    }
+    let mut sheet = Sheet::new();
     if let Some(map) = original.map.as_ref().filter(|map| map.relation == Relation::Undecided) {
-        text = format!("{} is made from an octahedral platform {}\n\n{text}", design.name, map.explanation());
+        let said = map.explanation();
+        sheet.line(format_args!("{} is made from an octahedral platform {said}\n", design.name));
     }
+    sheet.add(sheet::answers::family(&answer, wanted.is_some()));
     // what is asked of a design that is made from the platform holds as far as the design does
     let of_design = original.map.as_ref().map_or(Relation::Equivalent, |map| map.relation);
     let exit = match (of_design, built.as_ref().map(|map| map.relation)) {
@@ -85,13 +79,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     };
     if let Some(path) = &args.output {
         let written = built.as_ref().is_some_and(LegMapOutcome::is_regular_within_rounding);
-        let _ = match exit {
-            _ if written => writeln!(text, "wrote {}", path.display()),
-            Exit::No => writeln!(text, "no design is written: the platform is architecturally singular"),
-            _ => writeln!(text, "no design is written: the platform may be architecturally singular"),
-        };
+        match exit {
+            _ if written => sheet.line(format_args!("wrote {}", path.display())),
+            Exit::No => sheet.line("no design is written: the platform is architecturally singular"),
+            _ => sheet.line("no design is written: the platform may be architecturally singular"),
+        }
     }
-    Ok(Answer::new(exit, answer, text))
+    Ok(Answer::new(exit, answer, sheet))
 }
 
 /// The octahedral platform that a design is or is made of; a design that is proved to be equivalent to none is the answer no.
@@ -151,59 +145,4 @@ fn realise(
         files::write_design(path, &built)?;
     }
     Ok((record, found))
-}
-
-fn summary(r: &FamilyAnswer) -> String {
-    let (mut text, c) = (format!("platforms equivalent to {}\n\n", r.name), &r.counts);
-    let lines = [
-        ("patterns", c.patterns, None),
-        ("patterns up to symmetry", c.classes, Some(c.classes_exchange)),
-        ("topologies", c.topologies, Some(c.topologies_exchange)),
-        ("topologies, one offset at a time", c.sequential_topologies, Some(c.sequential_topologies_exchange)),
-    ];
-    for (what, count, exchange) in lines {
-        let _ = write!(text, "{count:>5}  {what}");
-        let _ = match exchange {
-            Some(n) => writeln!(text, " ({n} when base and platform may be exchanged)"),
-            None => writeln!(text),
-        };
-    }
-    text
-}
-
-fn list_topologies(text: &mut String, r: &FamilyAnswer) {
-    text.push_str("\ntopology  base  platform  shared  patterns  sequential  example\n");
-    for t in &r.topologies {
-        let patterns = r.patterns.iter().filter(|p| p.topology == t.topology).count();
-        let _ = writeln!(
-            text,
-            "{:>8}  {:>4}  {:>8}  {:>6}  {patterns:>8}  {:<10}  {}",
-            t.topology,
-            t.base_joints,
-            t.platform_joints,
-            t.shared_joints,
-            if t.sequential { "yes" } else { "no" },
-            t.example
-        );
-    }
-}
-
-fn describe(text: &mut String, pattern: &PatternRecord, r: &FamilyAnswer) {
-    let _ = writeln!(text, "\npattern {}", pattern.id);
-    for (k, leg) in pattern.legs.iter().enumerate() {
-        let formula = match &leg.place {
-            PatternPlace::Vertex {} => format!("s{}", k + 1),
-            PatternPlace::Inner { side, offset: t, between: [k, n] } => {
-                format!("(1 - {t}) s{k} + {t} s{n} - {t} (1 - {t}) d{side}^2")
-            }
-        };
-        let _ = writeln!(text, "  leg {}  {:<4} {:<4}  s' = {formula}", k + 1, leg.base, leg.platform);
-    }
-    for (k, d) in r.edge_lengths.iter().enumerate() {
-        let body = if k % 2 == 0 { Body::Base } else { Body::Platform };
-        let _ = writeln!(text, "  d{} = {} ({body})", k + 1, d.0);
-    }
-    let _ = writeln!(text, "  det A = {}", pattern.determinant);
-    let zeros = if pattern.zeros.is_empty() { "never".into() } else { pattern.zeros.join(" or ") };
-    let _ = writeln!(text, "  singular where {zeros}");
 }

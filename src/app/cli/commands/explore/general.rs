@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::folder::{self, Folder};
-use super::{Args, Verified, fk_record, original, report, solve, text, verification};
+use super::{Args, Verified, fk_record, original, solve, text, verification};
 use crate::app::cli::commands::equivalents::r#move::found::{Found, platforms};
 use crate::app::cli::commands::equivalents::r#move::wishes::WishArgs;
 use crate::app::cli::commands::equivalents::nearest;
@@ -239,7 +239,7 @@ fn compared(
     };
     let verified = verification(a, b, samples, options, &run.provenance, &mut run.folder)?;
     let word = VerdictWord::from(&verified.found.verdict).as_str().replace('_', " ");
-    run.done(StageWord::Verify, format!("{who}: {word}, {}", verified.explanation));
+    run.done(StageWord::Verify, format!("{who}: {word}, {}", verified.record.explanation));
     Ok(Some(verified))
 }
 
@@ -267,7 +267,7 @@ fn judged(
     match (moves.chosen, verified, moves.found.record.outcome) {
         (Some(_), Some(v), _) => (
             ExploreVerdict::Compared((&v.found.verdict).into()),
-            v.explanation.clone(),
+            v.record.explanation.clone(),
             exit_of(&v.found.verdict),
         ),
         (_, _, SearchWord::Violated) => {
@@ -282,7 +282,7 @@ fn judged(
 
 /// The report. Writing to a string cannot fail, so the results of `write!` are dropped.
 fn markdown(r: &ExploreGeneralAnswer, design: &Design, repeat: &str) -> String {
-    let plain = report::plain;
+    let plain = sheet::markdown_escaped;
     let mut out = format!(
         "# {}: {}\n\nEvidence: {}.\n\nDesign: [{3}]({3}), lengths in {4}. It is not octahedral.\n",
         plain(&r.name),

@@ -23,7 +23,6 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::{Answer, document};
 use crate::app::cli::poses;
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
-use crate::app::cli::requirements;
 use crate::app::cli::streams::output_is_terminal;
 use ::files::design::DriveTable;
 use ::files::export::{ExportFormat, PartLine};
@@ -36,7 +35,6 @@ use ask::{OptimizeEvidence, SAMPLES, sample_plan};
 use fk::{self, FkOptions, FkSolutions, PoseCounting};
 use machine::manufacture::NoRounding;
 use machine::requirements::KeptSymmetry;
-use platform::geom::SamplePlan;
 use platform::manipulator::{LegLengths, Octahedral};
 use records::{
     AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
@@ -69,12 +67,13 @@ pub(crate) struct Args {
     time_limit: Option<TimeLimit>,
 }
 
-/// The verification with its plan.
+/// The verification with its answer.
 #[derive(Debug)]
 struct Verified {
     found: Verification,
-    plan: SamplePlan,
-    explanation: String,
+    record: VerifyAnswer,
+    /// The number of random sets of leg lengths.
+    samples: usize,
 }
 
 /// Poses for one set of leg lengths.
@@ -91,7 +90,6 @@ struct Results {
     design: Design,
     /// What became of the default reserve; `None` where the design states one.
     reserve: Option<DefaultReserve>,
-    octahedral: Octahedral,
     family: Family,
     search: Search,
     /// The answer of `optimize`.
@@ -182,10 +180,9 @@ impl Results {
     /// One sentence with what decided.
     fn explanation(&self) -> String {
         let judged = |design: &Design| {
-            let sentence = self.assessment.as_ref().map(|a| requirements::sentence(&design.name, a));
-            sentence.map_or_else(
+            self.assessment.as_ref().map_or_else(
                 || format!("{} does not have the room that separate joints need", design.name),
-                |text| text.trim_end().to_owned(),
+                sheet::answers::sentence,
             )
         };
         let of_offsets = matches!(self.search.found.evidence, OptimizeEvidence::Offsets(_));
@@ -210,14 +207,13 @@ impl Results {
             }
             (Judged::Violated(design) | Judged::Unproved(design), _) => judged(design),
             (Judged::OnHoles, _) => match (self.built(), &self.assessment) {
-                (Some(design), Some(a)) => {
-                    let sentence = requirements::sentence(&design.name, a);
-                    format!("{}; its joints are on the holes", sentence.trim_end())
+                (Some(_), Some(a)) => {
+                    format!("{}; its joints are on the holes", sheet::answers::sentence(a))
                 }
                 _ => "all joints are on the holes; nothing is required besides".into(),
             },
             (Judged::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
-            (Judged::Compared(v), _) => v.explanation.clone(),
+            (Judged::Compared(v), _) => v.record.explanation.clone(),
             (Judged::New, _) => {
                 "the platform meets its requirements; its triangles were chosen too, so that its kinematics are new".into()
             }
@@ -403,7 +399,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let results = Results {
         design,
         reserve,
-        octahedral,
         family,
         search: found,
         answer,
@@ -422,7 +417,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     folder.finish()?;
     let record = record(&results, &folder);
     let lead = results.built().zip(record.assessment.as_ref());
-    let lead = lead.map(|(design, a)| requirements::lead(&design.name, Some(a)));
+    let lead = lead.map(|(design, a)| sheet::answers::requirements(&design.name, Some(a)));
     let notes = notes(&record);
     let lead = lead.map_or_else(|| notes.clone(), |lead| format!("{notes}{lead}"));
     let lead = (!lead.is_empty()).then_some(lead);
@@ -527,7 +522,7 @@ fn notes(a: &ExploreOctahedralAnswer) -> String {
         let _ = writeln!(out, "{}", s.message);
     }
     if let Some(d) = &a.drive_search {
-        optimize::drives_text(&mut out, d);
+        let _ = write!(out, "\n{}", sheet::answers::tried_drives(d));
     }
     for f in a.freedoms.iter().flatten() {
         let _ = writeln!(out, "{}", f.message);
@@ -574,9 +569,8 @@ fn verification(
     let found = verify(design.manipulator(), new.manipulator(), &plan, options)
         .map_err(|e| verify_command::failure_of(&e))?;
     let record = VerifyAnswer::new(&found, &plan, FramesRecord::default());
-    let explanation = record.explanation.clone();
-    folder.keep(folder::VERIFY, document(record, provenance.clone(), &[])?);
-    Ok(Verified { found, plan, explanation })
+    folder.keep(folder::VERIFY, document(&record, provenance.clone(), &[])?);
+    Ok(Verified { found, record, samples: plan.count })
 }
 
 /// The poses at the design's own lengths, or at those of its home pose.

@@ -153,7 +153,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         csv: args.csv.as_ref().map(|path| path.display().to_string()),
     };
     let exit = if answer.met { Exit::Yes } else { Exit::No };
-    let text = render::text(&answer);
+    let text = sheet::answers::motion(&answer);
     Ok(Answer::new(exit, answer, text))
 }
 

@@ -1,9 +1,6 @@
 //! `equipod optimize`: the best platform equivalent to a design, or the best under its requirements.
 
 mod history;
-mod render;
-
-pub(super) use self::render::drives_text;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -23,6 +20,7 @@ use ask::{ConflictFreedom, Error, OptimizeEvidence, OptimizeOptions, OptimizeRep
 use fk::Threads;
 use optimize::dimensional::InvalidProblem;
 use records::{OptimizeAnswer, OptimizeFiles};
+use sheet::Sheet;
 
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
@@ -86,7 +84,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     progress.end();
     let written = write(args, &found)?;
     let record = OptimizeAnswer::new(&found, &written);
-    let text = if context.json() { String::new() } else { render::text(&design.name, &record) };
+    let text = if context.json() { Sheet::new() } else { sheet::answers::optimize(&design.name, &record) };
     Ok(Answer::new(exit_of(record.status), record, text))
 }
 

@@ -7,10 +7,10 @@ use crate::app::cli::commands::report;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::numbers::significant;
 use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
 use crate::app::cli::swept_table::{Better, SweptTable};
+use num::shown::significant;
 use records::{SweepBestAnswer, SweepBestRecord};
 use sweep::SweepCell;
 
@@ -103,7 +103,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     }
     if candidates.is_empty() {
         let answer = SweepBestAnswer { column: args.by.clone(), rows, candidates, page: None };
-        return Ok(Answer::new(Exit::No, answer, "no row has a value and is kept\n".into()));
+        return Ok(Answer::new(Exit::No, answer, "no row has a value and is kept\n"));
     }
     let page = args.output.join(PAGE);
     files::write_text(&page, &report::page(report::read(&args.output, paths)?, Some(table.name)))?;

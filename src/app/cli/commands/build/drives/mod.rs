@@ -1,7 +1,5 @@
 //! `equipod build drives`: which drives of a table fit the design.
 
-mod render;
-
 use std::path::{Path, PathBuf};
 
 use crate::app::cli::commands::motion;
@@ -85,7 +83,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         design: chosen.map(|fit| (&fit.design).into()),
         output,
     };
-    let text = render::text(&answer);
+    let text = sheet::answers::drives(&answer);
     Ok(Answer::new(met.into(), answer, text))
 }
 

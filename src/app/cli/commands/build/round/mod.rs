@@ -250,6 +250,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         written: written.as_deref(),
     };
     let record = report.record();
-    let text = render::text(&record);
+    let text = sheet::answers::round(&record);
     Ok(Answer::new(exit, record, text))
 }

@@ -250,6 +250,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let path = args.map.as_ref().map(|path| path.display().to_string());
     let record = render::record(&design, &found, context.seed(), path);
-    let text = render::text(&design, &found, &record);
+    let text = sheet::answers::tolerances(&design.name, &record);
     Ok(Answer::new(Exit::Yes, record, text))
 }

@@ -1,6 +1,5 @@
 //! `equipod equivalents move DESIGN --search`: what was found.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use super::naming::{family_names, moved_design};
@@ -9,7 +8,6 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::output::Answer;
-use crate::app::cli::requirements;
 use ask::Design;
 use records::{
     AssessAnswer, CandidateRecord, DesignRecord, DesignRoleWord, HoleRecord, MoveAnswer, MoveSearchAnswer,
@@ -44,7 +42,7 @@ pub(super) fn run(
             }
         }
     }
-    let text = text(&record);
+    let text = sheet::answers::move_search(&record);
     Ok(Answer::new(exit, MoveAnswer::Search(Box::new(record)), text))
 }
 
@@ -131,27 +129,12 @@ fn judged<'a>(design: &Design, outcome: &'a SearchOutcome, seed: u64) -> Vec<Jud
     let mut found: Vec<JudgedPlatform<'a>> = outcome.candidates.iter().map(judge).collect();
     found.sort_by_key(|f| !f.is_fulfilled());
     for (k, f) in found.iter_mut().enumerate() {
-        let words = in_words(f.candidate.fulfilled, f.assessment.as_ref());
+        let words = sheet::answers::wishes_in_words(f.candidate.fulfilled, f.assessment.as_ref());
         if let Some(d) = &mut f.design {
             finish(d, design, f.candidate, k + 1, &words);
         }
     }
     found
-}
-
-/// What a platform fulfils and what it misses.
-fn in_words(wishes: bool, assessment: Option<&AssessAnswer>) -> String {
-    let names = |a: &AssessAnswer, met: Option<bool>| {
-        let kinds = a.requirements.iter().filter(|m| m.met == met).map(|m| m.name.code());
-        kinds.chain((a.regular.met == met).then_some("singularity")).collect::<Vec<_>>().join(", ")
-    };
-    let wishes = if wishes { "every wish fulfilled" } else { "not every wish fulfilled" };
-    match assessment.map(|a| (a, a.met)) {
-        None => wishes.to_owned(),
-        Some((_, Some(true))) => format!("{wishes}, all requirements met"),
-        Some((a, Some(false))) => format!("{wishes}, requirements violated: {}", names(a, Some(false))),
-        Some((a, None)) => format!("{wishes}, requirements not proved: {}", names(a, None)),
-    }
 }
 
 /// Name, description and lengths of a platform of the search.
@@ -292,52 +275,4 @@ impl MoveReport<'_> {
             design: f.design.as_ref().map(DesignRecord::from),
         })
     }
-}
-
-fn text(r: &MoveSearchAnswer) -> String {
-    let mut text = format!("{}\n", r.explanation);
-    let _ = writeln!(
-        text,
-        "{} patterns of six independent legs, {} searched; fewest shared joints {}{}",
-        r.patterns,
-        r.patterns_searched,
-        r.least_shared_joints.map_or("unknown".to_string(), |n| n.to_string()),
-        if r.complete { "" } else { " (the list of replaceable legs is not proved complete)" }
-    );
-    for (k, c) in r.designs.iter().enumerate() {
-        let _ = writeln!(
-            text,
-            "\n{}. {}, det A = {:.6}, sigma_min/sigma_max of A {:.3e}, shared joints {}",
-            k + 1,
-            in_words(c.wishes_fulfilled, c.assessment.as_ref()),
-            c.map.determinant.0,
-            c.map.inverse_condition.0,
-            c.shared_joints
-        );
-        if let Some(found) = &c.assessment {
-            text.push_str(&requirements::table(found));
-        }
-        for m in &c.margins {
-            let _ = writeln!(
-                text,
-                "   {:<13} {:>12.6}  required {:>12.6}  slack {:>9.5}",
-                m.wish.as_str(),
-                m.value,
-                m.required,
-                m.slack
-            );
-        }
-        for p in &c.moves {
-            let (a, b) = (p.to.base.map(|x| x.0), p.to.platform.map(|x| x.0));
-            let _ = writeln!(
-                text,
-                "   leg {}  {}  [{:.6}, {:.6}, {:.6}] - [{:.6}, {:.6}, {:.6}]",
-                p.leg, p.from, a[0], a[1], a[2], b[0], b[1], b[2]
-            );
-        }
-    }
-    for path in &r.paths {
-        let _ = writeln!(text, "wrote {path}");
-    }
-    text
 }

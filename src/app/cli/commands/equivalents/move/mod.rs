@@ -108,7 +108,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         together: args.together,
     };
     let answer = record.record(built.as_ref(), written.as_deref());
-    let text = render::text(&answer);
+    let text = sheet::answers::moves(&answer);
     let singular = steps.iter().any(|s| s.map.relation == Relation::Singular);
     let exit = match (regular, singular) {
         (true, _) => Exit::Yes,

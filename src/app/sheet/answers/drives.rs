@@ -1,29 +1,24 @@
-//! What `build drives` writes.
+//! Which drives of a table fit.
 
-use std::fmt::Write as _;
-
-use crate::app::cli::numbers::{significant as short, width_of};
-use crate::app::cli::requirements;
+use super::requirements;
+use crate::{Cell, Sheet, Table, left, right};
+use num::shown::significant as short;
 use records::{DriveRecord, DrivesAnswer, MarginRecord, Number};
 
-/// The sentence, a line for each drive, and the requirements with the drive chosen.
-pub(super) fn text(answer: &DrivesAnswer) -> String {
-    let mut out = format!("{}: {}\n", answer.name, sentence(answer));
-    for line in &answer.assumptions {
-        let _ = writeln!(out, "{line}");
-    }
-    out.push('\n');
-    table(&mut out, answer);
+/// The answer of `build drives`: the sentence, a line for each drive, and the requirements with the drive chosen.
+#[must_use]
+pub fn drives(answer: &DrivesAnswer) -> Sheet {
+    let mut out = Sheet::new();
+    say!(out, "{}: {}", answer.name, sentence(answer));
+    answer.assumptions.iter().for_each(|line| out.line(line));
+    out.space();
+    out.table(table(answer));
     if let Some(drive) = answer.drives.first().filter(|d| d.fits == Some(true)) {
-        let _ = write!(
-            out,
-            "\nwith {}: {}",
-            drive.name,
-            requirements::lead(&answer.name, Some(&drive.assessment))
-        );
+        say!(out, "\nwith {}:", drive.name);
+        out.add(requirements(&answer.name, Some(&drive.assessment)));
     }
     if let Some(path) = &answer.output {
-        let _ = writeln!(out, "wrote {path}");
+        say!(out, "wrote {path}");
     }
     out
 }
@@ -39,7 +34,7 @@ fn sentence(answer: &DrivesAnswer) -> String {
     }
 }
 
-fn table(out: &mut String, answer: &DrivesAnswer) {
+fn table(answer: &DrivesAnswer) -> Table {
     let (length, force, mass) = (&answer.length_unit, &answer.force_unit, &answer.mass_unit);
     let price = answer.currency.as_ref().map_or("price".to_owned(), |c| format!("price {c}"));
     let titles = [
@@ -50,26 +45,21 @@ fn table(out: &mut String, answer: &DrivesAnswer) {
         format!("force {force}"),
         format!("speed {length}/s"),
     ];
-    let width = width_of(answer.drives.iter().map(|d| d.name.as_str()));
-    let _ = write!(out, "{:<width$} {:<9}", "drive", "fits");
-    for title in &titles {
-        let _ = write!(out, " {title:>13}");
-    }
-    out.push_str("  what binds\n");
+    let columns = [left("drive", 5), left("fits", 9)].into_iter().chain(titles.map(|title| right(title, 13)));
+    let mut table = Table::new(columns.chain([left("what binds", 0).gap(2)]));
     for drive in &answer.drives {
         let fits = match drive.fits {
             Some(true) => "yes",
             Some(false) => "no",
             None => "undecided",
         };
-        let _ = write!(out, "{:<width$} {fits:<9}", drive.name);
-        let number = |x: Option<Number>| x.map_or_else(|| "-".to_owned(), |x| short(x.0));
+        let number = |x: Option<Number>| Cell::from(x.map_or_else(|| "-".to_owned(), |x| short(x.0)));
         let [least, greatest] = drive.leg_length.map(Some);
-        for x in [drive.price, drive.mass, least, greatest, drive.force, drive.speed] {
-            let _ = write!(out, " {:>13}", number(x));
-        }
-        let _ = writeln!(out, "  {}", binding(drive).join(", "));
+        let numbers = [drive.price, drive.mass, least, greatest, drive.force, drive.speed].map(number);
+        let cells = [drive.name.as_str().into(), fits.into()].into_iter().chain(numbers);
+        table.row(cells.chain([binding(drive).join(", ").into()]));
     }
+    table
 }
 
 /// The requirements that a drive misses or that are not proved; of one that fits what the drive leaves: length, force and speed.

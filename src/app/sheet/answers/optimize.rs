@@ -1,10 +1,9 @@
-//! What `optimize` writes, for people: one text for every answer.
+//! What a search found.
 
-use std::fmt::Write as _;
-
-use crate::app::cli::numbers::{significant as short, width_of};
-use crate::app::cli::requirements;
+use super::{assumptions, requirements, requirements_without_assumptions};
+use crate::{Cell, Sheet, Table, Tone, left, right};
 use ask::OptimizeStatus;
+use num::shown::significant as short;
 use optimize::dimensional::ChosenVariable;
 use optimize::offsets::Zone;
 use records::{
@@ -14,57 +13,74 @@ use records::{
 };
 use synthesis::sliding_body;
 
-/// For people. Writing to a string cannot fail, so the results of `write!` are dropped.
-pub(super) fn text(name: &str, a: &OptimizeAnswer) -> String {
-    let mut out = format!("{name}: {}\n", a.status.name().replace('_', " "));
+/// The answer of `optimize` about a design of this name.
+#[must_use]
+pub fn optimize(name: &str, a: &OptimizeAnswer) -> Sheet {
+    told(name, a, true)
+}
+
+/// The same for a report that has the requirements of the platform elsewhere.
+#[must_use]
+pub fn search(name: &str, a: &OptimizeAnswer) -> Sheet {
+    told(name, a, false)
+}
+
+fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
+    let mut out = Sheet::new();
+    say!(out, "{name}: {}", a.status.name().replace('_', " "));
     if let Some(choice) = &a.choice {
-        let _ = writeln!(out, "{choice}");
+        say!(out, "{choice}");
     }
-    search_text(&mut out, a);
+    progress(&mut out, a);
     if let Some(s) = &a.symmetry {
-        let _ = writeln!(out, "{}", s.message);
+        say!(out, "{}", s.message);
     }
     if let Some(d) = &a.drive_search {
-        drives_text(&mut out, d);
+        out.space();
+        out.add(tried_drives(d));
     }
     if a.platform.objective.is_some() {
         let found = a.design.as_ref().map_or(name, DesignRecord::name);
-        let _ = writeln!(out, "\n{}", requirements::lead(found, a.platform.assessment.as_ref()));
-        platform_text(&mut out, &a.platform, &a.limits.units);
+        if with_requirements {
+            out.space();
+            out.add(requirements(found, a.platform.assessment.as_ref()));
+            out.space();
+        }
+        platform(&mut out, &a.platform, &a.limits.units);
     }
     if let Some(list) = &a.front {
-        front_text(&mut out, list);
+        front(&mut out, list);
     }
     if let Some(c) = &a.conflict {
-        conflict_text(&mut out, c);
+        conflict(&mut out, c);
     }
     for f in a.freedoms.iter().flatten() {
         let written = f.output.as_ref().map_or_else(String::new, |path| format!(" ({path})"));
-        let _ = writeln!(out, "{}{written}", f.message);
+        say!(out, "{}{written}", f.message);
     }
     if let Some(n) = &a.nearest {
-        nearest_text(&mut out, n);
+        nearest(&mut out, n);
     }
     if let Some(list) = &a.candidates {
-        candidates_text(&mut out, list);
+        candidates(&mut out, list);
     }
     if let Some(r) = &a.platform.riding {
-        let _ = writeln!(out, "{}", r.message);
+        say!(out, "{}", r.message);
     }
-    meaning_text(&mut out, a);
-    branches_text(&mut out, a);
+    meaning(&mut out, a);
+    branches(&mut out, a);
     if let Some(path) = &a.output {
-        let _ = writeln!(out, "wrote {path}");
+        say!(out, "wrote {path}");
     }
     out
 }
 
 /// What was asked, and how the search went.
-fn search_text(out: &mut String, a: &OptimizeAnswer) {
+fn progress(out: &mut Sheet, a: &OptimizeAnswer) {
     let (l, units) = (&a.limits, &a.limits.units);
     let room =
         l.min_joint_distance.map_or_else(String::new, |d| format!("joints at least {d} {units} apart; "));
-    let _ = writeln!(
+    say!(
         out,
         "{} workspace, {} home; {room}|det A| >= {}; L = {} {units}",
         a.region.workspace.words(),
@@ -74,13 +90,13 @@ fn search_text(out: &mut String, a: &OptimizeAnswer) {
     );
     let r = &a.search;
     if let (Some(starts), Some(feasible)) = (r.starts, r.feasible) {
-        let _ = writeln!(out, "{starts} starts, {feasible} of them feasible in the first pass");
+        say!(out, "{starts} starts, {feasible} of them feasible in the first pass");
     }
     if let (Some(list), Some(dominated), Some(unmet)) = (&a.front, r.dominated, r.unmet) {
         if a.status == OptimizeStatus::Interrupted {
-            out.push_str("the front as far as it was found; runs that were not finished may be improved\n");
+            out.line("the front as far as it was found; runs that were not finished may be improved");
         }
-        let _ = writeln!(
+        say!(
             out,
             "{} platforms of which none is better in every objective; {dominated} dominated or equal ones left out, {unmet} bounds not met",
             list.len()
@@ -89,58 +105,63 @@ fn search_text(out: &mut String, a: &OptimizeAnswer) {
 }
 
 /// What the word of the status means here.
-fn meaning_text(out: &mut String, a: &OptimizeAnswer) {
+fn meaning(out: &mut Sheet, a: &OptimizeAnswer) {
     match (a.status, a.optimality) {
         (OptimizeStatus::Feasible, Some(OptimalityWord::BestOfStarts)) => {
             let gap =
                 a.tolerance.map_or_else(String::new, |t| format!(" to within the gap of {t} asked for"));
-            let _ =
-                writeln!(out, "no better platform is near; that there is none anywhere is not proved{gap}");
+            say!(out, "no better platform is near; that there is none anywhere is not proved{gap}");
         }
-        (_, Some(OptimalityWord::BestOfStarts)) => out.push_str(
-            "a local optimum, the best of all starts; that there is no better platform is not proved\n",
-        ),
+        (_, Some(OptimalityWord::BestOfStarts)) => out
+            .line("a local optimum, the best of all starts; that there is no better platform is not proved"),
         (OptimizeStatus::Violated, _) => {
-            out.push_str("the platform misses requirements and is not called optimal\n");
+            out.line("the platform misses requirements and is not called optimal");
         }
-        (OptimizeStatus::Feasible, _) => out.push_str("the limits are met; better platforms may be near\n"),
+        (OptimizeStatus::Feasible, _) => out.line("the limits are met; better platforms may be near"),
         (OptimizeStatus::Undecided, _) if a.platform.objective.is_none() && a.front.is_none() => {
             let reason = a.failure.as_ref().map_or_else(String::new, |w| format!(": {w}"));
-            let _ =
-                writeln!(out, "no platform that meets the requirements was found, and no conflict{reason}");
+            say!(out, "no platform that meets the requirements was found, and no conflict{reason}");
         }
         _ => {}
     }
     if let Some(b) = &a.global_bound {
-        let _ = writeln!(
+        say!(
             out,
             "proved: no offsets within the limits reach more than {:.9} ({:.2e} above the solution; {} boxes)",
-            b.upper, b.gap, b.boxes
+            b.upper,
+            b.gap,
+            b.boxes
         );
     }
 }
 
 /// What became of the branches, where the search has some.
-fn branches_text(out: &mut String, a: &OptimizeAnswer) {
+fn branches(out: &mut Sheet, a: &OptimizeAnswer) {
     let Some(n) = &a.branch_counts else { return };
-    let _ = writeln!(
+    say!(
         out,
         "branches: {} feasible, {} outside the bounds, {} without room, {} with |det A| too small, {} covered by the bound, {} unproved, {} failed",
-        n.feasible, n.outside_bounds, n.spacing, n.det, n.bounded, n.unproved, n.failed
+        n.feasible,
+        n.outside_bounds,
+        n.spacing,
+        n.det,
+        n.bounded,
+        n.unproved,
+        n.failed
     );
     for r in ConflictReasonRecord::all(a.branches.as_deref().unwrap_or_default()) {
-        let _ = writeln!(out, "  {:>3} {}, for example: {}", r.branches, r.code, r.message);
+        say!(out, "  {:>3} {}, for example: {}", r.branches, r.code, r.message);
     }
     for (i, b) in a.runners_up.iter().flatten().enumerate() {
         if let (Some(value), Some(offsets)) = (b.objective, b.offsets) {
             let t: Vec<String> = offsets.iter().map(|t| format!("{:8.4}", t.0)).collect();
-            let _ = writeln!(out, "  runner-up {}  {}  {:.6}  t = {}", i + 1, b.branch, value.0, t.join(" "));
+            say!(out, "  runner-up {}  {}  {:.6}  t = {}", i + 1, b.branch, value.0, t.join(" "));
         }
     }
 }
 
 /// The members of a front: a line for each, and then the requirements of each.
-fn front_text(out: &mut String, list: &[FrontMemberRecord]) {
+fn front(out: &mut Sheet, list: &[FrontMemberRecord]) {
     for (k, member) in list.iter().enumerate() {
         let s = &member.platform;
         let objectives = s.objectives.iter().flatten();
@@ -151,61 +172,63 @@ fn front_text(out: &mut String, list: &[FrontMemberRecord]) {
             None => "  (not all requirements proved)",
         };
         let path = member.output.as_ref().map_or_else(String::new, |p| format!("  {p}"));
-        let _ = writeln!(out, "  {:>3}  {}{met}{path}", k + 1, values.collect::<Vec<_>>().join("  "));
+        say!(out, "  {:>3}  {}{met}{path}", k + 1, values.collect::<Vec<_>>().join("  "));
     }
     for (k, member) in list.iter().enumerate() {
-        let found = member.platform.assessment.as_ref();
-        let name = member.design.name();
-        let lead = found.map_or_else(
-            || requirements::lead(name, None),
-            |found| requirements::without_assumptions(name, found),
-        );
-        let _ = writeln!(out, "\n{}. {lead}", k + 1);
+        say!(out, "\n{}.", k + 1);
+        out.add(match member.platform.assessment.as_ref() {
+            Some(found) => requirements_without_assumptions(found),
+            None => requirements(member.design.name(), None),
+        });
+        out.space();
     }
     // one file says what is assumed of all members
     if let Some(found) = list.first().and_then(|member| member.platform.assessment.as_ref()) {
-        out.push_str(&requirements::assumptions(found));
+        out.add(assumptions(found));
     }
 }
 
 /// A line for each drive of the table.
-pub(in crate::app::cli::commands) fn drives_text(out: &mut String, d: &DriveSearchRecord) {
-    let _ = writeln!(out, "\n{}:", d.message);
-    let width = width_of(d.drives.iter().map(|d| d.name.as_str()));
+#[must_use]
+pub fn tried_drives(d: &DriveSearchRecord) -> Sheet {
     let price = d.currency.as_ref().map_or("price".to_owned(), |c| format!("price {c}"));
-    let _ = writeln!(out, "  {:<width$} {:<11} {price:>12} {:>14}", "drive", "outcome", "objective");
+    let columns = [left("drive", 5).gap(3), left("outcome", 11), right(price, 12), right("objective", 14)];
+    let mut table = Table::new(columns.into_iter().chain([left("", 0).gap(2)]));
     for drive in &d.drives {
         let number = |x: Option<Number>| x.map_or_else(|| "-".to_owned(), |x| short(x.0));
-        let (price, objective) = (number(drive.price), number(drive.objective));
-        let _ = write!(
-            out,
-            "  {:<width$} {:<11} {price:>12} {objective:>14}",
-            drive.name,
-            drive.outcome.as_str()
-        );
         let left = |m: &MarginRecord| format!("{} {} {}", m.name.code(), short(m.margin.0), m.unit);
         let margins = || drive.margins.iter().map(left).collect::<Vec<String>>().join(", ");
-        let _ = writeln!(out, "  {}", drive.reason.clone().unwrap_or_else(margins));
+        table.row([
+            drive.name.clone(),
+            drive.outcome.as_str().to_owned(),
+            number(drive.price),
+            number(drive.objective),
+            drive.reason.clone().unwrap_or_else(margins),
+        ]);
     }
+    let mut out = Sheet::new();
+    say!(out, "{}:", d.message);
+    out.table(table);
+    out
 }
 
 /// What comes nearest misses something: the table of its requirements says what.
-fn nearest_text(out: &mut String, n: &NearestPlatformRecord) {
-    let _ = writeln!(
-        out,
-        "\nthe platform with the least violation that was found; it is no answer, and shows what is missed:"
+fn nearest(out: &mut Sheet, n: &NearestPlatformRecord) {
+    out.line(
+        "\nthe platform with the least violation that was found; it is no answer, and shows what is missed:",
     );
-    let _ = writeln!(out, "{}", requirements::lead(n.design.name(), n.assessment.as_ref()));
-    variables_text(out, &n.variables);
+    out.add(requirements(n.design.name(), n.assessment.as_ref()));
+    out.space();
+    variables(out, &n.variables);
 }
 
 /// A line for each local optimum beside the answer.
-fn candidates_text(out: &mut String, list: &[OptimumRecord]) {
+fn candidates(out: &mut Sheet, list: &[OptimumRecord]) {
     if list.is_empty() {
-        out.push_str("\nno other local optimum that meets the requirements was found\n");
+        out.line("\nno other local optimum that meets the requirements was found");
         return;
     }
-    out.push_str("\nother local optima that meet the requirements at the poses that were held:\n");
+    out.line("\nother local optima that meet the requirements at the poses that were held:");
     for c in list {
         let met = match c.requirements_met {
             Some(true) => "requirements met",
@@ -214,21 +237,22 @@ fn candidates_text(out: &mut String, list: &[OptimumRecord]) {
         };
         let values: Vec<String> =
             c.objectives.iter().map(|o| format!("{} {:.6}", o.name.code(), o.value.0)).collect();
-        let _ = writeln!(out, "  {}: {}; {met}", c.output.as_deref().unwrap_or_default(), values.join(", "));
+        say!(out, "  {}: {}; {met}", c.output.as_deref().unwrap_or_default(), values.join(", "));
     }
 }
 
 /// What was chosen: from what, to what.
-fn variables_text(out: &mut String, variables: &[ChosenVariable]) {
-    for v in variables {
-        let _ = writeln!(out, "  {:<20} {:>12.6}  from {:.6}", v.name, v.value, v.start);
-    }
+fn variables(out: &mut Sheet, list: &[ChosenVariable]) {
+    let columns = [left("", 20).gap(3), right("", 12), left("", 0).gap(2)];
+    let rows =
+        list.iter().map(|v| [v.name.clone(), format!("{:.6}", v.value), format!("from {:.6}", v.start)]);
+    out.table(Table::new(columns).with_rows(rows));
 }
 
-fn platform_text(out: &mut String, s: &FoundPlatformRecord, units: &str) {
+fn platform(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
     let held = s.poses.map_or(0, |p| p.held);
     for o in s.objectives.iter().flatten() {
-        let _ = writeln!(
+        say!(
             out,
             "{} {:.9} {} ({:.9} over the {held} held poses)",
             o.name.code(),
@@ -238,22 +262,21 @@ fn platform_text(out: &mut String, s: &FoundPlatformRecord, units: &str) {
         );
     }
     if let Some(worst) = &s.worst_pose {
-        let _ = writeln!(out, "worst at held pose {}", worst.index + 1);
+        say!(out, "worst at held pose {}", worst.index + 1);
     }
     if let (Some(det), Some(margin)) = (s.det, s.search_margins.and_then(|m| m.abs_det)) {
-        let _ = writeln!(out, "det A = {:.9} (margin {:.3e})", det.0, margin.0);
+        say!(out, "det A = {:.9} (margin {:.3e})", det.0, margin.0);
     }
-    variables_text(out, s.variables.as_deref().unwrap_or_default());
-    offsets_text(out, s, units);
+    variables(out, s.variables.as_deref().unwrap_or_default());
+    offsets(out, s, units);
     if let Some(e) = s.local_optimality {
         let pattern = e.pattern_gain.zip(e.pattern_trials).map_or_else(String::new, |(gain, trials)| {
             format!(", pattern search gained {:.1e} in {trials} trials", gain.0)
         });
-        let _ =
-            writeln!(out, "gain still promised {:.1e} a unit of the variables{pattern}", e.stationarity.0);
+        say!(out, "gain still promised {:.1e} a unit of the variables{pattern}", e.stationarity.0);
     }
     if let Some(v) = &s.verify {
-        let _ = writeln!(
+        say!(
             out,
             "{} to the design (poses of {} samples differ by at most {:.1e})",
             v.verdict.as_str(),
@@ -265,47 +288,55 @@ fn platform_text(out: &mut String, s: &FoundPlatformRecord, units: &str) {
     let listed = |m: &&MarginRecord| {
         !s.assessment.iter().flat_map(|a| &a.requirements).any(|known| known.name == m.name)
     };
+    let mut table = Table::new([left("", 17).gap(3), right("", 14), left("", 8), left("", 0)]);
     for m in s.constraint_margins.iter().flatten().filter(listed) {
-        let mark = if m.margin.0 >= 0.0 { ' ' } else { '!' };
-        let of = m.between.join(", ");
-        let _ = writeln!(out, "  {:<17}{mark}{:>14.6} {:<8} {of}", m.name.code(), m.margin.0, m.unit);
+        let tone = if m.margin.0 >= 0.0 { Tone::Plain } else { Tone::No };
+        let margin = Cell::toned(format!("{:.6}", m.margin.0), tone);
+        table.row([m.name.code().into(), margin, m.unit.as_str().into(), m.between.join(", ").into()]);
     }
+    out.table(table);
 }
 
 /// A line for each leg whose joint slides on an edge.
-fn offsets_text(out: &mut String, s: &FoundPlatformRecord, units: &str) {
+fn offsets(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
     let (Some(order), Some(offsets), Some(branch)) = (s.cyclic_order, s.offsets, &s.branch) else { return };
-    let _ = writeln!(out, "  leg  slides    zone              t_i      Delta_i [{units}]");
+    let text = |title: &str, width| left(title, width).gap(2);
+    let number = |title: &str, width| right(title, width).gap(2);
+    let mut table = Table::new([
+        number("leg", 3).gap(3),
+        text("slides", 8),
+        text("zone", 15),
+        number("t_i", 9),
+        number(&format!("Delta_i [{units}]"), 12),
+    ]);
     for (i, zone) in branch.chars().enumerate().take(6) {
-        let shift = s.shifts.map_or_else(String::new, |d| format!("{:>12.6}", d[i].0));
-        let line = format!(
-            "  {:>3}  {:<8}  {:<15}  {:>9.6}  {shift}",
-            order[i],
+        table.row([
+            order[i].to_string(),
             sliding_body(i).to_string(),
-            Zone::of_symbol(zone).map_or("", Zone::words),
-            offsets[i].0
-        );
-        let _ = writeln!(out, "{}", line.trim_end());
+            Zone::of_symbol(zone).map_or("", Zone::words).to_owned(),
+            format!("{:.6}", offsets[i].0),
+            s.shifts.map_or_else(String::new, |d| format!("{:.6}", d[i].0)),
+        ]);
     }
+    out.table(table);
 }
 
-fn conflict_text(out: &mut String, c: &ConflictRecord) {
+fn conflict(out: &mut Sheet, c: &ConflictRecord) {
     if c.requirements.is_empty() {
-        out.push_str("every branch of the offsets is proved to violate the limits\n");
+        out.line("every branch of the offsets is proved to violate the limits");
         return;
     }
     let how = if c.proved { "cannot" } else { "could not, from any start," };
-    let _ = writeln!(out, "within the bounds of the variables these requirements {how} be met together:");
+    say!(out, "within the bounds of the variables these requirements {how} be met together:");
     for g in &c.requirements {
-        let _ = writeln!(out, "  {}", g.message);
+        say!(out, "  {}", g.message);
     }
-    let _ = writeln!(
-        out,
-        "the sum of the violations, each in its scale, is least where these give, and the others hold:"
-    );
+    out.line("the sum of the violations, each in its scale, is least where these give, and the others hold:");
+    let mut table = Table::new([left("", 17).gap(3), right("", 14), left("", 0)]);
     for g in c.requirements.iter().filter(|g| g.together.0 > 0.0) {
-        let _ = writeln!(out, "  {:<17} {:>14} {}", g.name.code(), g.amount(), g.unit);
+        table.row([g.name.code().to_owned(), g.amount(), g.unit.clone()]);
     }
+    out.table(table);
 }
 
 #[cfg(test)]
@@ -320,7 +351,7 @@ mod tests {
 
     #[test]
     fn nobody_has_to_give_by_zero() {
-        let text = std::fs::read_to_string("designs/worked/linuxcnc-octahedral.toml").unwrap();
+        let text = std::fs::read_to_string("../../../designs/worked/linuxcnc-octahedral.toml").unwrap();
         let (design, _) = parse(&text, Format::Toml).unwrap();
         let give = |kind, alone, together| Give { demand: Demand::Requirement(kind), alone, together };
         let demands = vec![
@@ -329,11 +360,9 @@ mod tests {
             give(TermKind::LegForce, Some(0.0), 4.5e-7),
             give(TermKind::LegSpeed, None, 0.0),
         ];
-        let mut out = String::new();
-        conflict_text(
-            &mut out,
-            &ConflictRecord::new(&design, &ConstraintConflict { demands, proved: false }),
-        );
+        let mut out = Sheet::new();
+        conflict(&mut out, &ConflictRecord::new(&design, &ConstraintConflict { demands, proved: false }));
+        let out = out.to_string();
         assert_eq!(
             out,
             r"within the bounds of the variables these requirements could not, from any start, be met together:
@@ -351,13 +380,13 @@ the sum of the violations, each in its scale, is least where these give, and the
 
     #[test]
     fn an_interrupted_front_is_said_to_be_so_far() {
-        let file = std::fs::read_to_string("designs/worked/isolator-octahedral.toml").unwrap();
+        let file = std::fs::read_to_string("../../../designs/worked/isolator-octahedral.toml").unwrap();
         let (mut design, _) = parse(&file, Format::Toml).unwrap();
         design.search.mode = Some(files::design::Combination::Pareto { points: 2 });
         design.search.objectives = vec![(Objective::Stroke, 1.0), (Objective::WorstConditioning, 1.0)];
         let ended = OptimizeOptions::new().on_progress(|_| std::ops::ControlFlow::Break(()));
         let answer = OptimizeAnswer::new(&design.optimize_with(ended).unwrap(), &OptimizeFiles::default());
         assert_eq!(answer.status, OptimizeStatus::Interrupted);
-        assert!(text(&design.name, &answer).contains("as far as it was found"));
+        assert!(optimize(&design.name, &answer).to_string().contains("as far as it was found"));
     }
 }

@@ -1,0 +1,158 @@
+//! How far the platform may move.
+
+use crate::{Sheet, Table, left, right};
+use num::shown::significant as short;
+use records::{
+    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, StraightWayRecord,
+    WorkspaceSizeRecord,
+};
+
+/// The answer of `limits` about a design of this name.
+#[must_use]
+pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
+    let mut out = Sheet::new();
+    let at = answer.pose.short();
+    if answer.allowed {
+        say!(out, "{name} may be at {at} and move from there, one number at a time:\n");
+        let columns = [left("axis", 6), right("value", 12), right("down to", 12), left("where binds", 32)];
+        let more = [right("up to", 12), left("where binds", 32), left("unit", 0)];
+        out.table(Table::new(columns.into_iter().chain(more)).with_rows(answer.axes.iter().map(axis)));
+    } else {
+        say!(out, "{name} may not be at {at}:");
+        for limit in &answer.violated {
+            let unit = limit.unit.as_deref().unwrap_or("of det J at home");
+            say!(out, "  {} is missed by {} {unit}", named(limit), short(-limit.margin.0));
+        }
+    }
+    if let Some(found) = &answer.way {
+        way(&mut out, found);
+    }
+    if let Some(found) = &answer.nearest_allowed {
+        nearest(&mut out, answer, found);
+    } else if !answer.allowed {
+        out.line("No allowed pose was found, home among those tried.");
+    }
+    if let Some(found) = &answer.workspace {
+        workspace(&mut out, found, &answer.length_unit);
+    }
+    out
+}
+
+/// The requirement and what it is about.
+fn named(limit: &LimitRecord) -> String {
+    if limit.between.is_empty() {
+        limit.code().to_owned()
+    } else {
+        format!("{} ({})", limit.code(), limit.between.join(", "))
+    }
+}
+
+fn bound(limit: Option<&LimitRecord>) -> String {
+    limit.map_or_else(|| "nothing".to_owned(), named)
+}
+
+fn axis(row: &FreeRangeRecord) -> [String; 7] {
+    [
+        row.axis.name().to_string(),
+        short(row.value),
+        short(row.back.value),
+        bound(row.back.binds.as_ref()),
+        short(row.forth.value),
+        bound(row.forth.binds.as_ref()),
+        row.unit.to_string(),
+    ]
+}
+
+fn way(out: &mut Sheet, found: &StraightWayRecord) {
+    let to = found.to.short();
+    match &found.binds {
+        None => say!(out, "\nThe straight way to {to} is free."),
+        Some(limit) => say!(
+            out,
+            "\nThe straight way to {to} is free up to {} of it, at {}; there {} binds.",
+            short(found.free),
+            found.pose.short(),
+            named(limit)
+        ),
+    };
+}
+
+fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord) {
+    let binds = found.binds.iter().map(named).collect::<Vec<_>>().join(", ");
+    say!(
+        out,
+        "\n{} is at {}, {} {} away (a radian counts as {} {}).\nThere bind: {binds}.",
+        if found.stationary {
+            "The nearest allowed pose, locally,"
+        } else {
+            "The nearest allowed pose found"
+        },
+        found.pose.short(),
+        short(found.distance),
+        answer.length_unit,
+        short(found.characteristic_length),
+        answer.length_unit
+    );
+    if answer.allowed && !found.straight_from_home {
+        out.line("The straight way from home to it violates a limit.");
+    }
+}
+
+fn size(found: &FreeSizeRecord, unit: &str) -> String {
+    let proved = if found.proved > 0.0 {
+        format!("{} {unit} proved", short(found.proved))
+    } else {
+        "nothing proved".to_owned()
+    };
+    let beyond = bound(found.binds.as_ref());
+    format!("{proved}, {} {unit} without a violation found; beyond it {beyond} binds", short(found.searched))
+}
+
+fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
+    let ends = found.ends.iter().map(|e| format!("{} {:.0} %", e.end, 100.0 * e.share));
+    let ends = ends.collect::<Vec<_>>().join(", ");
+    let half = |h: &[f64; 3]| h.iter().map(|x| format!("+-{}", short(*x))).collect::<Vec<_>>().join(" x ");
+    out.line("\nAround home:");
+    let mut table = Table::new([left("", 22), left("", 0)]);
+    let mut line = |name: &str, text: &str| table.row([name, text]);
+    line(
+        "volume of positions",
+        &format!(
+            "{} {unit}^3 on straight ways at the orientation of home (halves of {} ways differ by {:.1} %)",
+            short(found.volume),
+            found.rays,
+            100.0 * found.volume_doubt
+        ),
+    );
+    line("", &format!("they end at: {ends}"));
+    line("largest ball, radius", &size(&found.ball_radius, unit));
+    line(
+        "largest box found",
+        &format!(
+            "{} {unit} proved, {} without a violation found; beyond it {} binds",
+            half(&found.box_proved),
+            half(&found.box_searched),
+            bound(found.box_binds.as_ref())
+        ),
+    );
+    for turn in &found.turns {
+        line(
+            &format!("turn about {}", turn.axis),
+            &format!(
+                "-{} deg ({}) to {} deg ({})",
+                short(turn.back_deg),
+                bound(turn.back_binds.as_ref()),
+                short(turn.forth_deg),
+                bound(turn.forth_binds.as_ref())
+            ),
+        );
+    }
+    line("tilt, any level axis", &size(&found.tilt_deg, "deg"));
+    line("turn, any axis", &size(&found.turn_deg, "deg"));
+    if let Some(required) = &found.required {
+        let share = format!("its translations are {:.1} % of the volume above", 100.0 * required.share.0);
+        line("required region", &format!("times {}", size(&required.factor, "").replace("  ", " ")));
+        line("", &share);
+    }
+    out.table(table);
+}

@@ -1,0 +1,85 @@
+//! The affine map between squared leg lengths.
+
+use crate::{Cell, Sheet, Table, left, right};
+use num::shown::fixed;
+use records::{CorrespondenceRecord, MapAnswer, MapRecord};
+use synthesis::Relation;
+
+/// The answer of `equivalents map`, between designs of these names.
+#[must_use]
+pub fn map(answer: &MapAnswer, from: &str, to: &str) -> Sheet {
+    let mut sheet = leg_map(&answer.map, from, to);
+    if let Some(line) = same_legs(&answer.correspondence) {
+        sheet.line(line);
+    }
+    sheet
+}
+
+fn same_legs(c: &CorrespondenceRecord) -> Option<String> {
+    let named: Vec<(usize, usize)> =
+        c.legs.iter().enumerate().filter_map(|(i, leg)| leg.map(|old| (i + 1, old))).collect();
+    let worst = named.iter().map(|(i, _)| c.distances[i - 1].0).fold(0.0, f64::max);
+    let nearly = if c.exact { String::new() } else { format!(", up to {worst:.1e} of the size") };
+    if c.permutation {
+        let order: Vec<String> = named.iter().map(|(_, old)| old.to_string()).collect();
+        return Some(format!("the legs of TO are legs {} of FROM{nearly}", order.join(", ")));
+    }
+    let list: Vec<String> =
+        named.iter().map(|(i, old)| format!("leg {i} of TO is leg {old} of FROM")).collect();
+    (!list.is_empty()).then(|| format!("{}{nearly}", list.join(", ")))
+}
+
+/// A map with its evidence, in words.
+#[must_use]
+pub fn leg_map(r: &MapRecord, from: &str, to: &str) -> Sheet {
+    let mut out = Sheet::new();
+    say!(out, "{from} -> {to}: {}\n{}\n", r.relation.unwrap_or(Relation::Undecided).as_str(), r.explanation);
+    out.line("s(TO) = A s(FROM) + c");
+    let entries = (1..=6).map(|k| right(format!("A{k}"), 9));
+    let columns = [left("", 6)].into_iter().chain(entries);
+    let mut table = Table::new(columns.chain([right("c", 14), right("residual", 10).gap(2)]));
+    for (i, row) in r.matrix.iter().enumerate() {
+        let (constant, residual) = (r.constants[i].0, r.residuals[i].0);
+        let cells = [format!("leg {}", i + 1)].into_iter().chain(row.iter().map(|x| fixed(x.0, 5)));
+        table.row(cells.chain([format!("{constant:.6}"), format!("{residual:.1e}")]).map(Cell::from));
+    }
+    out.table(table);
+    say!(out, "\ndet A = {}", r.determinant.0);
+    if let Some(exact) = &r.det_exact {
+        say!(out, "      = {exact} exactly");
+    }
+    exact_rows(&mut out, r);
+    out
+}
+
+/// Longest number of a row that is written out: the decimals of an optimised offset take a line each.
+const WRITTEN: usize = 24;
+
+/// The map in exact numbers, a formula a leg.
+fn exact_rows(out: &mut Sheet, r: &MapRecord) {
+    let (Some(a), Some(c), Some(shares)) = (&r.matrix_exact, &r.constants_exact, &r.singular_shares) else {
+        return;
+    };
+    out.line("\nexactly, for the joints as the designs say them:");
+    if a.iter().flatten().chain(c).any(|x| x.len() > WRITTEN) {
+        out.line("  numbers too long for a table; --json has them as A_exact and c_exact");
+        return;
+    }
+    for i in 0..6 {
+        let terms = (0..6).filter(|k| a[i][*k] != "0").map(|k| match a[i][k].as_str() {
+            "1" => format!("s{}", k + 1),
+            "-1" => format!("-s{}", k + 1),
+            number if number.contains(' ') => format!("({number}) s{}", k + 1),
+            number => format!("{number} s{}", k + 1),
+        });
+        let constant = (c[i] != "0").then(|| c[i].clone());
+        let row = terms.chain(constant).collect::<Vec<_>>().join(" + ").replace("+ -", "- ");
+        let singular = shares[i].as_ref().filter(|share| share.len() <= WRITTEN);
+        let singular =
+            singular.map_or_else(String::new, |t| format!("    (det A = 0 with t = {t} in this row)"));
+        say!(out, "  s{}' = {row}{singular}", i + 1);
+    }
+    if let Some(polynomial) = &r.det_of_shares {
+        say!(out, "  with any shares t of these edges det A = {polynomial}: singular where it is zero");
+    }
+}

@@ -1,0 +1,208 @@
+//! The legs along motions.
+
+use super::assess::judged;
+use crate::{Cell, Sheet, Table, left, right};
+use machine::dynamics::Extreme;
+use num::shown::significant as short;
+use records::{
+    CrankMotionRecord, MotionAnswer, MotionRegularity, MotionRunRecord, StiffnessRecord, TimedMarginRecord,
+};
+
+/// The answer of `motion`: the sentence, and for each motion a table of legs and one of requirements.
+#[must_use]
+pub fn motion(answer: &MotionAnswer) -> Sheet {
+    let mut out = Sheet::new();
+    say!(out, "{} {}", answer.name, sentence(answer));
+    for line in &answer.assumptions {
+        say!(out, "{line}");
+    }
+    for motion in &answer.motions {
+        say!(
+            out,
+            "\n{}: {} {} in {} s",
+            motion.motion,
+            motion.instants,
+            if motion.instants == 1 { "instant" } else { "instants" },
+            short(motion.duration_s)
+        );
+        match &motion.cranks {
+            Some(list) => cranks(&mut out, answer, motion, list),
+            None => legs(&mut out, answer, motion),
+        }
+        requirements(&mut out, motion);
+    }
+    if let Some(found) = &answer.stiffness {
+        stiffness(&mut out, answer, found);
+    }
+    if let Some(path) = &answer.csv {
+        say!(out, "wrote {path}");
+    }
+    out
+}
+
+fn sentence(answer: &MotionAnswer) -> String {
+    let missed = |m: &MotionRunRecord| {
+        let of = m.requirements.iter().filter(|r| r.margin.violates()).map(|r| r.margin.name.code());
+        of.chain(m.singular_at_s.map(|_| "singularity"))
+            .chain(m.unreached_at_s.map(|_| "reach"))
+            .collect::<Vec<_>>()
+    };
+    let mut all: Vec<&str> = answer.motions.iter().flat_map(missed).collect();
+    all.sort_unstable();
+    all.dedup();
+    if all == ["singularity"] {
+        return "passes a singular pose".into();
+    }
+    if !all.is_empty() {
+        return format!("exceeds its limits: {}", all.join(", "));
+    }
+    if answer.motions.is_empty() {
+        return "at a pose".into();
+    }
+    let limited = answer.motions.iter().any(|m| !m.requirements.is_empty());
+    if limited {
+        "stays within its limits at the instants looked at"
+    } else {
+        "has no limits along its motions"
+    }
+    .to_string()
+}
+
+fn legs(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord) {
+    let (length, force) = (&answer.length_unit, &answer.force_unit);
+    let titles = [
+        format!("least {length}"),
+        format!("greatest {length}"),
+        format!("speed {length}/s"),
+        format!("acc. {length}/s^2"),
+        format!("push {force}"),
+        format!("pull {force}"),
+        format!("rms {force}"),
+        "power W".to_string(),
+    ];
+    let rows = motion.legs.iter().map(|leg| {
+        let cells = [
+            short(leg.shortest.value),
+            short(leg.longest.value),
+            short(leg.speed.value),
+            short(leg.acceleration.value),
+            extreme(leg.push),
+            extreme(leg.pull),
+            leg.rms_force.map_or("-".to_string(), |x| short(x.0)),
+            extreme(leg.power_w),
+        ];
+        (leg.leg, cells)
+    });
+    out.table(table("leg", titles, rows));
+    singular(out, motion);
+}
+
+/// The singular pose of a motion, or what is known of its absence.
+fn singular(out: &mut Sheet, motion: &MotionRunRecord) {
+    let parts = (motion.singular_at_s, &motion.singular_pose, motion.singular_evidence);
+    if let (Some(time), Some(pose), Some(evidence)) = parts {
+        let what = if motion.cranks.is_some() { "pose or a crank" } else { "pose" };
+        say!(
+            out,
+            "At {} s the {what} is singular: {}. The drives cannot hold the platform at {}.",
+            short(time),
+            evidence,
+            pose.short()
+        );
+    } else if motion.regularity == MotionRegularity::Proved {
+        out.line("No pose of the motion is singular: proved, between the instants too.");
+    }
+}
+
+/// A row for each leg or crank, with its number under `what`.
+fn table<const N: usize>(
+    what: &str,
+    titles: [String; N],
+    rows: impl Iterator<Item = (usize, [String; N])>,
+) -> Table {
+    let columns = [left(what, 0)].into_iter().chain(titles.map(|title| right(title, 14)));
+    Table::new(columns).with_rows(rows.map(|(number, cells)| [number.to_string()].into_iter().chain(cells)))
+}
+
+fn extreme(found: Option<Extreme>) -> String {
+    found.map_or("-".to_string(), |x| short(x.value))
+}
+
+fn cranks(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord, list: &[CrankMotionRecord]) {
+    let torque = format!("{} {}", answer.force_unit, answer.length_unit);
+    let titles = [
+        "least deg".to_string(),
+        "greatest deg".to_string(),
+        "speed deg/s".to_string(),
+        "acc. deg/s^2".to_string(),
+        format!("torque {torque}"),
+        format!("rms {torque}"),
+        "power W".to_string(),
+    ];
+    let rows = list.iter().map(|crank| {
+        let cells = [
+            short(crank.least_deg.value),
+            short(crank.greatest_deg.value),
+            short(crank.speed_deg.value),
+            short(crank.acceleration_deg.value),
+            extreme(crank.torque),
+            crank.rms_torque.map_or("-".to_string(), |x| short(x.0)),
+            extreme(crank.power_w),
+        ];
+        (crank.leg, cells)
+    });
+    if !list.is_empty() {
+        out.table(table("crank", titles, rows));
+    }
+    if let Some(time) = motion.unreached_at_s {
+        say!(out, "At {} s a rod does not reach from its crank to the platform.", short(time));
+    }
+    singular(out, motion);
+}
+
+fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
+    let (length, force) = (&answer.length_unit, &answer.force_unit);
+    say!(out, "\nstiffness at {}", found.pose.short());
+    say!(
+        out,
+        "least: {} {force}/{length} against a force through the platform origin, {} {force} {length}/rad against a torque",
+        short(found.linear.0),
+        short(found.angular.0)
+    );
+    out.line("K (rows: force, torque; columns: shift, turn in radians)");
+    let rows = found.matrix.iter().map(|row| row.iter().map(|x| short(x.0)));
+    out.table(Table::new((0..6).map(|_| right("", 14).gap(1))).with_rows(rows));
+    match &found.natural {
+        None => out.line(
+            "No natural frequencies: the payload has no mass, or no inertia that is held against turns.",
+        ),
+        Some(all) => {
+            let shape = ["x", "y", "z", "rx", "ry", "rz"].map(|title| right(title, 8));
+            let mut table = Table::new([right("frequency Hz", 14)].into_iter().chain(shape));
+            for one in all {
+                let most = one.shape.iter().map(|x| x.0.abs()).fold(f64::MIN_POSITIVE, f64::max);
+                let shape = one.shape.iter().map(|x| format!("{:.4}", x.0 / most));
+                table.row([short(one.frequency_hz.0)].into_iter().chain(shape));
+            }
+            out.table(table);
+        }
+    }
+}
+
+fn requirements(out: &mut Sheet, motion: &MotionRunRecord) {
+    if motion.requirements.is_empty() {
+        return;
+    }
+    let reserved = motion.requirements.iter().any(|r| r.margin.reserve.0 > 0.0);
+    let less = reserved.then(|| right("less reserve", 14));
+    let columns = [left("requirement", 17), right("least margin", 14).gap(2)].into_iter().chain(less);
+    let mut table = Table::new(columns.chain([left("unit", 8), left("of", 24), left("at s", 0)]));
+    for TimedMarginRecord { time_s, margin } in &motion.requirements {
+        let less = reserved.then(|| Cell::from(format!("{:.6}", margin.margin_with_reserve.0)));
+        let found = judged(margin, format!("{:.6}", margin.margin.0));
+        let (of, at) = (margin.between.join(", "), short(*time_s));
+        let cells = [margin.name.code().into(), found].into_iter().chain(less);
+        table.row(cells.chain([margin.unit.clone(), of, at].map(Cell::from)));
+    }
+    out.table(table);
+}

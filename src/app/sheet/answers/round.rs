@@ -1,0 +1,112 @@
+//! Joints on holes.
+
+use super::requirements;
+use crate::{Sheet, Table, left, right};
+use ask::rounding::RoundingWay;
+use machine::manufacture::Judgement;
+use records::{
+    ExactRoundingOutcome, GridRecord, GridsRecord, NearestRoundingOutcome, RoundAnswer, RoundedJointRecord,
+};
+
+/// A line about a design; `met`: what is known of its requirements over the whole workspace, where it was judged there.
+fn judged(out: &mut Sheet, what: &str, j: &Judgement, met: Option<bool>, units: &str) {
+    let requirements = match (met, j.met) {
+        (Some(true), true) => "met",
+        (None, true) => "met at the sampled poses",
+        _ => "violated",
+    };
+    let det = j.det.map_or(String::new(), |d| format!(", det A = {:.6}", d));
+    say!(
+        out,
+        "{what:<8} worst inverse condition number {:.6}{det}; joints at least {:.4} and {:.4} {units} apart; requirements {requirements}",
+        j.objective,
+        j.least_distances[0],
+        j.least_distances[1]
+    );
+}
+
+fn grids(out: &mut Sheet, grids: &GridsRecord) {
+    for (body, grid) in [("base", &grids.base), ("platform", &grids.platform)] {
+        let words = grid.as_ref().map_or_else(|| "none, its joints stay".into(), GridRecord::in_words);
+        say!(out, "  grid of the {body}: {words}");
+    }
+}
+
+fn table(joints: &[RoundedJointRecord]) -> Table {
+    let columns = [left("body", 8).gap(3), left("joint", 12), right("i", 7), right("j", 7)].into_iter();
+    let mut table = Table::new(columns.chain([right("moved", 10).gap(2), left("off its line", 0).gap(2)]));
+    for j in joints {
+        let [i, k] = j.cell.map_or_else(|| ["-".to_string(), "-".into()], |cell| cell.map(|x| x.to_string()));
+        let off = j.off_line.map_or("corner".to_string(), |x| format!("{:.3e}", x.0));
+        table.row([j.body.to_string(), j.joint.clone(), i, k, format!("{:.6}", j.distance.0), off]);
+    }
+    table
+}
+
+/// The answer of `build round`.
+#[must_use]
+pub fn round(r: &RoundAnswer) -> Sheet {
+    let units = &r.units;
+    let mut out = Sheet::new();
+    if let Some(design) = &r.design {
+        out.add(requirements(design.name(), r.assessment.as_ref()));
+        out.space();
+    }
+    // the design that is written was judged at every pose; a line of its own poses must not say more
+    let written = r.chosen.or(r.least_missed);
+    let known = |way: RoundingWay| r.assessment.as_ref().filter(|_| written == Some(way)).and_then(|a| a.met);
+    say!(out, "{}", r.name);
+    judged(&mut out, "wanted", &r.wanted, None, units);
+    match &r.exact {
+        ExactRoundingOutcome::Found(e) => {
+            judged(&mut out, "exact", &e.judgement, known(RoundingWay::Exact), units);
+            let proof = if e.proved { "proved in exact arithmetic" } else { "NOT proved" };
+            say!(
+                out,
+                "  equivalent to its own octahedral platform: {proof}; leg map and forward kinematics: {}",
+                e.verdict.as_str()
+            );
+            if r.free_grid {
+                grids(&mut out, &e.grids);
+            }
+            out.table(table(&e.joints));
+        }
+        ExactRoundingOutcome::None(why) => {
+            say!(out, "exact    none: {}", why.error.message);
+        }
+    }
+    match &r.nearest {
+        NearestRoundingOutcome::Found(n) => {
+            judged(&mut out, "nearest", &n.judgement, known(RoundingWay::Nearest), units);
+            let e = &n.pose_error;
+            say!(
+                out,
+                "  with the wanted design: {}; error of the pose by its formula: first order {:.4e} {units}, {:.4e} deg \
+                 (every joint on the nearest point: {:.4e}, {:.4e}); solved at {} random poses at most {:.4e}, {:.4e}",
+                n.verdict.as_str(),
+                e.first_order.position.0,
+                e.first_order.rotation_deg.0,
+                e.first_order_nearest_points.position.0,
+                e.first_order_nearest_points.rotation_deg.0,
+                e.solved_poses,
+                e.solved.position.max,
+                e.solved.rotation_deg.max
+            );
+            if r.free_grid {
+                grids(&mut out, &n.grids);
+            }
+            out.table(table(&n.joints));
+        }
+        NearestRoundingOutcome::None(why) => {
+            say!(out, "nearest  none: {}", why.error.message);
+        }
+    }
+    let chosen = r.chosen.map_or("none meets the requirements", RoundingWay::as_str);
+    let missed =
+        r.least_missed.map_or_else(String::new, |way| format!("; {} misses them least", way.as_str()));
+    say!(out, "chosen: {chosen}{missed}");
+    if let Some(path) = &r.output {
+        say!(out, "wrote {path}");
+    }
+    out
+}

@@ -1,0 +1,50 @@
+//! Whether two designs are kinematically equivalent.
+
+use crate::{Sheet, Table, left, right};
+use records::{SampleRecord, VerifyAnswer};
+
+/// The answer of `verify` about designs of these names.
+#[must_use]
+pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
+    let mut out = Sheet::new();
+    say!(out, "{a} ~ {b}: {}\n{}", v.verdict.as_str(), v.explanation);
+    if let Some(polynomial) = &v.map.det_of_shares {
+        say!(
+            out,
+            "singular offsets: with any shares t of the edges that the leg ends of B are on, det A = {polynomial}, and B is singular where it is zero"
+        );
+    }
+    if v.samples.is_empty() {
+        return out;
+    }
+    let numbers = ["poses A", "poses B", "matched", "real", "certified", "worst distance"];
+    let columns = [right("sample", 0)].into_iter().chain(numbers.map(|title| right(title, 0).gap(2)));
+    let mut table = Table::new(columns.chain([left("", 0).gap(2)]));
+    for (k, s) in v.samples.iter().enumerate() {
+        table.row([
+            (k + 1).to_string(),
+            s.a.finite_count.to_string(),
+            s.b.finite_count.to_string(),
+            s.matched.to_string(),
+            s.b.real_count.to_string(),
+            format!("{}+{}", s.a.certified_count, s.b.certified_count),
+            format!("{:.1e}", s.worst_distance.0),
+            remark(s),
+        ]);
+    }
+    out.space();
+    out.table(table);
+    out
+}
+
+/// What a sample leaves open.
+fn remark(s: &SampleRecord) -> String {
+    let beyond =
+        [("A", s.beyond_precision_a), ("B", s.beyond_precision_b)].into_iter().filter(|(_, n)| *n > 0);
+    let mut all: Vec<String> =
+        beyond.map(|(platform, n)| format!("{n} of {platform} beyond double precision")).collect();
+    if !(s.a.all_paths_accounted && s.b.all_paths_accounted) {
+        all.push("poses may be missing".into());
+    }
+    all.join("  ")
+}

@@ -1,0 +1,84 @@
+//! HTML, for reports and notebooks. Every text is escaped where it is written.
+
+use maud::{Markup, html};
+
+use super::{Block, Cell, Sheet, Table, Tone};
+use files::plot::visible;
+
+impl Sheet {
+    /// Paragraphs, lists of what belongs to the line above, tables, and details that can be unfolded.
+    #[must_use]
+    pub fn html(&self) -> Markup {
+        let indented = |block: &Block| matches!(block, Block::Line(line) if line.starts_with("  "));
+        html! {
+            @for run in self.0.chunk_by(|a, b| indented(a) && indented(b)) {
+                @if indented(&run[0]) {
+                    ul { @for block in run { @if let Block::Line(line) = block { li { (line.trim()) } } } }
+                } @else {
+                    @match &run[0] {
+                        Block::Space => {},
+                        Block::Line(line) => p { (line) },
+                        Block::Table(table) => (rows(table)),
+                        Block::Part { title, open, sheet } => details open[*open] { summary { (title) } (sheet.html()) },
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn rows(table: &Table) -> Markup {
+    if !table.has_titles() {
+        return html! { table.facts { (body(table)) } };
+    }
+    html! {
+        div.wide { table {
+            thead { tr { @for column in &table.columns {
+                th scope="col" class=[column.right.then_some("right")] { (column.title) }
+            } } }
+            (body(table))
+        } }
+    }
+}
+
+fn body(table: &Table) -> Markup {
+    html! {
+        tbody { @for row in &table.rows { tr { @for (k, (column, cell)) in table.cells(row).enumerate() {
+            @if k == 0 { th scope="row" { (judged(cell)) } }
+            @else { td class=[class(cell.tone).or(column.right.then_some("right"))] { (judged(cell)) } }
+        } } } }
+    }
+}
+
+/// The text with the sign of its tone, so that colour is not all that tells it.
+fn judged(cell: &Cell) -> Markup {
+    html! { @if let Some(sign) = sign(cell.tone) { span aria-hidden="true" { (sign) } " " } (cell.text) }
+}
+
+fn class(tone: Tone) -> Option<&'static str> {
+    match tone {
+        Tone::Plain => None,
+        Tone::Yes | Tone::AtLimit => Some("yes"),
+        Tone::No => Some("no"),
+        Tone::Open => Some("open"),
+    }
+}
+
+fn sign(tone: Tone) -> Option<&'static str> {
+    match tone {
+        Tone::Plain => None,
+        Tone::Yes | Tone::AtLimit => Some("\u{2713}"),
+        Tone::No => Some("\u{2717}"),
+        Tone::Open => Some("?"),
+    }
+}
+
+/// A verdict with its sign and colour.
+pub fn badge(cell: &Cell) -> Markup {
+    html! { strong class=[class(cell.tone)] { (judged(cell)) } }
+}
+
+/// Markup whose characters all show: those that steer a terminal or the direction of a text are replaced.
+pub fn shown(markup: &Markup) -> String {
+    visible(&markup.0)
+}

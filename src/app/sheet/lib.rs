@@ -1,0 +1,239 @@
+//! An answer as people read it: lines, facts and tables, rendered as terminal text, Markdown and HTML.
+//!
+//! [`Sheet`] holds the content. [`answers`] makes a sheet of each answer, once; the command line, the report, the page and
+//! notebooks render it. It knows the records of answers, and nothing of files, terminals or pages.
+
+/// Adds a formatted line to a sheet.
+macro_rules! say {
+    ($sheet:expr, $($text:tt)*) => { $sheet.line(format_args!($($text)*)) };
+}
+
+pub mod answers;
+mod html;
+mod markdown;
+mod text;
+
+use std::fmt::Display;
+
+pub use html::{badge, shown};
+pub use markdown::escaped as markdown_escaped;
+
+/// What there is to read, from top to bottom.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Sheet(Vec<Block>);
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Block {
+    /// A sentence; leading spaces say that it belongs to the line above.
+    Line(String),
+    /// What follows is about something else.
+    Space,
+    Table(Table),
+    /// Details under a title.
+    Part {
+        title: String,
+        open: bool,
+        sheet: Sheet,
+    },
+}
+
+impl Sheet {
+    /// Without content.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a line for each line of the text; an empty one is a space.
+    pub fn line(&mut self, text: impl Display) {
+        let text = text.to_string();
+        self.0
+            .extend(text.split('\n').map(|line| {
+                if line.trim().is_empty() { Block::Space } else { Block::Line(line.to_owned()) }
+            }));
+    }
+
+    /// Adds an empty line.
+    pub fn space(&mut self) {
+        self.0.push(Block::Space);
+    }
+
+    /// Adds a table.
+    pub fn table(&mut self, table: Table) {
+        self.0.push(Block::Table(table));
+    }
+
+    /// Adds all that another sheet has.
+    pub fn add(&mut self, other: Self) {
+        self.0.extend(other.0);
+    }
+
+    /// Adds details under a title, which a page can fold away.
+    pub fn part(&mut self, title: impl Into<String>, open: bool, sheet: Self) {
+        self.0.push(Block::Part { title: title.into(), open, sheet });
+    }
+}
+
+impl From<Table> for Sheet {
+    fn from(table: Table) -> Self {
+        Self(vec![Block::Table(table)])
+    }
+}
+
+/// Rows of cells.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Table {
+    columns: Vec<Column>,
+    rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// A table without rows; where no column has a title, there is no line of titles.
+    pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {
+        Self { columns: columns.into_iter().collect(), rows: Vec::new() }
+    }
+
+    /// Names and values.
+    pub fn facts(width: usize, facts: impl IntoIterator<Item = (impl Into<Cell>, impl Into<Cell>)>) -> Self {
+        let mut table = Self::new([left("", width), left("", 0)]);
+        facts.into_iter().for_each(|(name, value)| table.row([name.into(), value.into()]));
+        table
+    }
+
+    /// Adds a row; columns without a cell stay empty.
+    pub fn row(&mut self, cells: impl IntoIterator<Item = impl Into<Cell>>) {
+        self.rows.push(cells.into_iter().map(Into::into).collect());
+    }
+
+    /// Adds rows.
+    #[must_use]
+    pub fn with_rows(
+        mut self,
+        rows: impl IntoIterator<Item = impl IntoIterator<Item = impl Into<Cell>>>,
+    ) -> Self {
+        rows.into_iter().for_each(|row| self.row(row));
+        self
+    }
+
+    fn has_titles(&self) -> bool {
+        self.columns.iter().any(|column| !column.title.is_empty())
+    }
+
+    /// The cells of a row with their columns.
+    fn cells<'a>(&'a self, row: &'a [Cell]) -> impl Iterator<Item = (&'a Column, &'a Cell)> {
+        static EMPTY: Cell = Cell { text: String::new(), tone: Tone::Plain };
+        self.columns.iter().enumerate().map(|(k, column)| (column, row.get(k).unwrap_or(&EMPTY)))
+    }
+}
+
+/// A column; width and gap are for text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Column {
+    title: String,
+    width: usize,
+    right: bool,
+    gap: usize,
+}
+
+/// A column of words, at least so wide.
+pub fn left(title: impl Into<String>, width: usize) -> Column {
+    Column { title: title.into(), width, right: false, gap: 1 }
+}
+
+/// A column of numbers, at least so wide.
+pub fn right(title: impl Into<String>, width: usize) -> Column {
+    Column { title: title.into(), width, right: true, gap: 1 }
+}
+
+impl Column {
+    /// The number of spaces before it, 1 unless said.
+    #[must_use]
+    pub fn gap(self, gap: usize) -> Self {
+        Self { gap, ..self }
+    }
+}
+
+/// A text, and what it says of a requirement.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Cell {
+    text: String,
+    tone: Tone,
+}
+
+/// What a cell says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tone {
+    /// No judgement.
+    Plain,
+    /// Met.
+    Yes,
+    /// Met, exactly at the limit.
+    AtLimit,
+    /// Violated.
+    No,
+    /// Not decided.
+    Open,
+}
+
+impl Tone {
+    /// The tone of an answer.
+    #[must_use]
+    pub fn of(holds: Option<bool>) -> Self {
+        match holds {
+            Some(true) => Self::Yes,
+            Some(false) => Self::No,
+            None => Self::Open,
+        }
+    }
+}
+
+impl Cell {
+    /// A text with a judgement.
+    pub fn toned(text: impl Into<String>, tone: Tone) -> Self {
+        Self { text: text.into(), tone }
+    }
+}
+
+impl<T: Into<String>> From<T> for Cell {
+    fn from(text: T) -> Self {
+        Self::toned(text, Tone::Plain)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sheet() -> Sheet {
+        let mut table =
+            Table::new([left("name", 6), left("status", 8), right("margin", 8).gap(2), left("of", 0)]);
+        table.row([Cell::from("a"), Cell::toned("violated", Tone::No), "-1.5".into(), "leg 1".into()]);
+        table.row([Cell::from("b_c"), Cell::toned("met", Tone::Yes), Cell::toned("0", Tone::AtLimit)]);
+        let mut sheet = Sheet::new();
+        sheet.line("A <b> is\n  so\n  and so\n");
+        sheet.table(table);
+        sheet.table(Table::facts(4, [("x", "1")]));
+        sheet
+    }
+
+    #[test]
+    fn one_content_has_three_forms() {
+        assert_eq!(
+            sheet().to_string(),
+            "A <b> is\n  so\n  and so\n\nname   status      margin of\na     !violated      -1.5 leg 1\nb_c    met             =0\nx    1\n"
+        );
+        assert_eq!(
+            sheet().markdown(),
+            "A \\<b\\> is\n\n- so\n- and so\n\n| name | status | margin | of |\n|---|---|--:|---|\n| a | violated | -1.5 | leg 1 |\n| b\\_c | met | 0 |  |\n\n|  |  |\n|---|---|\n| x | 1 |\n"
+        );
+        let html = sheet().html().into_string();
+        for part in [
+            "<p>A &lt;b&gt; is</p><ul><li>so</li><li>and so</li></ul>",
+            "<th scope=\"col\" class=\"right\">margin</th>",
+            "<th scope=\"row\">a</th><td class=\"no\"><span aria-hidden=\"true\">\u{2717}</span> violated</td>",
+            "<table class=\"facts\"><tbody><tr><th scope=\"row\">x</th><td>1</td></tr></tbody></table>",
+        ] {
+            assert!(html.contains(part), "{part}: {html}");
+        }
+    }
+}
