@@ -79,6 +79,9 @@ fn text(name: &str, found: &AssessAnswer) -> String {
         RegularityWord::ChangesSign => writeln!(out, "\n{said}, {at}."),
         RegularityWord::Undecided => writeln!(out, "\n{said}; undecided near {at}."),
     };
+    if let Some(t) = found.tightest {
+        let _ = writeln!(out, "Least room: {}, {:.1} % of its limit.", t.name.code(), 100.0 * t.share.0);
+    }
     if let Some(d) = &found.lightest_drive {
         let _ = writeln!(out, "{}.", d.message);
     }
