@@ -114,6 +114,8 @@ pub struct AssessAnswer {
     pub reserve_kept: Option<bool>,
     /// The least of each kind.
     pub requirements: Vec<MarginRecord>,
+    /// The requirement with the least room as a share of its limit; null: none has a limit to compare with.
+    pub tightest: Option<TightestRecord>,
     /// Whether there are singular poses.
     pub regular: RegularityRecord,
     /// The same in a sentence.
@@ -162,6 +164,7 @@ impl AssessAnswer {
             judged: found.judged.into(),
             reserve_kept: proof.all_reserved(),
             requirements: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
+            tightest: TightestRecord::of(design, found),
             regular: RegularityRecord::new(&found.regularity, found.regularity_cells),
             regular_explanation: found.regularity_in_words(),
             conditioning: LeastConditioningRecord {
@@ -180,6 +183,27 @@ impl AssessAnswer {
     /// The same inside an answer that lists the assumptions itself.
     pub fn without_assumptions(self) -> Self {
         Self { assumptions: Vec::new(), ..self }
+    }
+}
+
+/// The requirement with the least margin as a share of its limit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TightestRecord {
+    /// The kind.
+    pub name: TermKind,
+    /// Its least margin over its limit (travel of the legs, greatest force and so on); below 0 for a violation.
+    pub share: Number,
+}
+
+impl TightestRecord {
+    fn of(design: &Design, found: &AssessReport) -> Option<Self> {
+        let required = design.requirements();
+        let of = |bound: &MarginBound| {
+            let kind = bound.found.term.kind;
+            let whole = required.whole(kind);
+            (whole > 0.0).then(|| Self { name: kind, share: Number(bound.found.value / whole) })
+        };
+        found.proof.bounds.iter().filter_map(of).min_by(|a, b| a.share.0.total_cmp(&b.share.0))
     }
 }
 

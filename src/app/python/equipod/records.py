@@ -240,6 +240,8 @@ class AssessAnswer(Record):
     reserve_kept: Union[bool, None]
     #: The least of each kind.
     requirements: tuple[MarginRecord, ...]
+    #: The requirement with the least room as a share of its limit; null: none has a limit to compare with.
+    tightest: Union[TightestRecord, None]
     #: Whether there are singular poses.
     regular: RegularityRecord
     #: The same in a sentence.
@@ -3931,6 +3933,16 @@ class SymmetryRecord(Record):
     three_fold: SymmetryWord
     #: One sentence: why, and how it is turned off.
     message: str
+
+
+class TightestRecord(Record):
+    """The requirement with the least margin as a share of its limit."""
+
+    #: The kind.
+    name: TermKind
+    #: Its least margin over its limit (travel of the legs, greatest force and so on); below 0 for a
+    #: violation.
+    share: Union[float, None]
 
 
 class TimedMarginRecord(Record):

@@ -16,6 +16,9 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
         RegularityWord::ChangesSign => format!("{said}, {at}."),
         RegularityWord::Undecided => format!("{said}; undecided near {at}."),
     });
+    if let Some(t) = &found.tightest {
+        say!(sheet, "Least room: {}, {:.1} % of its limit.", t.name.code(), 100.0 * t.share.0);
+    }
     if let Some(d) = &found.lightest_drive {
         say!(sheet, "{}.", d.message);
     }
