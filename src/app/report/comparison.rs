@@ -5,7 +5,7 @@ use maud::{Markup, PreEscaped, html};
 use super::page::{STYLE, data, document};
 use crate::app::page::strict_policy;
 use num::shown::significant;
-use records::{CompareAnswer, FigureCell};
+use records::{CompareAnswer, FigureCell, FigureColumn};
 
 const SCRIPT: &str = include_str!("comparison.js");
 
@@ -21,7 +21,7 @@ pub struct Comparison {
 /// What the figures are about, and a row for every design. A click on the title of a column sorts by it where the page has the script.
 pub(super) fn section(comparison: &Comparison, sortable: bool) -> Markup {
     let columns = comparison.answer.columns();
-    let titles = ["design".to_owned()].into_iter().chain(columns.iter().map(|column| column.heading()));
+    let titles = ["design".to_owned()].into_iter().chain(columns.iter().map(FigureColumn::heading));
     html! {
         (notes(&comparison.answer))
         div.wide { table.comparison {
@@ -98,5 +98,5 @@ pub fn comparison_page(comparison: &Comparison) -> String {
             script { (PreEscaped(SCRIPT)) }
         }
     };
-    document(title, &strict_policy(SCRIPT, STYLE), body)
+    document(title, &strict_policy(SCRIPT, STYLE), &body)
 }

@@ -102,11 +102,11 @@ pub fn html(report: &Report) -> String {
             (provenance(&contents))
         }
     };
-    document(&report.title, &policy(&[STYLE]), html! { body { (body) } })
+    document(&report.title, &policy(&[STYLE]), &html! { body { (body) } })
 }
 
 /// A page with its title and the rules of what it may load.
-pub(super) fn document(title: &str, policy: &str, body: Markup) -> String {
+pub(super) fn document(title: &str, policy: &str, body: &Markup) -> String {
     shown(&html! {
         (DOCTYPE)
         html lang="en" {

@@ -14,10 +14,10 @@ __all__ = [
     "leg_map",
     "main",
     "preset_names",
-    "sheet_html",
     "quaternions_of",
     "rotations_of_angles",
     "rotations_of_quaternions",
+    "sheet_html",
     "verify",
     "__version__",
 ]

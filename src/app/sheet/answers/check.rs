@@ -71,13 +71,13 @@ fn pose_count(out: &mut Sheet, answer: &CheckAnswer) {
     let error = error.unwrap_or_default();
     match (c.finite, c.dimension) {
         (Some(n), _) => {
-            say!(out, "\nfinite poses, real and complex, for generic leg lengths: {n} ({error})")
+            say!(out, "\nfinite poses, real and complex, for generic leg lengths: {n} ({error})");
         }
         (None, Some(d)) => {
-            say!(out, "\nfor generic leg lengths the poses form a set of dimension {d} ({error})")
+            say!(out, "\nfor generic leg lengths the poses form a set of dimension {d} ({error})");
         }
         (None, None) => out.line("\nthe finite poses for generic leg lengths are not counted"),
-    };
+    }
     if let Some(degrees) = &c.by_degree {
         let degrees: Vec<String> = degrees.iter().map(ToString::to_string).collect();
         say!(out, "  by degree {}", degrees.join(" + "));

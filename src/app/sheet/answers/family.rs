@@ -50,7 +50,7 @@ fn topologies(out: &mut Sheet, r: &FamilyAnswer) {
             t.shared_joints.to_string(),
             patterns.to_string(),
             if t.sequential { "yes" } else { "no" }.to_owned(),
-            t.example.to_string(),
+            t.example.clone(),
         ]);
     }
     out.space();

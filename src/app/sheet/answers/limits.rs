@@ -59,7 +59,7 @@ fn axis(row: &FreeRangeRecord) -> [String; 7] {
         bound(row.back.binds.as_ref()),
         short(row.forth.value),
         bound(row.forth.binds.as_ref()),
-        row.unit.to_string(),
+        row.unit.clone(),
     ]
 }
 
@@ -74,7 +74,7 @@ fn way(out: &mut Sheet, found: &StraightWayRecord) {
             found.pose.short(),
             named(limit)
         ),
-    };
+    }
 }
 
 fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord) {
