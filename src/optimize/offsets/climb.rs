@@ -1,7 +1,7 @@
 //! A cell of offsets as a problem for the climb.
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::branch::BranchCell;
 use super::conditioning::{PoseSpectrum, worst_case};
@@ -111,6 +111,8 @@ struct CellClimb<'a> {
     reference: f64,
     /// Pose that was worst at the last point.
     worst: Cell<usize>,
+    /// Poses that the steps see: those of low value at a point, and those that refused a step.
+    working: RefCell<BTreeSet<usize>>,
     /// The last point that was judged, by its bits, and the value at each pose that was looked at.
     judged: RefCell<([u64; 6], Vec<f64>)>,
 }
@@ -161,8 +163,9 @@ impl CellClimb<'_> {
     }
 }
 
-/// Poses whose value is at most this factor above the least one are seen by a step.
-const WORKING: f64 = 1.5;
+/// So many of the poses of least value are seen by a step, if they have at most this factor of the least value.
+const FIRST_POSES: usize = 6;
+const NEAR: f64 = 2.0;
 
 fn offsets(x: &[f64]) -> [f64; 6] {
     std::array::from_fn(|i| x[i])
@@ -203,6 +206,7 @@ impl Climbable for CellClimb<'_> {
                 }
             }
         }
+        self.working.borrow_mut().insert(self.worst.get());
         values
     }
 
@@ -223,9 +227,16 @@ impl Climbable for CellClimb<'_> {
             self.judge(x, &|_| false);
         }
         let values = &self.judged.borrow().1;
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        for (k, pose) in self.m.poses.iter().enumerate().filter(|(k, _)| values[*k] <= WORKING * least) {
-            out.pieces.push(self.piece(k, &pose.spectrum(&t)?));
+        let mut lowest: Vec<usize> = (0..values.len()).collect();
+        lowest.sort_by(|i, j| values[*i].total_cmp(&values[*j]));
+        let mut working = self.working.borrow_mut();
+        for k in
+            lowest.into_iter().take(FIRST_POSES).filter(|k| values[*k] <= NEAR * values[self.worst.get()])
+        {
+            working.insert(k);
+        }
+        for k in working.iter() {
+            out.pieces.push(self.piece(*k, &self.m.poses[*k].spectrum(&t)?));
         }
         Some(out)
     }
@@ -240,6 +251,7 @@ pub(super) fn climb(m: &OffsetModel, cell: &BranchCell, start: [f64; 6], effort:
     let reference = value.max(LEAST_REFERENCE);
     let task = Task { weights: vec![1.0], floors: vec![None], ..Task::default() };
     let judged = RefCell::new(([f64::NAN.to_bits(); 6], vec![f64::NAN; m.poses.len()]));
-    let problem = CellClimb { m, cell, task, reference, worst: Cell::new(worst), judged };
+    let problem =
+        CellClimb { m, cell, task, reference, worst: Cell::new(worst), working: RefCell::default(), judged };
     LocalResult::new(&climb::climb(&problem, &start, effort), reference)
 }
