@@ -11,13 +11,13 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Candidates so far; `None` where an eigenvector or root gives no finite pose.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Candidates {
+pub(super) struct PoseCandidates {
     poses: Vec<PoseCandidate>,
     infinite: usize,
     attempts: usize,
 }
 
-impl Candidates {
+impl PoseCandidates {
     /// Adds everything one elimination gave.
     pub(super) fn add(&mut self, found: impl IntoIterator<Item = Option<ComplexPose>>) {
         self.attempts += 1;
@@ -100,7 +100,7 @@ mod tests {
         let s = pose.squared_lengths(&m).unwrap();
         let mut moved = pose;
         moved.position.x += 2e-16;
-        let mut candidates = Candidates::default();
+        let mut candidates = PoseCandidates::default();
         candidates.add([pose, moved].map(|p| Some(ComplexPose::from(p))));
         // with no tolerance at all only certificates tell that the two are one
         let tolerances = FkTolerances { distinct: 0.0, ..FkTolerances::default() };

@@ -25,7 +25,7 @@ const MEAN: f64 = 1e-3;
 
 /// An end of a path that is, or may be, finite.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct End {
+pub(super) struct HarvestEnd {
     /// `(e, g)` in the design's frames.
     pub(super) point: [Complex64; 8],
     pub(super) singular: bool,
@@ -66,10 +66,10 @@ pub(super) fn harvest(
     m: &Manipulator,
     s: &SquaredLegLengths,
     t: &FkTolerances,
-    ends: &[End],
+    ends: &[HarvestEnd],
     precise: &[PreciseEnd],
 ) -> Harvest {
-    let is_close = |e: &End| e.singular || !(e.condition < NEARLY_SINGULAR);
+    let is_close = |e: &HarvestEnd| e.singular || !(e.condition < NEARLY_SINGULAR);
     let (mut doubtful, mut close, mut others) = (Vec::new(), Vec::new(), Vec::new());
     let all_plain = !ends.iter().any(|e| e.doubtful || is_close(e));
     if !all_plain {
@@ -119,7 +119,7 @@ pub(super) fn harvest(
     Harvest { collected, certificates }
 }
 
-fn candidate(end: &End) -> PoseCandidate {
+fn candidate(end: &HarvestEnd) -> PoseCandidate {
     PoseCandidate {
         pose: pose_of(end.point),
         singular: end.singular,
@@ -170,7 +170,7 @@ fn images(root: &CertifiedPose, flat: bool) -> impl Iterator<Item = CertifiedPos
 }
 
 /// One of each set of ends that look like images of each other, the first: the others are certified with it.
-fn representatives(ends: &[End], flat: bool) -> Vec<usize> {
+fn representatives(ends: &[HarvestEnd], flat: bool) -> Vec<usize> {
     let points: Vec<([Complex64; 8], usize)> = ends.iter().map(|e| on_patch(&e.point)).collect();
     let mut taken = vec![false; ends.len()];
     let mut out = Vec::with_capacity(ends.len());
@@ -202,7 +202,7 @@ fn on_patch(x: &[Complex64; 8]) -> ([Complex64; 8], usize) {
 fn certify_all(
     m: &Manipulator,
     s: &SquaredLegLengths,
-    ends: &[End],
+    ends: &[HarvestEnd],
     proofs: &mut Vec<CertifiedRoot>,
 ) -> Vec<PoseCandidate> {
     let Ok(certifier) = Certifier::new(m, s) else {
@@ -259,7 +259,7 @@ fn certify_all(
 }
 
 /// Poses so far out, or so close to an end at `e.e = 0`, that the endgame could not tell: a certificate can, it proves `e.e != 0`.
-fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec<CertifiedRoot> {
+fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[HarvestEnd]) -> Vec<CertifiedRoot> {
     if ends.is_empty() {
         return Vec::new();
     }

@@ -1,7 +1,7 @@
 //! Two and three virtual legs: candidates by distances, certificates as for any other method.
 
 use super::bounds::class_bound;
-use super::harvest::End;
+use super::harvest::HarvestEnd;
 use super::trilateration::{ends_at, judged};
 use super::{FkError, FkOptions, FkSolutions, Theorem, Tried};
 use crate::distance::HiddenLengths;
@@ -24,7 +24,7 @@ pub(super) fn solve(
     let hidden = HiddenLengths::of(m)?;
     let most = WAYS.iter().find(|w| w.0 == hidden.virtual_legs()).map_or(1, |w| w.1);
     let theorem = class_bound(m).unwrap_or(Theorem::SixLegs);
-    let mut ends: Vec<End> = Vec::new();
+    let mut ends: Vec<HarvestEnd> = Vec::new();
     let mut evaluations = 0;
     let mut answer = None;
     for way in 0..hidden.ways().min(most) {

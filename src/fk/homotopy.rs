@@ -6,7 +6,7 @@ use num_complex::Complex64;
 
 use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
-use super::harvest::{End, Harvest, PreciseEnd, harvest};
+use super::harvest::{Harvest, HarvestEnd, PreciseEnd, harvest};
 use super::judge::{RealityJudgement, counted, judge, set_counted};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
@@ -237,7 +237,7 @@ pub(super) fn pose_of(x: [Complex64; 8]) -> ComplexPose {
 }
 
 /// The ends that are or may be finite; where paths stand for two, the mirror images follow with sources counted on.
-fn ends_of(problem: &SectionProblem, paths: &[HomotopyPath]) -> Vec<End> {
+fn ends_of(problem: &SectionProblem, paths: &[HomotopyPath]) -> Vec<HarvestEnd> {
     let mut out = Vec::with_capacity(2 * paths.len());
     for (start, path) in paths.iter().enumerate() {
         let finite = matches!(path.kind, EndKind::Regular | EndKind::Singular);
@@ -246,7 +246,7 @@ fn ends_of(problem: &SectionProblem, paths: &[HomotopyPath]) -> Vec<End> {
         if elsewhere || path.kind == EndKind::Failed || !(finite || path.winding <= 2) {
             continue;
         }
-        let end = |x: [Complex64; 8], split: Option<[Complex64; 8]>, source| End {
+        let end = |x: [Complex64; 8], split: Option<[Complex64; 8]>, source| HarvestEnd {
             point: problem.frame.to_design(x),
             singular: path.kind == EndKind::Singular,
             doubtful: !finite,

@@ -24,7 +24,7 @@ const STRIDE: f64 = 1e-2;
 const STEPS: usize = 24;
 
 /// The leg equations at real poses.
-struct Equations<'a> {
+struct RealLegEquations<'a> {
     m: &'a Manipulator,
     squares: [f64; 6],
     size: f64,
@@ -32,7 +32,7 @@ struct Equations<'a> {
 
 /// One real pose on each real component of positive dimension that the search met.
 pub(super) fn real_points(m: &Manipulator, s: &SquaredLegLengths, seed: u64) -> Vec<Pose> {
-    let equations = Equations { m, squares: s.get(), size: m.size() };
+    let equations = RealLegEquations { m, squares: s.get(), size: m.size() };
     let mut found: Vec<Pose> = Vec::new();
     for k in 0..STARTS {
         let mut rng = Purpose::REAL_POINTS.item(seed, k);
@@ -44,7 +44,7 @@ pub(super) fn real_points(m: &Manipulator, s: &SquaredLegLengths, seed: u64) -> 
     found
 }
 
-impl Equations<'_> {
+impl RealLegEquations<'_> {
     /// A random rotation, one leg of its length in a random direction.
     fn start(&self, rng: &mut Rng) -> Pose {
         let rotation = random_rotation(rng);

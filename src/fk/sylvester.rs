@@ -1,6 +1,6 @@
 //! Forward kinematics by the 15 x 15 Sylvester matrix.
 
-use super::elimination::Candidates;
+use super::elimination::PoseCandidates;
 use super::judge::compared_with_count;
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::solve::generic_frame::GenericProblem;
@@ -31,7 +31,7 @@ impl ForwardKinematics for Sylvester {
 }
 
 fn eliminated(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-    let mut candidates = Candidates::default();
+    let mut candidates = PoseCandidates::default();
     let mut refusal = None;
     for attempt in 0..ATTEMPTS {
         let problem = GenericProblem::draw(m, s, &mut Purpose::GENERIC_FRAMES.item(o.seed, attempt));

@@ -1,6 +1,6 @@
 //! Forward kinematics by the elimination template.
 
-use super::elimination::Candidates;
+use super::elimination::PoseCandidates;
 use super::judge::compared_with_count;
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::solve::generic_frame::GenericProblem;
@@ -40,7 +40,7 @@ fn solve_with(
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    let mut candidates = Candidates::default();
+    let mut candidates = PoseCandidates::default();
     let mut best = 0.0f64;
     for attempt in 0..ATTEMPTS {
         let problem = GenericProblem::draw(m, s, &mut Purpose::GENERIC_FRAMES.item(o.seed, attempt));

@@ -8,7 +8,7 @@ use num_complex::Complex64;
 use super::bounds::class_bound;
 use super::closure_candidates;
 use super::evidence::attach;
-use super::harvest::{End, Harvest, harvest};
+use super::harvest::{Harvest, HarvestEnd, harvest};
 use super::judge::compared_with_count;
 use super::{
     Completeness, FkError, FkOptions, FkRoot, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
@@ -152,7 +152,7 @@ impl Prepared {
         &self,
         s: &SquaredLegLengths,
         o: &FkOptions,
-        ends: &[End],
+        ends: &[HarvestEnd],
         expected: usize,
         tried: Tried,
     ) -> Result<FkSolutions, FkError> {
@@ -163,7 +163,7 @@ impl Prepared {
 impl PreparedDesign for Prepared {
     fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let squares = s.get().map(Complex64::from);
-        let mut ends: Vec<End> = Vec::new();
+        let mut ends: Vec<HarvestEnd> = Vec::new();
         let mut answer = None;
         let attempts = self.evaluators.iter().flat_map(|e| RADII.map(|r| (e, r)));
         for (attempt, (evaluator, radius)) in attempts.take(ATTEMPTS).enumerate() {
@@ -197,9 +197,9 @@ impl PreparedDesign for Prepared {
 }
 
 /// Poses as points to be refined; those without a dual quaternion (`R^T R` far from one) are left out.
-pub(super) fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iterator<Item = End> {
+pub(super) fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iterator<Item = HarvestEnd> {
     let points = poses.into_iter().enumerate().filter_map(|(source, p)| Some((source, dual_quaternion(&p)?)));
-    points.map(|(source, point)| End {
+    points.map(|(source, point)| HarvestEnd {
         point,
         singular: false,
         doubtful: false,
@@ -215,7 +215,7 @@ pub(super) fn judged(
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,
-    ends: &[End],
+    ends: &[HarvestEnd],
     expected: usize,
     tried: Tried,
     theorem: Theorem,

@@ -139,7 +139,7 @@ struct Around<'a> {
 }
 
 /// What is known of a region.
-enum Judged {
+enum JudgedRegion {
     Free,
     Violated(Limit, f64),
     Undecided,
@@ -167,22 +167,22 @@ impl Around<'_> {
     }
 
     /// All requirements that depend on the pose, and the sign of `det J`.
-    fn judge(&self, space: &PoseSpace) -> Judged {
+    fn judge(&self, space: &PoseSpace) -> JudgedRegion {
         if let Some((limit, margin)) = self.shown(space) {
-            return Judged::Violated(limit, margin);
+            return JudgedRegion::Violated(limit, margin);
         }
         let (m, options) = (self.design.manipulator(), self.options());
         let proof = prove(m, self.required, space, &options, CELLS);
         let bounds = || proof.bounds.iter().filter(|b| !b.found.term.kind.is_fixed());
         let violated = |b: &&machine::requirements::MarginBound| b.verdict.is_met() == Some(false);
         if let Some(b) = bounds().find(violated) {
-            return Judged::Violated(Limit::Term(b.found.term), b.found.value);
+            return JudgedRegion::Violated(Limit::Term(b.found.term), b.found.value);
         }
         let regularity = regular_region(m, self.required, space, CELLS, self.seed);
         match regularity.is_regular() {
-            Some(false) => Judged::Violated(Limit::Singular, 0.0),
-            Some(true) if bounds().all(|b| b.verdict.is_met() == Some(true)) => Judged::Free,
-            _ => Judged::Undecided,
+            Some(false) => JudgedRegion::Violated(Limit::Singular, 0.0),
+            Some(true) if bounds().all(|b| b.verdict.is_met() == Some(true)) => JudgedRegion::Free,
+            _ => JudgedRegion::Undecided,
         }
     }
 
@@ -196,12 +196,12 @@ impl Around<'_> {
         let (mut doubtful, mut size) = (ray.free, ray.free * (1.0 - INSIDE));
         for _ in 0..ROUNDS {
             match self.judge(&space(size)) {
-                Judged::Free => found.proved = size,
-                Judged::Violated(limit, margin) => {
+                JudgedRegion::Free => found.proved = size,
+                JudgedRegion::Violated(limit, margin) => {
                     (found.searched, found.binding) = (size, Some((limit, margin)));
                     doubtful = size;
                 }
-                Judged::Undecided => doubtful = size,
+                JudgedRegion::Undecided => doubtful = size,
             }
             if found.proved >= doubtful * (1.0 - CLOSE) {
                 break;

@@ -32,7 +32,7 @@ pub(crate) fn refusal(error: &clap::Error, args: &[String]) -> Failure {
     let message = message.trim_start_matches("error: ");
     let mut program = guide::program();
     program.build();
-    let place = Place::of(&program, args);
+    let place = UnderstoodUpTo::of(&program, args);
     let tip = || tips.first().map(|t| t.trim_start_matches("tip:").trim().to_string());
     let see = format!("see `{} --help`", place.name());
     let (message, help) = match error.kind() {
@@ -61,13 +61,13 @@ fn said(error: &clap::Error, kind: ContextKind) -> Option<String> {
 }
 
 /// How far the arguments were understood.
-struct Place<'a> {
+struct UnderstoodUpTo<'a> {
     program: &'a Command,
     command: &'a Command,
     path: Vec<&'a str>,
 }
 
-impl<'a> Place<'a> {
+impl<'a> UnderstoodUpTo<'a> {
     fn of(program: &'a Command, args: &[String]) -> Self {
         let mut place = Self { program, command: program, path: Vec::new() };
         let mut words = args.iter().skip(1).filter(|a| a.as_str() != "help");

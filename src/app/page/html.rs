@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::request::{Chosen, Opening, Request, Which};
+use super::request::{Chosen, Opening, PageRequest, Which};
 use super::session::Session;
 use files::plot::escape;
 use platform::geom::Pose;
@@ -165,19 +165,24 @@ fn recorded(session: &Session) -> Recorded {
     let chosen = session.start.as_ref().map(Chosen::from);
     let frames = if session.cranks.is_some() { CRANK_FRAMES } else { FRAMES };
     let state =
-        |p: Pose| session.reply(Request::State { pose: PoseRecord::from(&p), chosen: chosen.clone() });
+        |p: Pose| session.reply(PageRequest::State { pose: PoseRecord::from(&p), chosen: chosen.clone() });
     let home = PoseRecord::from(&session.home);
     let two = session.start.as_ref().filter(|s| s.offsets.len() > 1);
-    let plane = |chosen| Request::Plane { chosen, axes: [0, 1], range: [-0.5, 1.5], points: PLANE };
+    let plane = |chosen| PageRequest::Plane { chosen, axes: [0, 1], range: [-0.5, 1.5], points: PLANE };
     let moving = if chosen.is_some() { Which::Second } else { Which::First };
-    let design = |which| session.reply(Request::Design { which, chosen: chosen.clone() });
+    let design = |which| session.reply(PageRequest::Design { which, chosen: chosen.clone() });
     Recorded {
-        open: session.reply(Request::Open),
+        open: session.reply(PageRequest::Open),
         frames: (0..frames).map(|k| session.along(k as f64 / frames as f64)).map(state).collect(),
-        worst: session.reply(Request::Worst { chosen: chosen.clone() }),
-        modes: session.reply(Request::Modes { pose: home, lengths: None, which: Which::First, chosen: None }),
+        worst: session.reply(PageRequest::Worst { chosen: chosen.clone() }),
+        modes: session.reply(PageRequest::Modes {
+            pose: home,
+            lengths: None,
+            which: Which::First,
+            chosen: None,
+        }),
         plane: two.map(|s| session.reply(plane(s.into()))),
-        motion: session.reply(Request::Motion { pose: home, which: moving, chosen: chosen.clone() }),
+        motion: session.reply(PageRequest::Motion { pose: home, which: moving, chosen: chosen.clone() }),
         designs: RecordedDesigns {
             first: design(Which::First),
             second: chosen.as_ref().map(|_| design(Which::Second)),

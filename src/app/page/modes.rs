@@ -96,13 +96,13 @@ pub(super) fn confirm(
 }
 
 /// What poses are asked for: the legs with their lengths, or the rods on the tips of cranks with their angles.
-struct Asked {
+struct InputsOfPoses {
     m: Manipulator,
     squares: SquaredLegLengths,
     cranks: Option<(RotaryPlatform, [f64; 6])>,
 }
 
-impl Asked {
+impl InputsOfPoses {
     fn of(session: &Session, design: &Design, at: &Pose, given: Option<[f64; 6]>) -> Result<Self, Refusal> {
         let Some(platform) = &session.cranks else {
             let m = design.manipulator().clone();
@@ -129,7 +129,7 @@ pub(super) fn record(
     at: &Pose,
     lengths: Option<[f64; 6]>,
 ) -> Result<ModesRecord, Refusal> {
-    let asked = Asked::of(session, design, at, lengths)?;
+    let asked = InputsOfPoses::of(session, design, at, lengths)?;
     let m = &asked.m;
     let found = solve(m, asked.squares)?;
     let roots: Vec<&FkRoot> = match &found.solution_set {
@@ -157,7 +157,7 @@ pub(super) fn record(
     })
 }
 
-fn mode(asked: &Asked, design: &Design, home: &Pose, root: &FkRoot) -> ModeRecord {
+fn mode(asked: &InputsOfPoses, design: &Design, home: &Pose, root: &FkRoot) -> ModeRecord {
     let real = root.pose.real_part();
     let j = jacobian(&asked.m, &real, design.characteristic_length());
     let kept = |(platform, angles): &(RotaryPlatform, [f64; 6])| {

@@ -146,7 +146,7 @@ struct StartPattern {
     platform_joints: usize,
     shared_joints: usize,
     offsets: Vec<OffsetRecord>,
-    legs: Vec<LegRecord>,
+    legs: Vec<EquivalentLeg>,
     /// The formula of `det A`.
     det: String,
     /// Where its factors vanish.
@@ -163,7 +163,7 @@ struct OffsetRecord {
 
 /// A leg of an equivalent.
 #[derive(Debug, Serialize)]
-struct LegRecord {
+struct EquivalentLeg {
     leg: usize,
     joints: [String; 2],
     side: Option<usize>,
@@ -276,7 +276,7 @@ fn pattern(p: &Pattern, o: &Original) -> StartPattern {
             HexagonPoint::Vertex(_) => (None, None),
             HexagonPoint::Inner(t) => (Some(t.side), p.offsets().iter().position(|x| *x == t)),
         };
-        LegRecord {
+        EquivalentLeg {
             leg: o.octahedral.order()[k].get() + 1,
             joints: o.leg_names(point),
             side,

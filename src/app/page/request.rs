@@ -38,7 +38,7 @@ impl From<&Equivalent> for Chosen {
 /// A question.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "op", rename_all = "lowercase")]
-pub(super) enum Request {
+pub(super) enum PageRequest {
     /// What there is to show.
     Open,
     /// Offsets to begin with.
@@ -148,77 +148,78 @@ impl Session {
     /// The answer to a request, both in JSON. A request that cannot be answered gives `{"error": {"code", "message"}}`.
     #[must_use]
     pub fn answer(&self, request: &str) -> String {
-        let request: Result<Request, _> = serde_json::from_str(request);
+        let request: Result<PageRequest, _> = serde_json::from_str(request);
         let request = request.map_err(|e| Refusal::new("request", e));
         request.map_or_else(Refusal::record, |r| self.reply(r)).to_string()
     }
 
     /// The answer to a request, or the refusal.
-    pub(super) fn reply(&self, request: Request) -> Value {
+    pub(super) fn reply(&self, request: PageRequest) -> Value {
         self.respond(request).unwrap_or_else(Refusal::record)
     }
 
-    fn respond(&self, request: Request) -> Result<Value, Refusal> {
+    fn respond(&self, request: PageRequest) -> Result<Value, Refusal> {
         let equivalent = |c: Option<Chosen>| c.map(Chosen::equivalent).transpose();
-        if self.cranks.is_some() && matches!(request, Request::Locus { .. } | Request::Motion { .. }) {
+        if self.cranks.is_some() && matches!(request, PageRequest::Locus { .. } | PageRequest::Motion { .. })
+        {
             let message = "the legs are rods on cranks, and this is about legs that change their lengths";
             return Err(Refusal::new("rotary", message));
         }
         match request {
-            Request::Open => Ok(value(opening::record(self))),
-            Request::Start { pattern } => {
+            PageRequest::Open => Ok(value(opening::record(self))),
+            PageRequest::Start { pattern } => {
                 let pattern: Pattern = pattern.parse().map_err(|e| Refusal::new("pattern", e))?;
                 Ok(value(OffsetsRecord { offsets: self.first_offsets(&pattern)? }))
             }
-            Request::Path { at } => Ok(value(path::record(self, at))),
-            Request::Place { position, rpy_deg } => {
+            PageRequest::Path { at } => Ok(value(path::record(self, at))),
+            PageRequest::Place { position, rpy_deg } => {
                 let pose = Pose::new(position, Angles::from_degrees(rpy_deg));
                 Ok(value(path::PathPose::from(&pose)))
             }
-            Request::Quaternion { p, q } => {
+            PageRequest::Quaternion { p, q } => {
                 let pose = Pose::from_quaternion(p, q).map_err(|e| Refusal::new("pose", e))?;
                 Ok(value(path::PathPose::from(&pose)))
             }
-            Request::State { pose, chosen } => {
+            PageRequest::State { pose, chosen } => {
                 scene::record(self, &Pose::from(&pose), equivalent(chosen)?.as_ref()).map(value)
             }
-            Request::Worst { chosen } => worst::record(self, equivalent(chosen)?.as_ref()).map(value),
-            Request::Assess { which, chosen, points, searches, cells } => {
+            PageRequest::Worst { chosen } => worst::record(self, equivalent(chosen)?.as_ref()).map(value),
+            PageRequest::Assess { which, chosen, points, searches, cells } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
                 let options = AssessOptions::new().points(points).searches(searches);
                 limits::record(&design, &options, cells).map(value)
             }
-            Request::Modes { pose, lengths, which, chosen } => {
+            PageRequest::Modes { pose, lengths, which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
                 modes::record(self, &design, &Pose::from(&pose), lengths).map(value)
             }
-            Request::Confirm { pose, chosen } => {
+            PageRequest::Confirm { pose, chosen } => {
                 let second = self.second(&chosen.equivalent()?)?.0;
                 modes::confirm(self.first().manipulator(), second.manipulator(), &Pose::from(&pose))
                     .map(value)
             }
-            Request::Plane { chosen, axes, range, points } => {
+            PageRequest::Plane { chosen, axes, range, points } => {
                 plane::record(&chosen.equivalent()?, axes, range, points).map(value)
             }
-            Request::Feasible { chosen, axes, range, points, samples } => {
+            PageRequest::Feasible { chosen, axes, range, points, samples } => {
                 let options = AssessOptions::new().points(samples);
                 feasible::record(self, &chosen.equivalent()?, axes, range, points, &options).map(value)
             }
-            Request::Surface { chosen, axes, range, points } => {
+            PageRequest::Surface { chosen, axes, range, points } => {
                 surface::offsets(&chosen.equivalent()?, axes, range, points).map(value)
             }
-            Request::Locus { pose, which, chosen, points } => {
+            PageRequest::Locus { pose, which, chosen, points } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
                 surface::locus(&design, &self.home, &Pose::from(&pose), points).map(value)
             }
-            Request::Motion { pose, which, chosen } => {
+            PageRequest::Motion { pose, which, chosen } => {
                 motion::record(&self.platform(which, equivalent(chosen)?)?, &Pose::from(&pose)).map(value)
             }
-            Request::Presets => Ok(value(begin::presets())),
-            Request::Preset { name } => begin::preset(&name).map(value),
-            Request::Points { text, units } => begin::points(&text, &units).map(value),
-            Request::Sheet(sheet) => sheet.made().map(value),
-            Request::Design { which, chosen } => {
+            PageRequest::Presets => Ok(value(begin::presets())),
+            PageRequest::Preset { name } => begin::preset(&name).map(value),
+            PageRequest::Points { text, units } => begin::points(&text, &units).map(value),
+            PageRequest::Sheet(sheet) => sheet.made().map(value),
+            PageRequest::Design { which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
                 let (toml, json) = (design.to_toml(), design.to_json());
                 Ok(value(FileRecord { name: design.name.clone(), toml, json }))

@@ -12,7 +12,7 @@ use super::answers::document;
 use super::arrays::{as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
 use super::failure::{interrupted, interruptible, raised, refused, refused_for_cranks};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};
-use super::tracker::{Followed, NativeTracker};
+use super::tracker::{NativeTracker, TrackerKind};
 use ask::Design;
 use ask::design::parse_ideal;
 use ask::{Error, Solver, solve_angles};
@@ -381,13 +381,13 @@ impl NativeDesign {
                     &format!("the cranks do not hold the pose where the tracker starts: {why}"),
                 )
             })?;
-            return Ok(NativeTracker(Followed::Cranks(Box::new(RotaryTracker::new(
+            return Ok(NativeTracker(TrackerKind::Cranks(Box::new(RotaryTracker::new(
                 platform.clone(),
                 *first,
                 angles,
             )))));
         }
-        Ok(NativeTracker(Followed::Legs(Box::new(self.design.tracker(*first)))))
+        Ok(NativeTracker(TrackerKind::Legs(Box::new(self.design.tracker(*first)))))
     }
 
     /// The margins of all requirements at poses (n, 4, 4): names, units and legs or joints of the columns, and float64 of shape (n, columns).

@@ -17,18 +17,18 @@ const SIGNALS: usize = 1024;
 /// Follows one real pose, never to another assembly mode.
 #[pyclass(name = "Tracker", module = "equipod._core")]
 #[derive(Clone)]
-pub(super) struct NativeTracker(pub(super) Followed);
+pub(super) struct NativeTracker(pub(super) TrackerKind);
 
 /// What a pose is followed by.
 #[derive(Clone)]
-pub(super) enum Followed {
+pub(super) enum TrackerKind {
     /// Six lengths.
     Legs(Box<ask::Tracker>),
     /// Six angles, radians.
     Cranks(Box<RotaryTracker>),
 }
 
-impl Followed {
+impl TrackerKind {
     fn pose(&self) -> Pose {
         match self {
             Self::Legs(tracker) => tracker.pose(),

@@ -55,7 +55,7 @@ impl Ground {
 
 /// A pattern with values for its offsets.
 #[derive(Debug)]
-struct Placed<'a> {
+struct PlacedPattern<'a> {
     pattern: &'a Pattern,
     offsets: Vec<f64>,
 }
@@ -67,7 +67,7 @@ pub(super) struct SweepCandidate<'a> {
     pub(super) ground: Cow<'a, Ground>,
     /// The values of the free quantities.
     values: &'a [SweepCell],
-    placed: Option<Placed<'a>>,
+    placed: Option<PlacedPattern<'a>>,
     /// The drive in all legs; `None`: what the design says of its legs.
     pub(super) drive: Option<&'a Drive>,
     /// `None`: that of the design.
@@ -254,7 +254,7 @@ fn as_written(value: &SweepCell) -> String {
 }
 
 /// The pattern of a candidate with as many offsets as it takes.
-fn placed<'a>(sweep: &'a Sweep, values: &[SweepCell]) -> Result<Placed<'a>, String> {
+fn placed<'a>(sweep: &'a Sweep, values: &[SweepCell]) -> Result<PlacedPattern<'a>, String> {
     let mut offsets = [None; 6];
     let mut pattern = &sweep.joint_free;
     for (quantity, value) in sweep.plan.quantities().zip(values) {
@@ -267,7 +267,7 @@ fn placed<'a>(sweep: &'a Sweep, values: &[SweepCell]) -> Result<Placed<'a>, Stri
         }
     }
     let offsets = offsets.iter().flatten().copied().take(pattern.offsets).collect();
-    Ok(Placed { pattern: &pattern.pattern, offsets })
+    Ok(PlacedPattern { pattern: &pattern.pattern, offsets })
 }
 
 impl SweepCandidate<'_> {

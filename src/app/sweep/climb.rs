@@ -343,7 +343,7 @@ fn aim(target: &PosePair, kept: &[PosePair]) -> DVector<f64> {
 }
 
 /// A search under way.
-struct Search {
+struct SingularClimb {
     freedoms: ClimbFreedoms,
     seed: u64,
     here: Stand,
@@ -354,7 +354,7 @@ struct Search {
     most: usize,
 }
 
-impl Search {
+impl SingularClimb {
     /// The platform after a step; `None` where poses get lost, real ones become complex, or real ones come too near to each other.
     fn at(&self, by: &DVector<f64>) -> Option<Stand> {
         let (m, s) = self.freedoms.moved(&self.here, by)?;
@@ -489,7 +489,8 @@ pub(super) fn climb(
     let here = Stand::new(m.clone(), *squares, seed).ok_or("the poses of the start cannot be computed")?;
     let began = here.real;
     let mut rng: Rng = Purpose::SWEPT_AGAIN.item(seed, 2);
-    let mut search = Search { freedoms, seed, here, radius: FIRST, spell: SHORTEST_SPELL, steps: 0, most };
+    let mut search =
+        SingularClimb { freedoms, seed, here, radius: FIRST, spell: SHORTEST_SPELL, steps: 0, most };
     while !search.ended() {
         if search.follow_nearest() {
             search.spell = SHORTEST_SPELL;

@@ -45,13 +45,13 @@ impl Written {
         let edited = self.toml.take().and_then(|text| {
             let mut out = text;
             match given(&out, body, name)? {
-                Given::Coordinates(spans) => {
+                JointPlace::Coordinates(spans) => {
                     // from the last to the first, so that the places of the others stay
                     for (span, x) in spans.into_iter().zip(point).rev() {
                         out.replace_range(span, &format!("{x:?}"));
                     }
                 }
-                Given::Construction(span) => out.replace_range(span, &format!("{point:?}")),
+                JointPlace::Construction(span) => out.replace_range(span, &format!("{point:?}")),
             }
             Some(out)
         });
@@ -60,14 +60,14 @@ impl Written {
 }
 
 /// Where it stands what a joint is.
-enum Given {
+enum JointPlace {
     /// The three coordinates, in this order.
     Coordinates([Span; 3]),
     /// A table.
     Construction(Span),
 }
 
-fn given(text: &str, body: &str, name: &str) -> Option<Given> {
+fn given(text: &str, body: &str, name: &str) -> Option<JointPlace> {
     let root = toml_text::read(text, &mut Findings::new(text))?;
     let inside = |node: &Node, key: &str| -> Option<Node> {
         let Value::Table(entries) = &node.value else { return None };
@@ -76,9 +76,9 @@ fn given(text: &str, body: &str, name: &str) -> Option<Given> {
     let joint = inside(&inside(&root, body)?, name)?;
     match joint.value {
         Value::Array(list) => {
-            <[_; 3]>::try_from(list).ok().map(|l| Given::Coordinates(l.map(|node| node.span)))
+            <[_; 3]>::try_from(list).ok().map(|l| JointPlace::Coordinates(l.map(|node| node.span)))
         }
-        Value::Table(_) => Some(Given::Construction(joint.span)),
+        Value::Table(_) => Some(JointPlace::Construction(joint.span)),
         _ => None,
     }
 }

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value as Json, json};
 use thiserror::Error;
 
-use super::keys::{FILE, Form, Kind, Shape};
+use super::keys::{FILE, KeyForm, KeyKind, KeyShape};
 use super::{DesignModel, Format, WrittenNumber, parse_with_cranks};
 
 /// Units by label with their lengths in micrometres, which are whole numbers; the inch is 25.4 mm exactly.
@@ -105,21 +105,21 @@ impl LengthRatio {
 
 impl LengthRatio {
     /// A value of a kind.
-    fn scale(self, value: &mut Json, kind: &Kind) -> Result<(), NotScaled> {
+    fn scale(self, value: &mut Json, kind: &KeyKind) -> Result<(), NotScaled> {
         match (kind.form, value) {
-            (Form::Quantity(_), _) if kind.unit == 0 => {}
-            (Form::Quantity(None), value) => *value = self.written(value)?,
+            (KeyForm::Quantity(_), _) if kind.unit == 0 => {}
+            (KeyForm::Quantity(None), value) => *value = self.written(value)?,
             // three plain numbers are doubles
-            (Form::Quantity(Some(_)), Json::Array(list)) if list.iter().any(Json::is_string) => {
+            (KeyForm::Quantity(Some(_)), Json::Array(list)) if list.iter().any(Json::is_string) => {
                 for item in list {
                     *item = self.written(item)?;
                 }
             }
-            (Form::Table(shape), Json::Object(keys)) => self.table(keys, shape)?,
-            (Form::List(kind, _), Json::Array(list)) => {
+            (KeyForm::Table(shape), Json::Object(keys)) => self.table(keys, shape)?,
+            (KeyForm::List(kind, _), Json::Array(list)) => {
                 list.iter_mut().try_for_each(|item| self.scale(item, kind))?;
             }
-            (Form::Either(kinds), value) => {
+            (KeyForm::Either(kinds), value) => {
                 if let Some(kind) = kinds.iter().find(|kind| fits(value, kind)) {
                     self.scale(value, kind)?;
                 }
@@ -129,7 +129,7 @@ impl LengthRatio {
         Ok(())
     }
 
-    fn table(self, keys: &mut Map<String, Json>, shape: &dyn Shape) -> Result<(), NotScaled> {
+    fn table(self, keys: &mut Map<String, Json>, shape: &dyn KeyShape) -> Result<(), NotScaled> {
         for (key, value) in keys {
             if let Some(kind) = shape.kind(key) {
                 self.scale(value, &kind)?;
@@ -140,11 +140,11 @@ impl LengthRatio {
 }
 
 /// Whether a value may be of a kind.
-fn fits(value: &Json, kind: &Kind) -> bool {
+fn fits(value: &Json, kind: &KeyKind) -> bool {
     match (kind.form, value) {
-        (Form::Table(shape), Json::Object(keys)) => keys.keys().all(|key| shape.kind(key).is_some()),
-        (Form::Table(_), _) | (_, Json::Object(_)) => false,
-        (Form::List(..) | Form::Quantity(Some(_)), value) => value.is_array(),
+        (KeyForm::Table(shape), Json::Object(keys)) => keys.keys().all(|key| shape.kind(key).is_some()),
+        (KeyForm::Table(_), _) | (_, Json::Object(_)) => false,
+        (KeyForm::List(..) | KeyForm::Quantity(Some(_)), value) => value.is_array(),
         _ => true,
     }
 }

@@ -46,7 +46,7 @@ struct ExportedDocument<'a> {
     home: ExportedPose,
     base: BodyRecord<'a>,
     platform: BodyRecord<'a>,
-    legs: Vec<LegRecord<'a>>,
+    legs: Vec<ExportedLeg<'a>>,
     /// Absent where the design has no standard deviations of a calibration.
     #[serde(skip_serializing_if = "Option::is_none")]
     calibration: Option<UncertaintyRecord<'a>>,
@@ -116,7 +116,7 @@ struct ExportedHole<'a> {
 }
 
 #[derive(Debug, Serialize)]
-struct LegRecord<'a> {
+struct ExportedLeg<'a> {
     leg: usize,
     base_joint: &'a str,
     platform_joint: &'a str,
@@ -172,7 +172,7 @@ impl<'a> ExportedDocument<'a> {
         };
         let leg = |leg: &'a ExportLeg| {
             let (a, b) = export.ends_of(leg);
-            LegRecord {
+            ExportedLeg {
                 leg: leg.number,
                 base_joint: a,
                 platform_joint: b,

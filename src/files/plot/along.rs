@@ -1,6 +1,6 @@
 //! A quantity with a sign along a path, with the pieces where the sign is proved.
 
-use super::style::{Axis, Svg};
+use super::style::{PixelAxis, Svg};
 
 /// One straight part of the path.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,8 +37,8 @@ pub fn sign_along(figure: &AlongFigure) -> String {
     let all = || figure.parts.iter().flat_map(|p| &p.values).map(|v| v.1).filter(|v| v.is_finite());
     let (low, high) = all().fold((0.0f64, 0.0f64), |r, v| (r.0.min(v), r.1.max(v)));
     let margin = if high > low { 0.06 * (high - low) } else { 1.0 };
-    let x = Axis { low: 0.0, high: parts, from: LEFT, to: LEFT + PANEL.0 };
-    let y = Axis { low: low - margin, high: high + margin, from: TOP + PANEL.1, to: TOP };
+    let x = PixelAxis { low: 0.0, high: parts, from: LEFT, to: LEFT + PANEL.0 };
+    let y = PixelAxis { low: low - margin, high: high + margin, from: TOP + PANEL.1, to: TOP };
     let description = format!("{} over the parameter of the path, with its proved sign.", figure.quantity);
     let mut svg = Svg::new(LEFT + PANEL.0 + 24.0, HEIGHT, &figure.title, &description);
     svg.text("title", (LEFT, 30.0), &figure.title);
@@ -62,7 +62,7 @@ pub fn sign_along(figure: &AlongFigure) -> String {
     svg.finish()
 }
 
-fn frame(svg: &mut Svg, x: &Axis, y: &Axis, figure: &AlongFigure) {
+fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, figure: &AlongFigure) {
     let bottom = TOP + PANEL.1;
     svg.rect("frame", (x.from, TOP), PANEL);
     for (value, label) in x.ticks(10) {
@@ -71,7 +71,7 @@ fn frame(svg: &mut Svg, x: &Axis, y: &Axis, figure: &AlongFigure) {
     }
     // powers of ten go into the label: det J of small platforms is tiny
     let power = y.high.abs().max(y.low.abs()).log10().floor();
-    let scaled = Axis { low: y.low / 10f64.powf(power), high: y.high / 10f64.powf(power), ..*y };
+    let scaled = PixelAxis { low: y.low / 10f64.powf(power), high: y.high / 10f64.powf(power), ..*y };
     for (value, label) in scaled.ticks(8) {
         svg.line("tick", (x.from - 5.0, scaled.at(value)), (x.from, scaled.at(value)));
         svg.text("end", (x.from - 9.0, scaled.at(value) + 4.0), &label);

@@ -1,6 +1,6 @@
 //! The best value of several methods over the time they took.
 
-use super::style::{Axis, Svg};
+use super::style::{PixelAxis, Svg};
 
 /// One method.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,11 +61,11 @@ pub fn convergence_chart(figure: &ConvergenceFigure) -> String {
     let times = range(all().map(|p| p.0.log10()));
     for panel in 0..2 {
         let left = LEFT + panel as f64 * (PANEL.0 + BETWEEN);
-        let x = Axis { low: times.0 - 0.2, high: times.1 + 0.2, from: left, to: left + PANEL.0 };
+        let x = PixelAxis { low: times.0 - 0.2, high: times.1 + 0.2, from: left, to: left + PANEL.0 };
         let height = |value: f64| if panel == 0 { value } else { shortfall(value, best).log10() };
         let ends = range(all().map(|p| height(p.1)));
         let spare = 0.05 * (ends.1 - ends.0).max(if panel == 0 { 1e-3 * ends.1.abs() } else { 1.0 });
-        let y = Axis { low: ends.0 - spare, high: ends.1 + spare, from: TOP + PANEL.1, to: TOP };
+        let y = PixelAxis { low: ends.0 - spare, high: ends.1 + spare, from: TOP + PANEL.1, to: TOP };
         for (kind, curve) in curves.iter().enumerate() {
             let heights: Vec<(f64, f64)> = curve.iter().map(|p| (p.0.log10(), height(p.1))).collect();
             draw(&mut svg, kind, &steps(&heights, &x, &y));
@@ -92,7 +92,7 @@ fn shortfall(value: f64, best: f64) -> f64 {
 }
 
 /// Corners of the curve on the page: a value holds until the next one.
-fn steps(points: &[(f64, f64)], x: &Axis, y: &Axis) -> Vec<(f64, f64)> {
+fn steps(points: &[(f64, f64)], x: &PixelAxis, y: &PixelAxis) -> Vec<(f64, f64)> {
     let mut out: Vec<(f64, f64)> = Vec::new();
     for p in points {
         let at = (x.at(p.0), y.at(p.1));
@@ -123,7 +123,7 @@ fn mark(svg: &mut Svg, kind: usize, at: (f64, f64)) {
     }
 }
 
-fn frame(svg: &mut Svg, (x, y): (&Axis, &Axis), panel: usize, figure: &ConvergenceFigure) {
+fn frame(svg: &mut Svg, (x, y): (&PixelAxis, &PixelAxis), panel: usize, figure: &ConvergenceFigure) {
     let bottom = TOP + PANEL.1;
     svg.rect("frame", (x.from, TOP), PANEL);
     for (value, label) in x.decades(7) {

@@ -1,7 +1,7 @@
 //! `det A` of the platform without shared joints over the two offsets of equal-offset platforms.
 
 use super::contour::ValueGrid;
-use super::style::{Axis, Svg};
+use super::style::{PixelAxis, Svg};
 
 /// One axis: an offset as a fraction `t` of the edge, shown as `t * scale`.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,7 +96,7 @@ pub fn determinant_plane(plane: &OffsetPlane) -> String {
 }
 
 /// Both axes in fractions: the edges and all points, with a margin, rounded outwards to tenths.
-fn ranges(points: &[PlanePoint]) -> (Axis, Axis) {
+fn ranges(points: &[PlanePoint]) -> (PixelAxis, PixelAxis) {
     let range = |pick: fn(&PlanePoint) -> f64| {
         let values = points.iter().map(pick).filter(|v| v.is_finite());
         let (low, high) = values.fold((0.0f64, 1.0f64), |r, v| (r.0.min(v), r.1.max(v)));
@@ -108,19 +108,19 @@ fn ranges(points: &[PlanePoint]) -> (Axis, Axis) {
     };
     let (bx, by) = (range(|p| p.base), range(|p| p.platform));
     (
-        Axis { low: bx.0, high: bx.1, from: LEFT, to: RIGHT },
-        Axis { low: by.0, high: by.1, from: BOTTOM, to: TOP },
+        PixelAxis { low: bx.0, high: bx.1, from: LEFT, to: RIGHT },
+        PixelAxis { low: by.0, high: by.1, from: BOTTOM, to: TOP },
     )
 }
 
 /// Where `t1 + t2 = 1` enters and leaves the plot, from left to right on the page.
-fn singular_ends(x: &Axis, y: &Axis) -> Option<[(f64, f64); 2]> {
+fn singular_ends(x: &PixelAxis, y: &PixelAxis) -> Option<[(f64, f64); 2]> {
     let (from, to) = (x.low.max(1.0 - y.high), x.high.min(1.0 - y.low));
     (from < to).then(|| [from, to].map(|t| (x.at(t), y.at(1.0 - t))))
 }
 
 /// Tints: `det A > 0` below the singular line, `< 0` above it.
-fn regions(svg: &mut Svg, line: Option<[(f64, f64); 2]>, x: &Axis, y: &Axis) {
+fn regions(svg: &mut Svg, line: Option<[(f64, f64); 2]>, x: &PixelAxis, y: &PixelAxis) {
     svg.rect("negative", (LEFT, TOP), (RIGHT - LEFT, BOTTOM - TOP));
     let Some([a, b]) = line else { return };
     let mut corners = vec![a, b];
@@ -135,7 +135,7 @@ fn regions(svg: &mut Svg, line: Option<[(f64, f64); 2]>, x: &Axis, y: &Axis) {
     svg.polygon("positive", &corners);
 }
 
-fn edges(svg: &mut Svg, x: &Axis, y: &Axis) {
+fn edges(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis) {
     for t in [0.0, 1.0] {
         if x.low < t && t < x.high {
             svg.line("edge", (x.at(t), TOP), (x.at(t), BOTTOM));
@@ -158,8 +158,8 @@ fn singular_obstacles(line: Option<[(f64, f64); 2]>, marks: &[(f64, f64)]) -> Ve
     out
 }
 
-fn contours(svg: &mut Svg, x: &Axis, y: &Axis, mut taken: Vec<(f64, f64)>) {
-    let place = |axis: &Axis, k: f64| axis.low + k / (GRID as f64 - 1.0) * (axis.high - axis.low);
+fn contours(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, mut taken: Vec<(f64, f64)>) {
+    let place = |axis: &PixelAxis, k: f64| axis.low + k / (GRID as f64 - 1.0) * (axis.high - axis.low);
     let det = |t1: f64, t2: f64| ((1.0 - t1) * (1.0 - t2)).powi(3) - (t1 * t2).powi(3);
     let values =
         (0..GRID * GRID).map(|k| det(place(x, (k % GRID) as f64), place(y, (k / GRID) as f64))).collect();
@@ -214,8 +214,9 @@ fn marks(svg: &mut Svg, points: &[PlanePoint], places: &[(f64, f64)]) {
     }
 }
 
-fn frame(svg: &mut Svg, x: &Axis, y: &Axis, plane: &OffsetPlane) {
-    let shown = |axis: &Axis, scale: f64| Axis { low: axis.low * scale, high: axis.high * scale, ..*axis };
+fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, plane: &OffsetPlane) {
+    let shown =
+        |axis: &PixelAxis, scale: f64| PixelAxis { low: axis.low * scale, high: axis.high * scale, ..*axis };
     let (sx, sy) = (shown(x, plane.base.scale), shown(y, plane.platform.scale));
     super::style::frame(svg, &sx, &sy, (8, 8));
     svg.text("mid", (f64::midpoint(LEFT, RIGHT), BOTTOM + 44.0), &plane.base.label);

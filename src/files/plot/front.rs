@@ -1,6 +1,6 @@
 //! Platforms of which none is better in every objective.
 
-use super::style::{Axis, Svg, frame};
+use super::style::{PixelAxis, Svg, frame};
 
 /// One objective.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,8 +79,8 @@ fn directed(axis: &FrontAxis) -> String {
 
 fn panel(svg: &mut Svg, figure: &FrontFigure, (i, j): (usize, usize), left: f64) {
     let (rx, ry) = (range(figure, i), range(figure, j));
-    let x = Axis { low: rx.0, high: rx.1, from: left, to: left + SIDE };
-    let y = Axis { low: ry.0, high: ry.1, from: TOP + SIDE, to: TOP };
+    let x = PixelAxis { low: rx.0, high: rx.1, from: left, to: left + SIDE };
+    let y = PixelAxis { low: ry.0, high: ry.1, from: TOP + SIDE, to: TOP };
     frame(svg, &x, &y, (5, 6));
     let (ax, ay) = (&figure.axes[i], &figure.axes[j]);
     svg.text("mid", (left + SIDE / 2.0, TOP + SIDE + 42.0), &directed(ax));
@@ -96,7 +96,7 @@ fn panel(svg: &mut Svg, figure: &FrontFigure, (i, j): (usize, usize), left: f64)
 }
 
 /// From member to member along the axes, over the corner that both dominate.
-fn steps(svg: &mut Svg, figure: &FrontFigure, x: &Axis, y: &Axis) {
+fn steps(svg: &mut Svg, figure: &FrontFigure, x: &PixelAxis, y: &PixelAxis) {
     let mut members: Vec<(f64, f64)> =
         figure.members.iter().map(|m| (m[0], m[1])).filter(|m| m.0.is_finite() && m.1.is_finite()).collect();
     members.sort_by(|a, b| a.0.total_cmp(&b.0));

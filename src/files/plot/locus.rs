@@ -3,7 +3,7 @@
 //! Values are followed from step to step: what belongs together, and where values meet on the real axis. Pieces of curves are
 //! joined to strokes, so that the document is no longer than it must be.
 
-use super::style::{Axis, Svg};
+use super::style::{PixelAxis, Svg};
 
 /// What the picture shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +41,7 @@ const AROUND: f64 = 0.35;
 /// axis as diamonds. Two panels: nearly all values, and the neighbourhood of those of real poses.
 #[must_use]
 pub fn locus_chart(figure: &LocusFigure) -> String {
-    let steps: Vec<Sides> = figure.steps.iter().map(sides).collect();
+    let steps: Vec<SidesOfAxis> = figure.steps.iter().map(sides).collect();
     let links: Vec<Links> = steps.windows(2).map(|pair| links(&pair[0], &pair[1])).collect();
     let panels = panels(&steps);
     let ends = [figure.steps.first(), figure.steps.last()].map(|s| s.map_or(0.0, |s| s.length));
@@ -74,16 +74,16 @@ pub fn locus_chart(figure: &LocusFigure) -> String {
 
 /// A part of the plane and its place on the page.
 struct Panel {
-    x: Axis,
-    y: Axis,
+    x: PixelAxis,
+    y: PixelAxis,
 }
 
 impl Panel {
     fn new(place: usize, across: (f64, f64), high: f64) -> Self {
         let left = LEFT + place as f64 * (PANEL.0 + BETWEEN);
         Self {
-            x: Axis { low: across.0, high: across.1, from: left, to: left + PANEL.0 },
-            y: Axis { low: -high, high, from: TOP + PANEL.1, to: TOP },
+            x: PixelAxis { low: across.0, high: across.1, from: left, to: left + PANEL.0 },
+            y: PixelAxis { low: -high, high, from: TOP + PANEL.1, to: TOP },
         }
     }
 
@@ -96,13 +96,13 @@ impl Panel {
     }
 }
 
-fn points(s: &Sides) -> Vec<(f64, f64)> {
+fn points(s: &SidesOfAxis) -> Vec<(f64, f64)> {
     let above = s.above.iter().flat_map(|p| [*p, (p.0, -p.1)]);
     s.axis.iter().map(|a| (a.0, 0.0)).chain(above).collect()
 }
 
 /// One that holds all but a few values; one about those of real poses, when that is much less.
-fn panels(steps: &[Sides]) -> Vec<Panel> {
+fn panels(steps: &[SidesOfAxis]) -> Vec<Panel> {
     let all: Vec<(f64, f64)> = steps.iter().flat_map(points).collect();
     let real: Vec<f64> = steps.iter().flat_map(|s| &s.axis).filter(|a| a.1).map(|a| a.0).collect();
     let middle = |mut values: Vec<f64>| {
@@ -135,7 +135,7 @@ fn panels(steps: &[Sides]) -> Vec<Panel> {
 }
 
 /// All curves and marks of one panel.
-fn curves(svg: &mut Svg, panel: &Panel, steps: &[Sides], links: &[Links]) {
+fn curves(svg: &mut Svg, panel: &Panel, steps: &[SidesOfAxis], links: &[Links]) {
     if panel.y.low < 0.0 && panel.y.high > 0.0 {
         svg.line("zero", (panel.x.from, panel.y.at(0.0)), (panel.x.to, panel.y.at(0.0)));
     }
@@ -156,7 +156,14 @@ fn curves(svg: &mut Svg, panel: &Panel, steps: &[Sides], links: &[Links]) {
 }
 
 /// The pieces of all curves between two steps.
-fn draw(pen: &mut Pen, before: &Sides, after: &Sides, links: &Links, class: usize, panel: &Panel) {
+fn draw(
+    pen: &mut Pen,
+    before: &SidesOfAxis,
+    after: &SidesOfAxis,
+    links: &Links,
+    class: usize,
+    panel: &Panel,
+) {
     let mut piece = |on: bool, list: &[(f64, f64)]| {
         if list.iter().all(|p| panel.holds(*p)) {
             let list: Vec<(f64, f64)> = list.iter().map(|p| panel.at(*p)).collect();
@@ -273,7 +280,7 @@ const SAME: f64 = 1e-9;
 const CLEAR: f64 = 1.5;
 
 /// One step with values told apart by the side of the real axis.
-struct Sides {
+struct SidesOfAxis {
     length: f64,
     /// On the real axis, ascending, with whether a pose is real.
     axis: Vec<(f64, bool)>,
@@ -281,12 +288,12 @@ struct Sides {
     above: Vec<(f64, f64)>,
 }
 
-fn sides(step: &LocusStep) -> Sides {
+fn sides(step: &LocusStep) -> SidesOfAxis {
     let finite = step.values.iter().filter(|v| v.re.is_finite() && v.im.is_finite());
     let values: Vec<&LocusValue> = finite.collect();
     let scale = values.iter().map(|v| v.re.hypot(v.im)).fold(0.0, f64::max);
     let near = |d: f64| d <= SAME * scale;
-    let mut out = Sides { length: step.length, axis: Vec::new(), above: Vec::new() };
+    let mut out = SidesOfAxis { length: step.length, axis: Vec::new(), above: Vec::new() };
     for v in values {
         if v.real || near(v.im.abs()) {
             match out.axis.iter_mut().find(|a| near((a.0 - v.re).abs())) {
@@ -320,8 +327,8 @@ struct Met {
     value: f64,
 }
 
-fn links(before: &Sides, after: &Sides) -> Links {
-    let real = |s: &Sides| s.axis.iter().map(|a| (a.0, 0.0)).collect::<Vec<_>>();
+fn links(before: &SidesOfAxis, after: &SidesOfAxis) -> Links {
+    let real = |s: &SidesOfAxis| s.axis.iter().map(|a| (a.0, 0.0)).collect::<Vec<_>>();
     let (b, a) = (real(before), real(after));
     let axis = mutual(&b, &a);
     let above = mutual(&before.above, &after.above);
@@ -356,8 +363,8 @@ fn nearest(p: &(f64, f64), others: &[(f64, f64)]) -> Option<usize> {
 /// Values without a partner: two neighbours on the axis of one step and one above in the other. The square of half their difference is
 /// smooth through the meeting and changes sign there, so that it is found by interpolation.
 fn meet(
-    two: &Sides,
-    one: &Sides,
+    two: &SidesOfAxis,
+    one: &SidesOfAxis,
     axis: &[(usize, usize)],
     above: &[(usize, usize)],
     axis_before: bool,
@@ -392,7 +399,7 @@ fn meet(
 /// Where values meet on the real axis, by interpolation between steps; meetings that are not clear are not reported.
 #[must_use]
 pub fn locus_meetings(steps: &[LocusStep]) -> Vec<LocusMeeting> {
-    let sides: Vec<Sides> = steps.iter().map(sides).collect();
+    let sides: Vec<SidesOfAxis> = steps.iter().map(sides).collect();
     let mut out = Vec::new();
     for (after, pair) in sides.windows(2).enumerate() {
         let found = links(&pair[0], &pair[1]).meetings;

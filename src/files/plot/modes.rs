@@ -32,7 +32,7 @@ const SINGLES: usize = 6;
 
 /// One pose on the page, relative to the centre of the base.
 #[derive(Debug, Clone)]
-struct Drawn {
+struct DrawnPose {
     number: usize,
     bodies: Bodies,
 }
@@ -73,8 +73,8 @@ fn pairs(joints: &[[Vector3<f64>; 6]], tolerance: f64) -> Vec<Vec<usize>> {
 pub fn assembly_modes(m: &Manipulator, figure: &ModesFigure) -> String {
     let frame = BaseFrame::of(m);
     let drawn =
-        |(number, pose): &(usize, Pose)| Drawn { number: *number, bodies: Bodies::new(m, pose, &frame) };
-    let drawn: Vec<Drawn> = figure.poses.iter().map(drawn).collect();
+        |(number, pose): &(usize, Pose)| DrawnPose { number: *number, bodies: Bodies::new(m, pose, &frame) };
+    let drawn: Vec<DrawnPose> = figure.poses.iter().map(drawn).collect();
     let joints: Vec<[Vector3<f64>; 6]> = figure
         .poses
         .iter()
@@ -83,7 +83,7 @@ pub fn assembly_modes(m: &Manipulator, figure: &ModesFigure) -> String {
     layout(figure, &drawn, &pairs(&joints, figure.tolerance))
 }
 
-fn layout(figure: &ModesFigure, drawn: &[Drawn], pairs: &[Vec<usize>]) -> String {
+fn layout(figure: &ModesFigure, drawn: &[DrawnPose], pairs: &[Vec<usize>]) -> String {
     let extent = Extent::of(drawn.iter().flat_map(|d| d.bodies.corners()));
     let (across, up, scale) = (extent.across, extent.up, extent.scale(PANEL));
     let (panel_width, panel_height) =

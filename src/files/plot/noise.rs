@@ -1,6 +1,6 @@
 //! Errors of poses over errors of leg lengths, both on logarithmic axes.
 
-use super::style::{Axis, Svg};
+use super::style::{PixelAxis, Svg};
 
 /// One point of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,7 +84,7 @@ fn drawable(p: &NoisePoint, panel: usize) -> bool {
 }
 
 /// Axes in decades, whole ones vertically; the horizontal one ends half a decade beyond the points.
-fn axes(figure: &NoiseFigure, panel: usize, left: f64) -> (Axis, Axis) {
+fn axes(figure: &NoiseFigure, panel: usize, left: f64) -> (PixelAxis, PixelAxis) {
     let points = || figure.curves.iter().flat_map(|c| &c.points).filter(|p| drawable(p, panel));
     let range = |values: &mut dyn Iterator<Item = f64>| {
         let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |r, v| (r.0.min(v), r.1.max(v)));
@@ -93,13 +93,18 @@ fn axes(figure: &NoiseFigure, panel: usize, left: f64) -> (Axis, Axis) {
     let across = range(&mut points().map(|p| p.sigma.log10()));
     let up = range(&mut points().flat_map(|p| p.quartiles[panel]).map(f64::log10));
     (
-        Axis { low: across.0 - 0.5, high: across.1 + 0.5, from: left, to: left + PANEL.0 },
-        Axis { low: up.0.floor(), high: (up.1.floor() + 1.0).max(up.0 + 1.0), from: TOP + PANEL.1, to: TOP },
+        PixelAxis { low: across.0 - 0.5, high: across.1 + 0.5, from: left, to: left + PANEL.0 },
+        PixelAxis {
+            low: up.0.floor(),
+            high: (up.1.floor() + 1.0).max(up.0 + 1.0),
+            from: TOP + PANEL.1,
+            to: TOP,
+        },
     )
 }
 
 /// The range that is set off, with its words at the foot.
-fn band(svg: &mut Svg, figure: &NoiseFigure, x: &Axis) {
+fn band(svg: &mut Svg, figure: &NoiseFigure, x: &PixelAxis) {
     let (from, to, label) = &figure.marked;
     if !(*from > 0.0 && x.low < from.log10() && to.log10() < x.high && from < to) {
         return;
@@ -110,7 +115,13 @@ fn band(svg: &mut Svg, figure: &NoiseFigure, x: &Axis) {
 }
 
 /// Lower quartile, median, upper quartile of each point on the page.
-fn places(curve: &NoiseCurve, panel: usize, x: &Axis, y: &Axis, shift: f64) -> Vec<[(f64, f64); 3]> {
+fn places(
+    curve: &NoiseCurve,
+    panel: usize,
+    x: &PixelAxis,
+    y: &PixelAxis,
+    shift: f64,
+) -> Vec<[(f64, f64); 3]> {
     let place = |p: &NoisePoint| {
         let across = x.at(p.sigma.log10()) + shift;
         p.quartiles[panel].map(|v| (across, y.at(v.log10())))
@@ -144,7 +155,7 @@ fn mark(svg: &mut Svg, kind: usize, at: (f64, f64)) {
     }
 }
 
-fn frame(svg: &mut Svg, x: &Axis, y: &Axis, title: &str) {
+fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, title: &str) {
     let bottom = TOP + PANEL.1;
     svg.rect("frame", (x.from, TOP), PANEL);
     for (value, label) in x.decades(7) {

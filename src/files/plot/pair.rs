@@ -33,7 +33,7 @@ const TOP: f64 = 92.0;
 #[must_use]
 pub fn platform_pair(platforms: [&Manipulator; 2], figure: &PairFigure) -> String {
     let frame = BaseFrame::of(platforms[0]);
-    let drawn = platforms.map(|m| Drawn::new(m, &figure.pose, &frame));
+    let drawn = platforms.map(|m| DrawnPlatform::new(m, &figure.pose, &frame));
     let extent = Extent::of(drawn.iter().flat_map(|d| d.bodies.corners()));
     let (across, up, scale) = (extent.across, extent.up, extent.scale(PANEL));
     let (wide, high) = ((across.1 - across.0) * scale, (up.1 - up.0) * scale);
@@ -73,12 +73,12 @@ type DrawnJoint = ((f64, f64), usize);
 
 /// A platform on the page, right and up, design units.
 #[derive(Debug)]
-struct Drawn {
+struct DrawnPlatform {
     bodies: Bodies,
     joints: Vec<DrawnJoint>,
 }
 
-impl Drawn {
+impl DrawnPlatform {
     fn new(m: &Manipulator, pose: &Pose, frame: &BaseFrame) -> Self {
         let pairs = m.pairs();
         let count = |joints: [usize; 6]| {

@@ -1,7 +1,7 @@
 //! Where a determinant vanishes over two variables.
 
 use super::contour::ValueGrid;
-use super::style::{Axis, Svg, frame};
+use super::style::{PixelAxis, Svg, frame};
 
 /// One axis of the slice.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,8 +46,8 @@ const BOTTOM: f64 = 566.0;
 /// The zero line of a determinant with the regions of either sign tinted.
 #[must_use]
 pub fn singular_slice(figure: &SliceFigure) -> String {
-    let x = Axis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };
-    let y = Axis { low: figure.up.low, high: figure.up.high, from: BOTTOM, to: TOP };
+    let x = PixelAxis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };
+    let y = PixelAxis { low: figure.up.low, high: figure.up.high, from: BOTTOM, to: TOP };
     let description = format!(
         "Where {} vanishes over {} and {}, between regions of either sign. {}",
         figure.quantity, figure.across.label, figure.up.label, figure.note
@@ -58,7 +58,7 @@ pub fn singular_slice(figure: &SliceFigure) -> String {
     svg.text("note", (LEFT, 50.0), &format!("blue: {name} > 0, orange: {name} < 0, heavy line: singular"));
     svg.rect("positive", (LEFT, TOP), (RIGHT - LEFT, BOTTOM - TOP));
     let last = figure.side.saturating_sub(1).max(1) as f64;
-    let place = |axis: &Axis, k: f64| axis.at(axis.low + k / last * (axis.high - axis.low));
+    let place = |axis: &PixelAxis, k: f64| axis.at(axis.low + k / last * (axis.high - axis.low));
     negative_cells(&mut svg, figure, &|k| place(&x, k), &|k| place(&y, k));
     let grid = ValueGrid { columns: figure.side, rows: figure.side, values: figure.values.clone() };
     for line in grid.contour(0.0) {

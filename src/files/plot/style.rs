@@ -244,14 +244,14 @@ fn list(points: &[(f64, f64)]) -> String {
 
 /// A linear axis: values `low..high` on pixels `from..to`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Axis {
+pub(super) struct PixelAxis {
     pub(super) low: f64,
     pub(super) high: f64,
     pub(super) from: f64,
     pub(super) to: f64,
 }
 
-impl Axis {
+impl PixelAxis {
     /// Where `value` is on the page.
     pub(super) fn at(&self, value: f64) -> f64 {
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
@@ -290,7 +290,7 @@ impl Axis {
 }
 
 /// The frame of a plot with about so many ticks on either axis; `x` runs to the right, `y` upwards.
-pub(super) fn frame(svg: &mut Svg, x: &Axis, y: &Axis, (across, up): (usize, usize)) {
+pub(super) fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, (across, up): (usize, usize)) {
     svg.rect("frame", (x.from, y.to), (x.to - x.from, y.from - y.to));
     for (value, label) in x.ticks(across) {
         svg.line("tick", (x.at(value), y.from), (x.at(value), y.from + 5.0));
@@ -345,19 +345,19 @@ mod tests {
 
     #[test]
     fn decades_are_powers_of_ten() {
-        let axis = Axis { low: -12.5, high: 0.5, from: 0.0, to: 1.0 };
+        let axis = PixelAxis { low: -12.5, high: 0.5, from: 0.0, to: 1.0 };
         let labels: Vec<String> = axis.decades(7).into_iter().map(|t| t.1).collect();
         assert_eq!(labels, ["10⁻¹²", "10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "10⁻²", "10⁰"]);
-        assert_eq!(Axis { low: 0.2, high: 0.4, ..axis }.decades(7), []);
+        assert_eq!(PixelAxis { low: 0.2, high: 0.4, ..axis }.decades(7), []);
     }
 
     #[test]
     fn ticks_are_round_and_reach_the_ends() {
-        let axis = Axis { low: -0.3, high: 1.2, from: 0.0, to: 150.0 };
+        let axis = PixelAxis { low: -0.3, high: 1.2, from: 0.0, to: 150.0 };
         let labels: Vec<String> = axis.ticks(8).into_iter().map(|t| t.1).collect();
         assert_eq!(labels, ["\u{2212}0.2", "0.0", "0.2", "0.4", "0.6", "0.8", "1.0", "1.2"]);
         assert!((axis.at(0.0) - 30.0).abs() < 1e-12);
-        let axis = Axis { low: 0.0, high: 12.0, from: 0.0, to: 1.0 };
+        let axis = PixelAxis { low: 0.0, high: 12.0, from: 0.0, to: 1.0 };
         assert_eq!(axis.ticks(6).last().map(|t| t.1.clone()), Some("12".into()));
     }
 }

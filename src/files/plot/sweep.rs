@@ -3,7 +3,7 @@
 #![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
 
 use super::contour::ValueGrid;
-use super::style::{Axis, Svg, escape, frame, px};
+use super::style::{PixelAxis, Svg, escape, frame, px};
 
 /// A column of the table.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,7 +122,7 @@ fn labels(svg: &mut Svg, across: &str, up: &str) {
 /// The scale of colours beside a plot.
 fn scale(svg: &mut Svg, (low, high): (f64, f64), label: &str) {
     let left = LEFT + WIDE + 26.0;
-    let axis = Axis { low, high, from: TOP + HIGH, to: TOP };
+    let axis = PixelAxis { low, high, from: TOP + HIGH, to: TOP };
     let steps = 64;
     for k in 0..steps {
         let top = TOP + HIGH * (1.0 - f64::from(k + 1) / f64::from(steps));
@@ -209,8 +209,8 @@ pub fn swept_field(figure: &SweptFigure, lines: bool) -> String {
     let label = figure.columns.get(2).map_or("rows", |c| c.label.as_str());
     let mut svg =
         opened(figure, if lines { "Lines of equal value" } else { "Field" }, LEFT + WIDE + SCALE + 20.0);
-    let ax = Axis { low: across.low, high: across.end(), from: LEFT, to: LEFT + WIDE };
-    let ay = Axis { low: up.low, high: up.end(), from: TOP + HIGH, to: TOP };
+    let ax = PixelAxis { low: across.low, high: across.end(), from: LEFT, to: LEFT + WIDE };
+    let ay = PixelAxis { low: up.low, high: up.end(), from: TOP + HIGH, to: TOP };
     let (w, h) = (WIDE / across.count as f64, HIGH / up.count as f64);
     for (k, value) in values.iter().enumerate().filter(|(_, v)| v.is_finite()) {
         let (i, j) = (k % across.count, k / across.count);
@@ -226,7 +226,7 @@ pub fn swept_field(figure: &SweptFigure, lines: bool) -> String {
     if lines && values.iter().all(|v| v.is_finite()) {
         let grid = ValueGrid { columns: across.count, rows: up.count, values };
         let place = |(i, j): (f64, f64)| (LEFT + w * (i + 0.5), TOP + HIGH - h * (j + 0.5));
-        for (level, text) in (Axis { low, high, from: 0.0, to: 1.0 }).ticks(LEVELS) {
+        for (level, text) in (PixelAxis { low, high, from: 0.0, to: 1.0 }).ticks(LEVELS) {
             for line in grid.contour(level) {
                 let points: Vec<(f64, f64)> = line.iter().map(|p| place(*p)).collect();
                 svg.polyline("isoline", &points);
@@ -257,8 +257,8 @@ pub fn swept_histogram(figure: &SweptFigure) -> String {
         counts[(((x - low) / (high - low) * bars as f64) as usize).min(bars - 1)] += 1;
     }
     let most = counts.iter().copied().max().unwrap_or(0).max(1);
-    let ax = Axis { low, high, from: LEFT, to: LEFT + WIDE };
-    let ay = Axis { low: 0.0, high: 1.05 * most as f64, from: TOP + HIGH, to: TOP };
+    let ax = PixelAxis { low, high, from: LEFT, to: LEFT + WIDE };
+    let ay = PixelAxis { low: 0.0, high: 1.05 * most as f64, from: TOP + HIGH, to: TOP };
     let mut svg = opened(figure, "Distribution", LEFT + WIDE + 40.0);
     let w = WIDE / bars as f64;
     for (k, n) in counts.iter().enumerate().filter(|(_, n)| **n > 0) {
@@ -293,8 +293,8 @@ pub(crate) fn best_rows(figure: &SweptFigure, gain: [bool; 2]) -> Vec<usize> {
 pub fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> String {
     let (x, y) = (&figure.columns[0], &figure.columns[1]);
     let (rx, ry) = (roomy(&x.values), roomy(&y.values));
-    let ax = Axis { low: rx.0, high: rx.1, from: LEFT, to: LEFT + WIDE };
-    let ay = Axis { low: ry.0, high: ry.1, from: TOP + HIGH, to: TOP };
+    let ax = PixelAxis { low: rx.0, high: rx.1, from: LEFT, to: LEFT + WIDE };
+    let ay = PixelAxis { low: ry.0, high: ry.1, from: TOP + HIGH, to: TOP };
     let coloured = figure.columns.get(2).map(|c| (range(&c.values), c));
     let mut svg = opened(
         figure,
@@ -352,7 +352,7 @@ pub fn swept_parallel(figure: &SweptFigure) -> String {
     let width = LEFT + gap * (n - 1) as f64 + 100.0;
     let mut svg = opened(figure, "Parallel axes", width);
     let ranges: Vec<(f64, f64)> = figure.columns.iter().map(|c| range(&c.values)).collect();
-    let axis = |c: usize| Axis { low: ranges[c].0, high: ranges[c].1, from: TOP + HIGH, to: TOP + 14.0 };
+    let axis = |c: usize| PixelAxis { low: ranges[c].0, high: ranges[c].1, from: TOP + HIGH, to: TOP + 14.0 };
     let place = |c: usize, x: f64| (LEFT + gap * c as f64, axis(c).at(x));
     let whole = |k: &usize| figure.columns.iter().all(|c| c.values[*k].is_finite());
     let rows: Vec<usize> = (0..figure.candidates.len()).filter(whole).collect();

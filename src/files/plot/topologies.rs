@@ -30,24 +30,24 @@ const RISE: f64 = 40.0;
 const TURNS: u32 = 72;
 
 /// Places of the joints of one body, and of their labels outside the polygon.
-struct Drawn {
+struct PolygonPlaces {
     joints: Vec<(f64, f64)>,
     labels: Vec<(f64, f64)>,
 }
 
-fn drawn(angles: &[f64], centre: (f64, f64), axes: (f64, f64), turn: f64) -> Drawn {
+fn drawn(angles: &[f64], centre: (f64, f64), axes: (f64, f64), turn: f64) -> PolygonPlaces {
     let at = |angle: &f64, out: f64| {
         let (sine, cosine) = (angle + turn).sin_cos();
         (centre.0 + (axes.0 + out) * sine, centre.1 + (axes.1 + out) * cosine)
     };
-    Drawn {
+    PolygonPlaces {
         joints: angles.iter().map(|a| at(a, 0.0)).collect(),
         labels: angles.iter().map(|a| at(a, 11.0)).map(|(x, y)| (x, y + 3.5)).collect(),
     }
 }
 
 /// The corners in the order in which they stand on the circle.
-fn outline(d: &Drawn, angles: &[f64]) -> Vec<(f64, f64)> {
+fn outline(d: &PolygonPlaces, angles: &[f64]) -> Vec<(f64, f64)> {
     let turn = |i: &usize| angles[*i].rem_euclid(std::f64::consts::TAU);
     let mut order: Vec<usize> = (0..angles.len()).collect();
     order.sort_by(|i, j| turn(i).total_cmp(&turn(j)));
@@ -55,7 +55,7 @@ fn outline(d: &Drawn, angles: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// The least of the sines of the angles between lines that share a joint, and of the distances of joints of one body.
-fn clearness(base: &Drawn, platform: &Drawn, lines: &[(usize, usize)]) -> f64 {
+fn clearness(base: &PolygonPlaces, platform: &PolygonPlaces, lines: &[(usize, usize)]) -> f64 {
     let mut least = f64::INFINITY;
     let direction = |(a, b): (usize, usize)| {
         let (from, to) = (base.joints[a], platform.joints[b]);
@@ -103,7 +103,7 @@ fn diagram(svg: &mut Svg, t: Topology, centre: (f64, f64)) {
 }
 
 /// Dots and labels of one body; `ends` holds the joint of each leg.
-fn joints(svg: &mut Svg, body: &Drawn, letter: char, ends: [usize; 6]) {
+fn joints(svg: &mut Svg, body: &PolygonPlaces, letter: char, ends: [usize; 6]) {
     for (k, (joint, label)) in body.joints.iter().zip(&body.labels).enumerate() {
         let shared = ends.iter().filter(|end| **end == k).count() > 1;
         let (class, radius) = if shared { ("mark", 4.6) } else { ("hollow", 2.6) };

@@ -2,7 +2,7 @@
 
 use super::contour::ValueGrid;
 use super::slice::SliceAxis;
-use super::style::{Axis, LIMIT_FILLS, Svg};
+use super::style::{LIMIT_FILLS, PixelAxis, Svg};
 
 /// A limit that ends the workspace.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -68,8 +68,8 @@ const BOTTOM: f64 = 576.0;
 /// does not hang together with home within the slice is dotted; the workspace required is a dashed line over it.
 #[must_use]
 pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
-    let x = Axis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };
-    let y = Axis { low: figure.up.low, high: figure.up.high, from: BOTTOM, to: TOP };
+    let x = PixelAxis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };
+    let y = PixelAxis { low: figure.up.low, high: figure.up.high, from: BOTTOM, to: TOP };
     let inside = figure.margins.iter().filter(|m| **m > 0.0).count();
     let share = 100.0 * inside as f64 / figure.margins.len().max(1) as f64;
     let description = format!(
@@ -82,7 +82,7 @@ pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
     svg.style(&css());
     svg.text("title", (LEFT, 32.0), &figure.title);
     let last = figure.side.saturating_sub(1).max(1) as f64;
-    let place = |axis: &Axis, k: f64| axis.at(axis.low + k / last * (axis.high - axis.low));
+    let place = |axis: &PixelAxis, k: f64| axis.at(axis.low + k / last * (axis.high - axis.low));
     let joined = joined(figure);
     cells(&mut svg, figure, &joined, &|k| place(&x, k), &|k| place(&y, k));
     let margins = figure.margins.iter().map(|m| m.clamp(-1e300, 1e300)).collect();
@@ -114,7 +114,7 @@ fn required(
     svg: &mut Svg,
     figure: &WorkspaceFigure,
     grid: &ValueGrid,
-    (x, y): (&Axis, &Axis),
+    (x, y): (&PixelAxis, &PixelAxis),
     place: &impl Fn(f64, f64) -> (f64, f64),
 ) {
     let Some(required) = &figure.required else { return };
@@ -194,7 +194,7 @@ fn joined(figure: &WorkspaceFigure) -> Vec<bool> {
     reached
 }
 
-fn frame(svg: &mut Svg, x: &Axis, y: &Axis, figure: &WorkspaceFigure) {
+fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, figure: &WorkspaceFigure) {
     super::style::frame(svg, x, y, (8, 8));
     svg.text("mid", (f64::midpoint(LEFT, RIGHT), BOTTOM + 44.0), &figure.across.label);
     svg.turned_text("mid", (24.0, f64::midpoint(TOP, BOTTOM)), -90.0, &figure.up.label);

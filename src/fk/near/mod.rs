@@ -13,7 +13,7 @@ pub use outcome::{NearEvidence, NearOutcome, WhyLost};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
-use local::{Blur, Local, Newton, SegmentStart};
+use local::{Blur, LegDefects, Newton, SegmentStart};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 
@@ -81,7 +81,7 @@ pub struct NearSolver {
 
 /// A pose in the solver's units: rotation, and position of the platform centroid relative to the base centroid.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct ScaledPose {
     rotation: [[f64; 3]; 3],
     position: [f64; 3],
 }
@@ -108,9 +108,9 @@ pub struct NearNumbers {
 /// What one segment came to.
 enum Segment {
     /// At the end of the way.
-    Arrived(Place),
+    Arrived(ScaledPose),
     /// Part of the way: the fraction of what was left.
-    Advanced(Place, f64),
+    Advanced(ScaledPose, f64),
     Singular,
     Stuck,
 }
@@ -215,7 +215,7 @@ impl NearSolver {
         let (target, _) = self.target(s);
         let mut place = local::orthonormal(&self.place_of(start))?;
         for _ in 0..steps {
-            place = Local::at(self, &place, &target).newton()?.applied_to(&place);
+            place = LegDefects::at(self, &place, &target).newton()?.applied_to(&place);
         }
         Some(self.pose_of(&place))
     }
@@ -225,10 +225,10 @@ impl NearSolver {
         &self,
         target: &[f64; 6],
         target_error: &[f64; 6],
-        place: &Place,
+        place: &ScaledPose,
         evidence: &mut NearEvidence,
     ) -> Segment {
-        let here = Local::at(self, place, target);
+        let here = LegDefects::at(self, place, target);
         let blur = Blur::of(self, place, &here, target_error);
         let Some(start) = SegmentStart::of(&here, &blur) else { return Segment::Singular };
         if !(start.frobenius_ratio >= self.options.singular) {
@@ -263,11 +263,11 @@ impl NearSolver {
     fn correct(
         &self,
         target: &[f64; 6],
-        from: &Place,
+        from: &ScaledPose,
         start: &SegmentStart,
         part: f64,
         evidence: &mut NearEvidence,
-    ) -> Option<Place> {
+    ) -> Option<ScaledPose> {
         let beta = start.beta + part * start.eta + start.slack;
         let mut newton = Newton { step: start.step.map(|x| part * x) };
         let mut place = *from;
@@ -282,7 +282,7 @@ impl NearSolver {
             if 4.0 * beta * size * size < 1e-18 {
                 break;
             }
-            newton = Local::at(self, &place, target).newton()?;
+            newton = LegDefects::at(self, &place, target).newton()?;
         }
         let radius = local::distance(from, &place, start.epsilon);
         // rounding of the distance is some twenty units in the last place of its terms, over epsilon at most
@@ -292,8 +292,8 @@ impl NearSolver {
     }
 
     /// Residual, condition and distance at the end.
-    fn measure(&self, target: &[f64; 6], from: &Place, place: &Place, evidence: &mut NearEvidence) {
-        let here = Local::at(self, place, target);
+    fn measure(&self, target: &[f64; 6], from: &ScaledPose, place: &ScaledPose, evidence: &mut NearEvidence) {
+        let here = LegDefects::at(self, place, target);
         evidence.residual = here.largest_defect() * self.residual_scale;
         let blur = Blur::of(self, place, &here, &[0.0; 6]);
         evidence.frobenius_ratio = SegmentStart::of(&here, &blur).map_or(0.0, |s| s.frobenius_ratio);
@@ -302,14 +302,14 @@ impl NearSolver {
         evidence.distance = shift * self.unit;
     }
 
-    fn place_of(&self, pose: &Pose) -> Place {
+    fn place_of(&self, pose: &Pose) -> ScaledPose {
         let r = pose.rotation.matrix();
         let rotation = [0, 1, 2].map(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
         let position = (r * self.centre + pose.position - self.origin) / self.unit;
-        Place { rotation, position: position.into() }
+        ScaledPose { rotation, position: position.into() }
     }
 
-    fn pose_of(&self, place: &Place) -> Pose {
+    fn pose_of(&self, place: &ScaledPose) -> Pose {
         let r = &place.rotation;
         let matrix = Matrix3::from_fn(|i, j| r[i][j]);
         let position = Vector3::from(place.position) * self.unit + self.origin - matrix * self.centre;

@@ -181,11 +181,11 @@ fn plain_newton_jumps_where_this_does_not() {
         let target = s.get().map(|s| s / (solver.unit * solver.unit));
         let mut place = solver.place_of(&start);
         for _ in 0..50 {
-            if let Some(newton) = Local::at(&solver, &place, &target).newton() {
+            if let Some(newton) = LegDefects::at(&solver, &place, &target).newton() {
                 place = newton.applied_to(&place);
             }
         }
-        let converged = Local::at(&solver, &place, &target).largest_defect() < 1e-12;
+        let converged = LegDefects::at(&solver, &place, &target).largest_defect() < 1e-12;
         newton_jumps += u32::from(converged && jumped(&solver.pose_of(&place)));
     }
     assert_eq!(near_jumps, 0);

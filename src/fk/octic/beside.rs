@@ -9,7 +9,7 @@
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
 use super::lanes::{Corners, Points, dot, separate};
-use super::solver::{OcticSolver, Triangle};
+use super::solver::{FramedTriangle, OcticSolver};
 use num::batch::{ComplexBatch, LANES};
 
 /// Newton steps of the angles at most.
@@ -17,7 +17,7 @@ const STEPS: usize = 8;
 
 /// The circle of a corner of the platform about a side of the base, in the frame of the base triangle.
 #[derive(Clone, Copy)]
-struct Circle {
+struct OcticCircle {
     /// In the plane of the base.
     centre: [f64; 2],
     /// In that plane, across the side.
@@ -26,7 +26,7 @@ struct Circle {
     squared_radius: f64,
 }
 
-impl Circle {
+impl OcticCircle {
     /// Of the points at squared distances `s` from both ends of a side.
     #[inline(always)]
     fn new(ends: [[f64; 2]; 2], s: [f64; 2]) -> Self {
@@ -48,7 +48,7 @@ type OnCircle = [ComplexBatch; 2];
 
 /// `|P - Q|^2 - d` for corners on two circles, and its derivatives by the logarithms of both `h + i z`.
 #[inline(always)]
-fn gap(p: &Circle, [u, v]: &OnCircle, q: &Circle, [k, l]: &OnCircle, d: f64) -> [ComplexBatch; 3] {
+fn gap(p: &OcticCircle, [u, v]: &OnCircle, q: &OcticCircle, [k, l]: &OnCircle, d: f64) -> [ComplexBatch; 3] {
     let between = [p.centre[0] - q.centre[0], p.centre[1] - q.centre[1]];
     let dot = |a: &[f64; 2], b: &[f64; 2]| a[0] * b[0] + a[1] * b[1];
     let constant = dot(&between, &between) + p.squared_radius + q.squared_radius - d;
@@ -75,22 +75,22 @@ fn are_separate(places: &[OnCircle; 3]) -> bool {
 impl OcticSolver {
     /// Legs in the order s14 s24 s25 s35 s36 s16.
     #[inline(always)]
-    fn circles(&self, s: &[f64; 6]) -> [Circle; 3] {
-        let Triangle { b, u, v, .. } = self.base;
+    fn circles(&self, s: &[f64; 6]) -> [OcticCircle; 3] {
+        let FramedTriangle { b, u, v, .. } = self.base;
         let corners = [[0.0, 0.0], [b, 0.0], [u, v]];
         [
-            Circle::new([corners[0], corners[1]], [s[0], s[1]]),
-            Circle::new([corners[1], corners[2]], [s[2], s[3]]),
-            Circle::new([corners[2], corners[0]], [s[4], s[5]]),
+            OcticCircle::new([corners[0], corners[1]], [s[0], s[1]]),
+            OcticCircle::new([corners[1], corners[2]], [s[2], s[3]]),
+            OcticCircle::new([corners[2], corners[0]], [s[4], s[5]]),
         ]
     }
 
     /// From the larger of `h + i z` and `h - i z`.
     #[inline(always)]
-    fn on_circles(circles: &[Circle; 3], corners: &[Points; 3]) -> [OnCircle; 3] {
+    fn on_circles(circles: &[OcticCircle; 3], corners: &[Points; 3]) -> [OnCircle; 3] {
         let mut places = [[ComplexBatch::ZERO; 2]; 3];
         for k in 0..3 {
-            let Circle { centre, across, squared_radius } = circles[k];
+            let OcticCircle { centre, across, squared_radius } = circles[k];
             let [x, y, z] = corners[k];
             let h = x.plus(-centre[0]).times(across[0]) + y.plus(-centre[1]).times(across[1]);
             let iz = z.times_i();
@@ -108,21 +108,21 @@ impl OcticSolver {
 
     /// With `(s15, s34)`.
     #[inline(always)]
-    fn off_circles(&self, circles: &[Circle; 3], places: &[OnCircle; 3]) -> Corners {
+    fn off_circles(&self, circles: &[OcticCircle; 3], places: &[OnCircle; 3]) -> Corners {
         let mut out = [[ComplexBatch::ZERO; 3]; 3];
         for k in 0..3 {
-            let (Circle { centre, across, .. }, [u, v]) = (circles[k], places[k]);
+            let (OcticCircle { centre, across, .. }, [u, v]) = (circles[k], places[k]);
             let (h, z) = ((u + v).times(0.5), (v - u).times_i().times(0.5));
             out[k] = [h.times(across[0]).plus(centre[0]), h.times(across[1]).plus(centre[1]), z];
         }
-        let Triangle { u, v, .. } = self.base;
+        let FramedTriangle { u, v, .. } = self.base;
         let [p4, p5, _] = out;
         let from_p3 = [p4[0].plus(-u), p4[1].plus(-v), p4[2]];
         (out, dot(&p5, &p5), dot(&from_p3, &from_p3))
     }
 
     #[inline(always)]
-    fn turned(&self, circles: &[Circle; 3], mut places: [OnCircle; 3]) -> Option<[OnCircle; 3]> {
+    fn turned(&self, circles: &[OcticCircle; 3], mut places: [OnCircle; 3]) -> Option<[OnCircle; 3]> {
         let t = &self.platform;
         let (d45, d46) = (t.b * t.b, t.u * t.u + t.v * t.v);
         let d56 = (t.u - t.b) * (t.u - t.b) + t.v * t.v;

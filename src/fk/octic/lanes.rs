@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::factors::Factors;
 use super::parallel::Translation;
-use super::solver::{OcticSolver, Triangle};
+use super::solver::{FramedTriangle, OcticSolver};
 use super::{minor, resultant};
 use num::batch::{ComplexBatch, LANES};
 use num::poly::octic_roots;
@@ -94,7 +94,7 @@ pub(super) fn separate<const N: usize>(numbers: &[ComplexBatch; N]) -> bool {
 pub(super) type Corners = ([Points; 3], ComplexBatch, ComplexBatch);
 
 /// Poses in units of the design, with what is known of their accuracy.
-pub(super) struct Placed {
+pub(super) struct PoseLanes {
     pub(super) poses: [ComplexPose; 2 * LANES],
     /// As [`ComplexPose::residual`].
     pub(super) residuals: [f64; 2 * LANES],
@@ -106,7 +106,7 @@ impl OcticSolver {
     /// `P4, P5, P6` in the frame of the base triangle, one of the two mirror images.
     #[inline(always)]
     pub(super) fn corners(&self, s: &[f64; 6], x: ComplexBatch, y: ComplexBatch) -> [Points; 3] {
-        let Triangle { b, u, v, .. } = self.base;
+        let FramedTriangle { b, u, v, .. } = self.base;
         let far = u * u + v * v;
         let p4x = 0.5 * (s[0] + b * b - s[1]) / b;
         let p4y = y.times(-0.5 / v).plus((0.5 * (s[0] + far) - u * p4x) / v);
@@ -159,7 +159,7 @@ impl OcticSolver {
     /// corners change the sign of their third coordinate, so that the first two axes do and the third, their cross product, changes its
     /// others: the entries of `F` fall into those that keep their signs and those that change them, and `R` into an even and an odd part.
     #[inline(always)]
-    pub(super) fn place(&self, s: &[f64; 6], p4: &Points, f: &[Points; 3]) -> Placed {
+    pub(super) fn place(&self, s: &[f64; 6], p4: &Points, f: &[Points; 3]) -> PoseLanes {
         let (e, g) = (&self.base.axes, &self.platform.axes);
         let (mut even, mut odd) = ([ORIGIN; 3], [ORIGIN; 3]);
         let (mut flat, mut high) = (ORIGIN, ORIGIN);
@@ -179,7 +179,7 @@ impl OcticSolver {
         }
         let zero = ComplexPose { rotation: Matrix3::zeros(), position: Vector3::zeros() };
         let mut out =
-            Placed { poses: [zero; 2 * LANES], residuals: [0.0; 2 * LANES], scales: [0.0; 2 * LANES] };
+            PoseLanes { poses: [zero; 2 * LANES], residuals: [0.0; 2 * LANES], scales: [0.0; 2 * LANES] };
         let (p1, b4) = (self.base_corners[0], self.platform_corners[0]);
         for mirrored in 0..2 {
             let (mut r, mut p) = ([ORIGIN; 3], ORIGIN);

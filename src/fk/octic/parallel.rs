@@ -8,7 +8,7 @@
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
 use super::lanes::{COARSE, LEGS, Points};
-use super::solver::Triangle;
+use super::solver::FramedTriangle;
 use num::batch::{ComplexBatch, LANES};
 use num::poly::roots_in_lanes;
 
@@ -33,7 +33,7 @@ fn minus(a: Flat, b: Flat) -> Flat {
 
 /// A corner of the platform that has a mirror image with the same distances: in the plane through a side of the base, which starts in a foot, and through another corner.
 #[derive(Debug, Clone, Copy)]
-struct Mirror {
+struct MirrorCorner {
     corner: usize,
     foot: Flat,
     /// Across the side, of length one.
@@ -53,7 +53,7 @@ pub(super) struct ParallelSides {
     middle: Flat,
     /// `2 t` is these times the squared lengths less `|d|^2`.
     factors: [[f64; 6]; 2],
-    mirrors: [Mirror; 3],
+    mirrors: [MirrorCorner; 3],
     /// How many of the mirrors there are: one, or three where all sides are parallel.
     mirrored: usize,
 }
@@ -68,7 +68,7 @@ pub(super) struct Translation<'a> {
 
 impl ParallelSides {
     /// Both directions along `P1 P3`, with either side of the platform above.
-    pub(super) fn all(base: &Triangle, platform: &Triangle) -> [Self; 4] {
+    pub(super) fn all(base: &FramedTriangle, platform: &FramedTriangle) -> [Self; 4] {
         let feet = [[0.0, 0.0], [base.b, 0.0], [base.u, base.v]];
         let along = unit(feet[2]);
         [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(forth, left)| {
@@ -95,10 +95,10 @@ impl ParallelSides {
         ];
         let mirror = |corner: usize, [from, to]: [usize; 2], other: usize| {
             let [x, y] = unit(minus(feet[to], feet[from]));
-            Mirror { corner, foot: feet[from], across: [-y, x], other }
+            MirrorCorner { corner, foot: feet[from], across: [-y, x], other }
         };
         let mirrors = [mirror(2, [0, 2], 0), mirror(0, [0, 1], 1), mirror(1, [1, 2], 2)];
-        let parallel = |m: &Mirror, to: usize| {
+        let parallel = |m: &MirrorCorner, to: usize| {
             let side = minus(heads[to], heads[m.other]);
             dot(m.across, side).abs() <= PARALLEL * dot(side, side).sqrt()
         };
@@ -164,9 +164,9 @@ impl Translation<'_> {
         ([self.foot[0] + head[0], self.foot[1] + head[1]], 1.0)
     }
 
-    /// A corner and its mirror image, see [`Mirror`].
+    /// A corner and its mirror image, see [`MirrorCorner`].
     #[inline(always)]
-    fn mirrored(&self, m: &Mirror) -> (Flat, f64) {
+    fn mirrored(&self, m: &MirrorCorner) -> (Flat, f64) {
         let ((p, _), (other, _)) = (self.corner(m.corner), self.corner(m.other));
         // across the side, where all of the plane's other corners are, and how far from there the corner is
         let c = dot(minus(other, m.foot), m.across);
@@ -238,7 +238,7 @@ mod tests {
 
     /// Largest error of the nine distances of `P4, P5, P6` in a lane, over the largest squared length.
     fn error(solver: &OcticSolver, s: &[f64; 6], places: &[Points; 3], lane: usize) -> f64 {
-        let Triangle { b, u, v, .. } = solver.base;
+        let FramedTriangle { b, u, v, .. } = solver.base;
         let feet = [[0.0, 0.0], [b, 0.0], [u, v]];
         let t = &solver.platform;
         let sides =

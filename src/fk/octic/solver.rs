@@ -7,7 +7,7 @@ use num_complex::Complex64;
 
 use super::OcticProblem;
 use super::factors::Gram;
-use super::lanes::{Corners, Placed, SEPARATE};
+use super::lanes::{Corners, PoseLanes, SEPARATE};
 use super::parallel::ParallelSides;
 use crate::collect::pose_scale;
 use crate::newton::refine;
@@ -48,8 +48,8 @@ pub struct OcticSolver {
     pub(super) size: f64,
     /// Leg of the design at each place of the cycle.
     order: [usize; 6],
-    pub(super) base: Triangle,
-    pub(super) platform: Triangle,
+    pub(super) base: FramedTriangle,
+    pub(super) platform: FramedTriangle,
     /// Corners in the design's frames over its size.
     pub(super) base_corners: [Vector3<f64>; 3],
     pub(super) platform_corners: [Vector3<f64>; 3],
@@ -63,14 +63,14 @@ pub struct OcticSolver {
 
 /// A triangle in a frame of its own: corners `(0, 0)`, `(b, 0)`, `(u, v)`; rows of `axes` are the frame.
 #[derive(Debug, Clone)]
-pub(super) struct Triangle {
+pub(super) struct FramedTriangle {
     pub(super) b: f64,
     pub(super) u: f64,
     pub(super) v: f64,
     pub(super) axes: [[f64; 3]; 3],
 }
 
-impl Triangle {
+impl FramedTriangle {
     fn of(p: &[Vector3<f64>; 3]) -> Self {
         let (side, other) = (p[1] - p[0], p[2] - p[0]);
         let b = side.norm();
@@ -122,7 +122,7 @@ impl OcticSolver {
         let size = m.size();
         let base_corners = octahedral.base().map(|p| p.coords / size);
         let platform_corners = octahedral.platform().map(|p| p.coords / size);
-        let (base, platform) = (Triangle::of(&base_corners), Triangle::of(&platform_corners));
+        let (base, platform) = (FramedTriangle::of(&base_corners), FramedTriangle::of(&platform_corners));
         Ok(Self {
             manipulator: m.clone(),
             size,
@@ -193,7 +193,7 @@ impl OcticSolver {
     fn placed(&self, s: &SquaredLegLengths, scaled: &[f64; 6], found: &Corners) -> Option<OcticPoses> {
         let (corners, x, y) = found;
         let frame = self.frame(corners);
-        let Placed { mut poses, mut residuals, scales } = self.place(scaled, &corners[0], &frame);
+        let PoseLanes { mut poses, mut residuals, scales } = self.place(scaled, &corners[0], &frame);
         let mut worst = 0.0;
         for k in 0..2 * LANES {
             let square = scales[k] * scales[k];

@@ -6,7 +6,7 @@ use super::chi_square::chi_square_quantile;
 use super::model::{LegModel, Measurement, Unknowns};
 use super::noise::{MeasurementNoise, NoiseSource};
 use super::robust::{Distances, Loss, LossUnit, PoseWeight, ScaledLoss};
-use super::spectrum::Spectrum;
+use super::spectrum::FitSpectrum;
 
 /// Rounds of weights at most; five are usual.
 const ROUNDS: usize = 100;
@@ -40,7 +40,7 @@ pub(super) struct FitProblem<'a> {
 
 /// The end of a fit.
 #[derive(Debug, Clone)]
-pub(super) struct Fit {
+pub(super) struct CalibrationFit {
     pub(super) model: LegModel,
     pub(super) noise: MeasurementNoise,
     pub(super) source: NoiseSource,
@@ -86,9 +86,9 @@ impl FitProblem<'_> {
     }
 
     /// What the equations say.
-    pub(super) fn spectrum(&self, model: &LegModel, lower: &[Matrix6<f64>]) -> Option<Spectrum> {
+    pub(super) fn spectrum(&self, model: &LegModel, lower: &[Matrix6<f64>]) -> Option<FitSpectrum> {
         let (rows, right) = self.equations(model, lower);
-        Spectrum::of(rows, right, self.widest)
+        FitSpectrum::of(rows, right, self.widest)
     }
 
     /// Sum of squares of whitened residuals.
@@ -142,8 +142,8 @@ impl FitProblem<'_> {
     }
 
     /// Rounds of [`minimise`](Self::minimise), each with the covariances, the noise and the weights of the end of the last one.
-    pub(super) fn fit(&self, start: &LegModel) -> Fit {
-        let mut out = Fit {
+    pub(super) fn fit(&self, start: &LegModel) -> CalibrationFit {
+        let mut out = CalibrationFit {
             model: start.clone(),
             noise: self.noise.unwrap_or_else(|| MeasurementNoise::assumed(self.size)),
             source: if self.noise.is_some() { NoiseSource::Given } else { NoiseSource::Estimated },
@@ -195,7 +195,7 @@ impl FitProblem<'_> {
     }
 
     /// The noise that the residuals show where none is given: by the sum of squares, or by the median distance with a loss that takes gross errors for possible.
-    fn noise_of(&self, fit: &Fit) -> (MeasurementNoise, NoiseSource) {
+    fn noise_of(&self, fit: &CalibrationFit) -> (MeasurementNoise, NoiseSource) {
         if let Some(noise) = self.noise {
             return (noise, NoiseSource::Given);
         }
@@ -233,7 +233,7 @@ impl FitProblem<'_> {
     }
 
     /// The weights of the loss, graduated: a convex loss counts distances in the usual one until the model is about right.
-    fn weights(&self, fit: &Fit, noise: &MeasurementNoise, round: usize) -> Vec<PoseWeight> {
+    fn weights(&self, fit: &CalibrationFit, noise: &MeasurementNoise, round: usize) -> Vec<PoseWeight> {
         let distances = self.distances(&fit.model, noise);
         let far = self.far(&distances);
         let loss = match self.loss {
@@ -246,7 +246,7 @@ impl FitProblem<'_> {
         distances.iter().map(of).collect()
     }
 
-    fn merit(&self, fit: &Fit) -> f64 {
+    fn merit(&self, fit: &CalibrationFit) -> f64 {
         if self.noise.is_none() {
             return fit.noise.length;
         }

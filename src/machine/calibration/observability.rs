@@ -3,7 +3,7 @@
 use nalgebra::{DVector, Vector3};
 
 use super::model::{Unknown, Unknowns};
-use super::spectrum::Spectrum;
+use super::spectrum::FitSpectrum;
 use platform::manipulator::Body;
 
 /// Parts of a direction that are smaller than this are left out when it is described; the whole has norm 1.
@@ -31,7 +31,7 @@ pub struct Observability {
 }
 
 impl Observability {
-    pub(super) fn new(spectrum: &Spectrum, unknowns: &Unknowns, poses: usize, length_noise: f64) -> Self {
+    pub(super) fn new(spectrum: &FitSpectrum, unknowns: &Unknowns, poses: usize, length_noise: f64) -> Self {
         Self {
             singular_values: spectrum.values.iter().map(|s| s * length_noise).collect(),
             tolerance: spectrum.least * length_noise,

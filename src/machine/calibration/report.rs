@@ -5,12 +5,12 @@ use thiserror::Error;
 
 use super::chi_square::{chi_square_exceeds, chi_square_quantile};
 use super::exchanged::exchanged;
-use super::fit::{Fit, FitProblem};
+use super::fit::{CalibrationFit, FitProblem};
 use super::model::{HeldParts, LegModel, Measurement, Unknowns};
 use super::noise::{MeasurementNoise, NoiseSource};
 use super::observability::Observability;
 use super::robust::{Loss, LossUnit, PoseWeight};
-use super::spectrum::{Spectrum, deletion};
+use super::spectrum::{FitSpectrum, deletion};
 use super::start::closed_form;
 use platform::manipulator::InvalidManipulator;
 
@@ -394,7 +394,7 @@ fn fit_from_starts(
     problem: &FitProblem<'_>,
     nominal: &LegModel,
     options: &CalibrateOptions,
-) -> Result<(Fit, Starts), CalibrationError> {
+) -> Result<(CalibrationFit, Starts), CalibrationError> {
     let linear = || closed_form(nominal, problem.measurements, options.held).map(|start| problem.fit(&start));
     let closed = match options.start {
         StartChoice::Nominal => None,
@@ -402,7 +402,7 @@ fn fit_from_starts(
         StartChoice::ClosedForm => Some(linear().ok_or(CalibrationError::NoClosedForm)?),
     };
     let from_nominal = (options.start != StartChoice::ClosedForm).then(|| problem.fit(nominal));
-    let merit = |fit: &Option<Fit>| fit.as_ref().map(|f| f.merit);
+    let merit = |fit: &Option<CalibrationFit>| fit.as_ref().map(|f| f.merit);
     let (nominal_merit, closed_merit) = (merit(&from_nominal), merit(&closed));
     let starts = |taken, agree| Starts { taken, agree, nominal: nominal_merit, closed_form: closed_merit };
     match (from_nominal, closed) {
@@ -414,7 +414,7 @@ fn fit_from_starts(
             let widest = problem.spectrum(&a.model, &lower).map_or(0.0, |s| s.covariance_root().amax());
             let same = apart <= (SAME_END * widest).max(1e-9 * problem.size);
             // a fit that did not end is no better, whatever its residuals
-            let key = |fit: &Fit| (!fit.converged, fit.merit);
+            let key = |fit: &CalibrationFit| (!fit.converged, fit.merit);
             let (x, y) = (key(&a), key(&b));
             let nominal_is_better = if same {
                 a.converged || !b.converged
@@ -431,7 +431,12 @@ fn fit_from_starts(
     }
 }
 
-fn status(fit: &Fit, spectrum: &Spectrum, chi: &ChiSquare, unknowns: usize) -> CalibrationStatus {
+fn status(
+    fit: &CalibrationFit,
+    spectrum: &FitSpectrum,
+    chi: &ChiSquare,
+    unknowns: usize,
+) -> CalibrationStatus {
     // measurements that refute a model say nothing by what they see of it
     if chi.probability.is_some_and(|p| p < REFUTED) {
         CalibrationStatus::Refuted
@@ -446,7 +451,7 @@ fn status(fit: &Fit, spectrum: &Spectrum, chi: &ChiSquare, unknowns: usize) -> C
 
 /// An outlier is farther off than all right measurements together are with a probability of 99 %. None is called so where it would be more than half of the poses, or of the lengths
 /// where single lengths are doubted: the noise or the model is wrong then.
-fn outliers(problem: &FitProblem<'_>, fit: &Fit) -> Vec<Outlier> {
+fn outliers(problem: &FitProblem<'_>, fit: &CalibrationFit) -> Vec<Outlier> {
     if fit.source == NoiseSource::Assumed {
         return Vec::new();
     }
@@ -490,7 +495,12 @@ fn outliers(problem: &FitProblem<'_>, fit: &Fit) -> Vec<Outlier> {
 }
 
 /// The sum of squares and its degrees of freedom. With a loss that takes gross errors for possible, poses with an outlier are left out.
-fn chi_square(problem: &FitProblem<'_>, fit: &Fit, outliers: &[Outlier], rank: usize) -> ChiSquare {
+fn chi_square(
+    problem: &FitProblem<'_>,
+    fit: &CalibrationFit,
+    outliers: &[Outlier],
+    rank: usize,
+) -> ChiSquare {
     let robust = problem.loss != Loss::Squares;
     let counted = |k: usize| !(robust && outliers.iter().any(|o| o.measurement == k));
     let distances = problem.distances(&fit.model, &fit.noise);
@@ -505,7 +515,7 @@ fn chi_square(problem: &FitProblem<'_>, fit: &Fit, outliers: &[Outlier], rank: u
 /// the unknowns are not determined.
 fn leave_one_out(
     problem: &FitProblem<'_>,
-    fit: &Fit,
+    fit: &CalibrationFit,
     weighted: &[Matrix6<f64>],
     root: &DMatrix<f64>,
 ) -> (Vec<Option<Vector6<f64>>>, Vec<usize>) {

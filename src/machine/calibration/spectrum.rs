@@ -8,7 +8,7 @@ use num::small::bounded_svd;
 ///
 /// Orthogonal triangularisation, then the singular values of the triangle: normal equations, which square the condition, are not formed.
 #[derive(Debug, Clone)]
-pub(super) struct Spectrum {
+pub(super) struct FitSpectrum {
     /// Singular values, largest first: one over the standard deviation of the unknowns along each direction.
     pub(super) values: DVector<f64>,
     /// Directions, as columns.
@@ -21,7 +21,7 @@ pub(super) struct Spectrum {
     pub(super) least: f64,
 }
 
-impl Spectrum {
+impl FitSpectrum {
     /// Directions count as known where their standard deviation is at most `widest` and rounding leaves digits of them. `None` for entries that are not finite.
     pub(super) fn of(rows: DMatrix<f64>, right: DVector<f64>, widest: f64) -> Option<Self> {
         let (equations, unknowns) = rows.shape();
@@ -117,7 +117,7 @@ mod tests {
         let mut draw = |a: usize, b: usize| DMatrix::from_fn(a, b, |_, _| rng.normal());
         let rows = draw(n, rank) * draw(rank, m);
         let right: DVector<f64> = draw(n, 1).column(0).into();
-        let found = Spectrum::of(rows.clone(), right.clone(), 1e6).unwrap();
+        let found = FitSpectrum::of(rows.clone(), right.clone(), 1e6).unwrap();
         assert_eq!(found.rank, rank);
         for damping in [1e-3, 2.0] {
             let normal = rows.tr_mul(&rows) + DMatrix::identity(m, m) * damping;
@@ -136,11 +136,11 @@ mod tests {
             }
         }
         // fewer equations than unknowns
-        let short = Spectrum::of(rows.rows(0, 3).into(), right.rows(0, 3).into(), 1e6).unwrap();
+        let short = FitSpectrum::of(rows.rows(0, 3).into(), right.rows(0, 3).into(), 1e6).unwrap();
         assert_eq!(short.rank, 3);
         // a coarse tolerance
         let s = found.values[3];
-        assert_eq!(Spectrum::of(rows, right, 1.0 / (s * 0.999)).unwrap().rank, 4);
+        assert_eq!(FitSpectrum::of(rows, right, 1.0 / (s * 0.999)).unwrap().rank, 4);
     }
 
     #[test]
@@ -149,13 +149,13 @@ mod tests {
         let mut draw = |a: usize, b: usize| DMatrix::from_fn(a, b, |_, _| rng.normal());
         let (rows, right) = (draw(24, 5), draw(24, 1));
         let right: DVector<f64> = right.column(0).into();
-        let all = Spectrum::of(rows.clone(), right.clone(), 1e9).unwrap();
+        let all = FitSpectrum::of(rows.clone(), right.clone(), 1e9).unwrap();
         let residual = &right - &rows * all.step(0.0);
-        let others = Spectrum::of(rows.rows(6, 18).into(), right.rows(6, 18).into(), 1e9).unwrap();
+        let others = FitSpectrum::of(rows.rows(6, 18).into(), right.rows(6, 18).into(), 1e9).unwrap();
         let expected = (&right - &rows * others.step(0.0)).rows(0, 6).into_owned();
         let found = deletion(&rows.rows(0, 6).into(), &all.covariance_root()).unwrap();
         assert!((found * residual.rows(0, 6) - expected).amax() < 1e-10);
-        let alone = Spectrum::of(rows.rows(0, 6).into(), right.rows(0, 6).into(), 1e9).unwrap();
+        let alone = FitSpectrum::of(rows.rows(0, 6).into(), right.rows(0, 6).into(), 1e9).unwrap();
         assert!(deletion(&rows.rows(0, 6).into(), &alone.covariance_root()).is_none());
     }
 }

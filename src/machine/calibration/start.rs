@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, Point3, Vector3};
 
 use super::model::{HeldParts, LegModel, Measurement};
-use super::spectrum::Spectrum;
+use super::spectrum::FitSpectrum;
 
 /// Singular values below this share of the largest one leave the quantities undetermined.
 const DETERMINED: f64 = 1e-10;
@@ -86,7 +86,7 @@ fn one_leg(
         rows[(k, first + 15)] = 1.0;
         right[k] = l * l - p.norm_squared();
     }
-    let found = Spectrum::of(rows, right, f64::INFINITY)?;
+    let found = FitSpectrum::of(rows, right, f64::INFINITY)?;
     let last = found.values[found.values.len() - 1];
     if !(last > DETERMINED * found.values[0]) {
         return None;

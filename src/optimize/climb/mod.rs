@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector};
 
 use num::conic::SolverFailure;
-use program::{Program, Step};
+use program::{ClimbStep, Program};
 
 pub(crate) use linear::{
     AffineCone, CLUSTER, LinearBound, LinearCluster, LinearItem, LinearPiece, Linearised, NO_POSE, TermId,
@@ -164,7 +164,7 @@ impl State<'_> {
     }
 
     /// Damped BFGS with the change of the gradient of `- gains + multipliers . constraints` between two points.
-    fn learn(&mut self, old: &Linearised, new: &Linearised, step: &Step) {
+    fn learn(&mut self, old: &Linearised, new: &Linearised, step: &ClimbStep) {
         let n = self.x.len();
         let mut change = DVector::zeros(n);
         let mut add = |weight: f64, before: &[f64], after: &[f64]| {

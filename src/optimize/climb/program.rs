@@ -28,7 +28,7 @@ pub(super) struct Program<'a> {
 
 /// A step with what the model promises.
 #[derive(Debug, Clone)]
-pub(super) struct Step {
+pub(super) struct ClimbStep {
     pub d: Vec<f64>,
     /// Weighted gain less penalised slacks, curvature included.
     pub merit: f64,
@@ -100,7 +100,7 @@ impl Program<'_> {
     ///
     /// Few rows bind. The program begins with the rows of least value and adds those that its point violates.
     /// Without further ones the point solves the program with all rows.
-    pub(super) fn solve(&self) -> Result<Step, SolverFailure> {
+    pub(super) fn solve(&self) -> Result<ClimbStep, SolverFailure> {
         let mut held = Held::first(self.near);
         loop {
             let (draft, rows) = self.write(&held);
@@ -180,7 +180,7 @@ impl Program<'_> {
         any
     }
 
-    fn step(&self, draft: &Draft, rows: [Vec<Option<usize>>; 2], point: &ConicPoint) -> Step {
+    fn step(&self, draft: &Draft, rows: [Vec<Option<usize>>; 2], point: &ConicPoint) -> ClimbStep {
         let n = self.x.len();
         let d: Vec<f64> = (0..n)
             .map(|j| {
@@ -198,7 +198,7 @@ impl Program<'_> {
         let dual =
             |rows: Vec<Option<usize>>| rows.into_iter().map(|r| r.map_or(0.0, |r| point.dual[r])).collect();
         let [items, pieces] = rows.map(dual);
-        Step { d, merit: gain - self.penalty * slack - bend, items, pieces }
+        ClimbStep { d, merit: gain - self.penalty * slack - bend, items, pieces }
     }
 
     fn trust_region(&self, draft: &mut Draft) {

@@ -7,10 +7,10 @@ use super::leg_lines::{HeldPose, LegLines};
 use super::model::Model;
 use super::outcome::{ConstraintConflict, Demand, Give};
 use super::search::{
-    Adding, RefinedRun, ShapeSearchOptions, Stage, Watch, distinct, expects_no_other, population, refine,
-    refine_adding,
+    PoseAdding, ProgressReport, RefinedRun, ShapeSearchOptions, Stage, distinct, expects_no_other,
+    population, refine, refine_adding,
 };
-use super::terms::Item;
+use super::terms::PoseTerm;
 use crate::climb::{ConstraintGroup, Task};
 use machine::requirements::{HingeAngle, TermKind};
 use num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
@@ -32,13 +32,13 @@ pub(super) fn elastic(
     task: &Task,
     from: &[RefinedRun],
     threads: usize,
-    watch: &mut Watch<'_, '_, '_>,
+    watch: &mut ProgressReport<'_, '_, '_>,
 ) -> Vec<RefinedRun> {
     let plain = no_objective(model, Vec::new());
     let from = apart(task, from);
     let mut runs: Vec<RefinedRun> = Vec::new();
     for batch in ends(&from).chunks(ELASTIC_BATCH) {
-        runs.extend(settle(Adding::WhileMet, model, &plain, batch, threads, watch));
+        runs.extend(settle(PoseAdding::WhileMet, model, &plain, batch, threads, watch));
         let is_met = runs.iter().any(|r| r.run.is_feasible());
         if is_met || expects_no_other(runs.len(), apart(&plain, &runs).len()) {
             break;
@@ -53,7 +53,7 @@ fn with_least_whole(
     model: &Model<'_>,
     task: &Task,
     mut runs: Vec<RefinedRun>,
-    watch: &mut Watch<'_, '_, '_>,
+    watch: &mut ProgressReport<'_, '_, '_>,
 ) -> Vec<RefinedRun> {
     let violation = |r: &RefinedRun| r.run.judged.total_violation(task);
     runs.sort_by(|a, b| by_violation(task, a, b));
@@ -80,7 +80,7 @@ pub(super) fn unmet(
     model: &Model<'_>,
     points: &[Vec<f64>],
     threads: usize,
-    watch: &mut Watch<'_, '_, '_>,
+    watch: &mut ProgressReport<'_, '_, '_>,
 ) -> Option<Vec<RefinedRun>> {
     let plain = no_objective(model, Vec::new());
     let poses = model.first_poses();
@@ -88,7 +88,7 @@ pub(super) fn unmet(
     let mut order: Vec<(f64, &Vec<f64>)> = points.iter().map(|x| (missed(x), x)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     let starts: Vec<SettleStart<'_>> = order.iter().map(|(_, x)| (x.as_slice(), poses.as_slice())).collect();
-    let least = settle(Adding::WhileMet, model, &plain, starts.get(..1)?, threads, watch).pop()?;
+    let least = settle(PoseAdding::WhileMet, model, &plain, starts.get(..1)?, threads, watch).pop()?;
     if least.run.is_feasible() {
         return None;
     }
@@ -97,14 +97,14 @@ pub(super) fn unmet(
     let fewer = no_objective(model, held);
     let mut runs: Vec<RefinedRun> = Vec::new();
     for batch in starts.chunks(ELASTIC_BATCH) {
-        runs.extend(settle(Adding::WhileMet, model, &fewer, batch, threads, watch));
+        runs.extend(settle(PoseAdding::WhileMet, model, &fewer, batch, threads, watch));
         if model.is_stopped() || runs.iter().any(|r| r.run.is_feasible()) {
             return None;
         }
         if expects_no_other(runs.len(), apart(&fewer, &runs).len()) {
             let mut from = apart(&fewer, &runs);
             from.push(least);
-            let whole = settle(Adding::WhileMet, model, &plain, &ends(&from), threads, watch);
+            let whole = settle(PoseAdding::WhileMet, model, &plain, &ends(&from), threads, watch);
             return Some(with_least_whole(model, &plain, whole, watch));
         }
     }
@@ -121,12 +121,12 @@ fn ends(from: &[RefinedRun]) -> Vec<SettleStart<'_>> {
 
 /// Runs from some points, those with the least violation first.
 fn settle(
-    adding: Adding,
+    adding: PoseAdding,
     model: &Model<'_>,
     task: &Task,
     from: &[SettleStart<'_>],
     threads: usize,
-    watch: &mut Watch<'_, '_, '_>,
+    watch: &mut ProgressReport<'_, '_, '_>,
 ) -> Vec<RefinedRun> {
     let run = |k: usize| refine_adding(adding, model, task, from[k].0, from[k].1.to_vec(), k as u64);
     // what leaves requirements out says nothing of the best platform
@@ -158,12 +158,12 @@ pub(super) fn attempt(
     from: &[RefinedRun],
     o: &ShapeSearchOptions,
     k: usize,
-    watch: &mut Watch<'_, '_, '_>,
+    watch: &mut ProgressReport<'_, '_, '_>,
 ) -> Result<RefinedRun, Vec<RefinedRun>> {
     let mut runs: Vec<RefinedRun> = Vec::new();
     let mut meets = |all: &[SettleStart<'_>]| {
         for batch in all.chunks(BATCH) {
-            let mut found = settle(Adding::WhileMet, model, task, batch, o.threads, watch);
+            let mut found = settle(PoseAdding::WhileMet, model, task, batch, o.threads, watch);
             if found.first().is_some_and(|r| r.run.is_feasible()) {
                 return Some(found.swap_remove(0));
             }
@@ -192,7 +192,7 @@ fn apart(task: &Task, runs: &[RefinedRun]) -> Vec<RefinedRun> {
 }
 
 /// What becomes of requirements that no run met.
-pub(crate) enum Clash {
+pub(crate) enum ConflictOutcome {
     /// An irreducible set of constraints that could not be met together.
     Conflict(ConstraintConflict),
     /// Looking for one, a point was found that meets all of them.
@@ -209,9 +209,11 @@ pub(super) fn conflict(
     model: &Model<'_>,
     settled: &[RefinedRun],
     o: &ShapeSearchOptions,
-    watch: &mut Watch<'_, '_, '_>,
-) -> Clash {
-    let Some(best) = settled.first().filter(|best| best.run.is_settled()) else { return Clash::Unsettled };
+    watch: &mut ProgressReport<'_, '_, '_>,
+) -> ConflictOutcome {
+    let Some(best) = settled.first().filter(|best| best.run.is_settled()) else {
+        return ConflictOutcome::Unsettled;
+    };
     let all: Vec<ConstraintGroup> = best.run.judged.violations.keys().copied().collect();
     let mut dropped: Vec<ConstraintGroup> = Vec::new();
     let mut from = apart(&no_objective(model, Vec::new()), settled);
@@ -243,13 +245,13 @@ pub(super) fn conflict(
     }
     // runs that were told to end show nothing, here and below
     if model.is_stopped() {
-        return Clash::Unsettled;
+        return ConflictOutcome::Unsettled;
     }
     let kept: Vec<ConstraintGroup> = all.into_iter().filter(|g| !dropped.contains(g)).collect();
     let task = no_objective(model, dropped);
-    let together = settle(Adding::UntilNoneIsWorse, model, &task, &ends(&from), o.threads, watch);
+    let together = settle(PoseAdding::UntilNoneIsWorse, model, &task, &ends(&from), o.threads, watch);
     let Some(least) = together.first().filter(|least| !least.run.is_feasible()) else {
-        return Clash::Unsettled;
+        return ConflictOutcome::Unsettled;
     };
     let total = amounts(model, &least.poses, &least.run.x, &task);
     let proved = proved_empty(model, &least.poses, &least.run.x, &kept, &task);
@@ -263,7 +265,7 @@ pub(super) fn conflict(
                 // nothing has to give after all
                 let whole = refine(model, &no_objective(model, Vec::new()), &run.run.x, run.poses, o.seed);
                 let met = whole.run.is_feasible();
-                return if met { Clash::Met(Box::new(whole)) } else { Clash::Unsettled };
+                return if met { ConflictOutcome::Met(Box::new(whole)) } else { ConflictOutcome::Unsettled };
             }
             if others_hold(model, &run, group) {
                 found = amounts(model, &run.poses, &run.run.x, &task).get(&group).copied();
@@ -276,9 +278,9 @@ pub(super) fn conflict(
         demands.push(Give { demand: demand(model, group), alone: found, together: of(&group) });
     }
     if model.is_stopped() {
-        return Clash::Unsettled;
+        return ConflictOutcome::Unsettled;
     }
-    Clash::Conflict(ConstraintConflict { demands, proved })
+    ConflictOutcome::Conflict(ConstraintConflict { demands, proved })
 }
 
 /// The constraint of a group, as answers name it.
@@ -312,7 +314,7 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
     let mut out: BTreeMap<ConstraintGroup, f64> = BTreeMap::new();
     for at in poses {
         let l = LegLines::new(&ends, at);
-        model.terms.visit(&l, &ends, x, &mut |item: Item<()>| {
+        model.terms.visit(&l, &ends, x, &mut |item: PoseTerm<()>| {
             let (kind, leg) = (item.id.0, item.id.1);
             let beyond = |limit: f64, length: f64| {
                 let cos = limit.to_radians().cos() + item.value * model.terms.size / length;

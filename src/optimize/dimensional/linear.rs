@@ -5,10 +5,10 @@ use nalgebra::{Rotation3, Vector3};
 use super::leg_lines::{HeldPose, LegLines};
 use super::merit::{Cluster, MeritPiece};
 use super::model::Model;
-use super::pull::{Gradient, Pull, Rate};
+use super::pull::{Gradient, PoseGradient, Rate};
 use super::shape::JointEnds;
-use super::skeleton::Room;
-use super::terms::{ConvexForm, Item};
+use super::skeleton::ReachLeft;
+use super::terms::{ConvexForm, PoseTerm};
 use crate::climb::{
     AffineCone, ConstraintGroup, LinearBound, LinearCluster, LinearItem, LinearPiece, Linearised, NO_POSE,
     Task,
@@ -26,7 +26,7 @@ struct Near<'a> {
 }
 
 impl Near<'_> {
-    fn gradient(&self, pull: &Pull) -> Vec<f64> {
+    fn gradient(&self, pull: &PoseGradient) -> Vec<f64> {
         pull.gradient(self.rates, &self.l.rotation, self.at.follows, &self.home)
     }
 }
@@ -48,7 +48,7 @@ impl Model<'_> {
         let near = 4.0 * radius + 0.01;
         for (k, at) in poses.iter().enumerate() {
             let n = Near { l: LegLines::new(&ends, at), at, rates: &rates, home };
-            self.terms.visit(&n.l, &ends, x, &mut |item: Item<Pull>| {
+            self.terms.visit(&n.l, &ends, x, &mut |item: PoseTerm<PoseGradient>| {
                 let group = ConstraintGroup::Term(item.id.0);
                 let kind = item.id.0;
                 let steep = matches!(kind, TermKind::LegForce | TermKind::LegSpeed) || kind.is_of_platform();
@@ -68,7 +68,7 @@ impl Model<'_> {
                 });
             }
         }
-        self.terms.fixed(&ends, &mut |item: Item<Pull>| {
+        self.terms.fixed(&ends, &mut |item: PoseTerm<PoseGradient>| {
             let group = ConstraintGroup::Term(item.id.0);
             if !task.dropped.contains(&group) {
                 let gradient = item.pull.gradient(&rates, &identity, false, &home);
@@ -87,8 +87,8 @@ impl Model<'_> {
                 cone: None,
             });
         }
-        for Room { leg, body, value, gradient } in self.shape.rooms(&ends) {
-            let mut pull = Pull::none();
+        for ReachLeft { leg, body, value, gradient } in self.shape.rooms(&ends) {
+            let mut pull = PoseGradient::none();
             match body {
                 Body::Base => pull.base[leg] = gradient,
                 Body::Platform => pull.arm[leg] = gradient,
@@ -196,7 +196,7 @@ impl Model<'_> {
 /// The constraint, unless its linear model is met everywhere within the radius.
 fn screened(
     pose: usize,
-    item: &Item<Pull>,
+    item: &PoseTerm<PoseGradient>,
     group: ConstraintGroup,
     gradient: Vec<f64>,
     cone: Option<AffineCone>,

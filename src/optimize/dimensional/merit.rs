@@ -8,7 +8,7 @@ use nalgebra::{Matrix6, Vector3, Vector4, Vector6};
 use super::leg_gaps::Gap;
 use super::leg_lines::{HeldPose, LegLines, inverse_of_columns, leg_forces};
 use super::problem::DimensionalProblem;
-use super::pull::{Gradient, Pull};
+use super::pull::{Gradient, PoseGradient};
 use super::shape::JointEnds;
 use super::stiffness::{self, RayleighQuotient};
 use super::terms::{RequirementTerms, joint_pull};
@@ -36,19 +36,19 @@ pub(crate) struct Spectral {
 #[derive(Debug, Clone)]
 pub(super) struct Cluster {
     pub sigma: f64,
-    pub own: Pull,
-    pub others: Vec<(f64, Pull, Pull)>,
+    pub own: PoseGradient,
+    pub others: Vec<(f64, PoseGradient, PoseGradient)>,
 }
 
 /// What bounds an objective from above.
 #[derive(Debug, Clone)]
 pub(crate) enum MeritPiece {
     /// `y <= value + gradient`.
-    Linear(f64, Pull),
+    Linear(f64, PoseGradient),
     /// By the least and the greatest singular value.
     Spectral(Box<Spectral>),
     /// Both: length of a leg, for the stroke.
-    Length(usize, f64, Pull),
+    Length(usize, f64, PoseGradient),
 }
 
 /// Everything the objectives are evaluated with.
@@ -171,7 +171,7 @@ impl<'a> Merit<'a> {
                 }
             }
             Objective::NaturalFrequency => {
-                for q in self.slowest::<Pull>(l).into_iter().flatten().filter(|q| q.value > 0.0) {
+                for q in self.slowest::<PoseGradient>(l).into_iter().flatten().filter(|q| q.value > 0.0) {
                     let omega = q.value.sqrt();
                     let factor = 0.5 / (omega * self.omega());
                     see(MeritPiece::Linear(omega / self.omega(), q.pull.scaled(factor)));
@@ -183,11 +183,11 @@ impl<'a> Merit<'a> {
                     for i in 0..6 {
                         let piece = match &forces {
                             Some(f) => {
-                                let (value, pull): (f64, Pull) = f.of(l, i, self.size);
+                                let (value, pull): (f64, PoseGradient) = f.of(l, i, self.size);
                                 let factor = -value.signum() / self.force_unit;
                                 MeritPiece::Linear(value * factor, pull.scaled(factor))
                             }
-                            None => MeritPiece::Linear(SINGULAR_GAIN, Pull::none()),
+                            None => MeritPiece::Linear(SINGULAR_GAIN, PoseGradient::none()),
                         };
                         see(piece);
                     }
@@ -196,14 +196,14 @@ impl<'a> Merit<'a> {
             Objective::LegClearance => {
                 let Some(body) = self.leg_body else { return };
                 for (i, j) in terms.separate_legs() {
-                    l.leg_gaps(&body, i, j, &mut |gap: Gap<Pull>| {
+                    l.leg_gaps(&body, i, j, &mut |gap: Gap<PoseGradient>| {
                         see(MeritPiece::Linear(gap.value / self.size, gap.pull.scaled(1.0 / self.size)));
                     });
                 }
             }
             Objective::Stroke => {
                 for i in 0..6 {
-                    let mut pull = Pull::none();
+                    let mut pull = PoseGradient::none();
                     pull.line(i, l.direction[i] / self.size);
                     see(MeritPiece::Length(i, l.length[i] / self.size, pull));
                 }
@@ -241,7 +241,7 @@ impl<'a> Merit<'a> {
     }
 
     /// Smallest singular value of the six leg vectors and its gradient.
-    fn leg_vectors(&self, ends: &JointEnds) -> Option<(f64, Pull)> {
+    fn leg_vectors(&self, ends: &JointEnds) -> Option<(f64, PoseGradient)> {
         let n = &self.normalisation;
         let one = |v: Vector3<f64>| Vector4::new(1.0, v.x, v.y, v.z);
         let a = ends.base.map(|p| one((p - n.base_centre.coords) / n.base_unit));
@@ -250,7 +250,7 @@ impl<'a> Merit<'a> {
             (0..6).map(|i| (0..16).map(|k| a[i][k / 4] * b[i][k % 4]).collect()).collect();
         let d = svd(&rows).ok()?;
         let w = nalgebra::Matrix4::from_fn(|p, q| d.v[4 * p + q][5]);
-        let mut pull = Pull::none();
+        let mut pull = PoseGradient::none();
         for i in 0..6 {
             let (on_a, on_b) = (w * b[i] * d.u[i][5], w.transpose() * a[i] * d.u[i][5]);
             pull.base[i] += Vector3::new(on_a[1], on_a[2], on_a[3]) / n.base_unit;
@@ -260,10 +260,10 @@ impl<'a> Merit<'a> {
     }
 
     /// Inverse condition number at a pose and its gradient.
-    pub(super) fn conditioning(&self, l: &LegLines) -> Option<(f64, Pull)> {
+    pub(super) fn conditioning(&self, l: &LegLines) -> Option<(f64, PoseGradient)> {
         let (u, s, v) = decomposed(&l.jacobian(self.length))?;
         let g = s[5] / s[0];
-        let mut pull = Pull::none();
+        let mut pull = PoseGradient::none();
         for i in 0..6 {
             let on_row = (v.column(5) * u[(i, 5)] - v.column(0) * (g * u[(i, 0)])) / s[0];
             l.pull_row(&mut pull, i, self.length, &on_row);
@@ -274,7 +274,7 @@ impl<'a> Merit<'a> {
     fn spectral(&self, o: Objective, l: &LegLines) -> Option<Spectral> {
         let (u, s, v) = decomposed(&l.jacobian(self.length))?;
         let block = |a: usize, b: usize| {
-            let mut pull = Pull::none();
+            let mut pull = PoseGradient::none();
             for i in 0..6 {
                 let on_row = (v.column(b) * u[(i, a)] + v.column(a) * u[(i, b)]) * 0.5;
                 l.pull_row(&mut pull, i, self.length, &on_row);
@@ -293,7 +293,7 @@ impl<'a> Merit<'a> {
         let high = if o == Objective::WorstConditioning {
             cluster(0, [1, 2])
         } else {
-            Cluster { sigma: s[0], own: Pull::none(), others: Vec::new() }
+            Cluster { sigma: s[0], own: PoseGradient::none(), others: Vec::new() }
         };
         let (value, f, h) = match o {
             Objective::WorstConditioning => (s[5] / s[0], 1.0 / s[0], s[5] / (s[0] * s[0])),
@@ -311,7 +311,7 @@ fn decomposed(j: &Matrix6<f64>) -> Option<(Matrix6<f64>, Vector6<f64>, Matrix6<f
 
 impl Spectral {
     /// The gradient of the piece, clusters taken apart.
-    pub(super) fn pull(&self) -> Pull {
+    pub(super) fn pull(&self) -> PoseGradient {
         let mut pull = self.low.own.scaled(self.f);
         pull.add(&self.high.own, -self.h);
         pull

@@ -9,7 +9,7 @@ use super::merit::Merit;
 use super::problem::{DimensionalProblem, InvalidProblem, Variables};
 use super::shape::Shape;
 use super::terms::RequirementTerms;
-use super::worst_pose::Judging;
+use super::worst_pose::PointJudging;
 use crate::climb::{Climbable, Effort, Linearised, PointValues, Run, Task, climb};
 use machine::requirements::{ListedFrom, Objective};
 use num::Rng;
@@ -160,7 +160,7 @@ impl Climbable for HeldTask<'_, '_> {
     }
 
     fn judge(&self, x: &[f64], refused: &dyn Fn(&PointValues) -> bool) -> PointValues {
-        let mut judging = Judging::new(self.model, x, self.task, self.sign);
+        let mut judging = PointJudging::new(self.model, x, self.task, self.sign);
         for at in self.poses {
             if refused(&judging.so_far) {
                 return judging.so_far;

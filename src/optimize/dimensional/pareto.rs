@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use super::model::Model;
 use super::outcome::{DimensionalOutcome, DimensionalReport, DimensionalSolution, evaluate, outcome};
 use super::problem::{DimensionalProblem, InvalidProblem};
-use super::search::{Progress, RefinedRun, ShapeSearchOptions, Stage, Watch, better, refine, search_task};
+use super::search::{
+    Progress, ProgressReport, RefinedRun, ShapeSearchOptions, Stage, better, refine, search_task,
+};
 use crate::climb::Task;
 use num::parallel::parallel;
 
@@ -59,7 +61,7 @@ pub fn pareto(
         return Err(InvalidProblem::FrontOf(n));
     }
     let model = Model::new(problem)?;
-    let mut watch = Watch::new(&model, progress);
+    let mut watch = ProgressReport::new(&model, progress);
     let mut known: Vec<RefinedRun> = Vec::new();
     for m in 0..n {
         if model.is_stopped() {

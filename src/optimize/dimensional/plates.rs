@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 use super::leg_lines::LegLines;
 use super::pull::Gradient;
 use super::shape::{JointEnds, JointId};
-use super::terms::Item;
+use super::terms::PoseTerm;
 use machine::requirements::{
     BoltsFrom, Hardware, LegBody, LegSegment, PlateDesign, TermKind, frame_of, plate_normal,
 };
@@ -220,12 +220,12 @@ impl PlacedPlate<'_> {
     }
 
     /// How much farther the holes are from the outline than they have to be, for each hole and each edge of the outline that bounds its depth.
-    pub(super) fn edges<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(Item<P>)) {
+    pub(super) fn edges<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(PoseTerm<P>)) {
         let model = self.model;
         let kind = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
         let mut tell = |(seat, part): (usize, usize), (value, pull): Seen<P>| {
             let value = (value - model.plate.edge_distance - reserve) / model.size;
-            see(Item {
+            see(PoseTerm {
                 id: (kind, seat, seat, part),
                 value,
                 pull: pull.scaled(1.0 / model.size),
@@ -267,13 +267,13 @@ impl PlacedPlate<'_> {
     /// How much farther the holes and feet of two joints are apart than they have to be, and the holes of one.
     ///
     /// Of two joints those holes that are no farther apart than the nearest ones and the width of their pattern: others are not the nearest ones of a platform nearby.
-    pub(super) fn gaps<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(Item<P>)) {
+    pub(super) fn gaps<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(PoseTerm<P>)) {
         let model = self.model;
         let plate = model.plate;
         let kind = model.body.of((TermKind::BaseHoleGap, TermKind::PlatformHoleGap));
         let mut tell = |[i, j]: [usize; 2], part: usize, (value, pull): Seen<P>| {
             let value = (value - reserve) / model.size;
-            see(Item { id: (kind, i, j, part), value, pull: pull.scaled(1.0 / model.size), exact: None });
+            see(PoseTerm { id: (kind, i, j, part), value, pull: pull.scaled(1.0 / model.size), exact: None });
         };
         let holes: Vec<Vec<PatternHole>> = (0..self.seats.len()).map(|seat| self.holes(seat)).collect();
         // what the holes of one joint leave between them is the same for all joints, and no place changes it
@@ -393,11 +393,11 @@ impl PlacedPlate<'_> {
             let slides = |s: f64| {
                 let near = |t: f64| (s - t).abs() < TOUCHING;
                 if self.model.body == Body::Base && near(cut) || part.joint.is_some_and(near) {
-                    Slide::FromBase
+                    PlateSlide::FromBase
                 } else if self.model.body == Body::Platform && near(1.0 - cut) {
-                    Slide::FromPlatform
+                    PlateSlide::FromPlatform
                 } else {
-                    Slide::Share
+                    PlateSlide::Share
                 }
             };
             let (share, value, pull) = self.gap_of_segment::<P>(l, &x, &y);
@@ -507,7 +507,7 @@ const PARTS: usize = 128;
 
 /// What stays as a leg changes: the share of its line at which a point is, its distance from the base joint, or from the platform joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Slide {
+enum PlateSlide {
     Share,
     FromBase,
     FromPlatform,
@@ -519,11 +519,11 @@ impl LegLines {
         &self,
         pull: &mut P,
         leg: usize,
-        (share, slides): (f64, Slide),
+        (share, slides): (f64, PlateSlide),
         g: &Vector3<f64>,
     ) {
-        if slides != Slide::FromPlatform {
-            self.pull_point(pull, leg, (share, slides == Slide::FromBase), g);
+        if slides != PlateSlide::FromPlatform {
+            self.pull_point(pull, leg, (share, slides == PlateSlide::FromBase), g);
             return;
         }
         // b - c u: all of a motion along the line, the share of one across it

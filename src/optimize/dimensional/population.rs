@@ -6,19 +6,19 @@
 
 use super::leg_lines::{HeldPose, LegLines};
 use super::model::Model;
-use super::worst_pose::Judging;
+use super::worst_pose::PointJudging;
 use crate::climb::{PENALTY, PointValues, Task};
 use num::Rng;
 
 /// What a point is worth.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Worth {
+pub(crate) struct PointMerit {
     /// Sum of the violations, 0 when they are inside the spare.
     violation: f64,
     gain: f64,
 }
 
-impl Worth {
+impl PointMerit {
     fn is_better(&self, other: &Self) -> bool {
         if self.violation.total_cmp(&other.violation).is_eq() {
             self.gain > other.gain
@@ -50,7 +50,7 @@ pub(super) fn is_close(a: f64, b: f64, within: f64) -> bool {
 #[derive(Debug, Clone)]
 pub(crate) struct Member {
     pub x: Vec<f64>,
-    pub worth: Worth,
+    pub worth: PointMerit,
 }
 
 /// Members for each variable, and the least and greatest number of them.
@@ -88,7 +88,7 @@ impl<'m, 'a> Judge<'m, 'a> {
 
     /// Indices of the poses that bind at a point, the worst of all for some requirement or objective last.
     fn binding(&self, x: &[f64]) -> Vec<usize> {
-        let mut worst = Judging::new(self.model, x, self.task, self.model.sign(x));
+        let mut worst = PointJudging::new(self.model, x, self.task, self.model.sign(x));
         let mut binding: Vec<usize> = Vec::new();
         for (k, pose) in self.poses.iter().enumerate() {
             let before = worst.so_far.clone();
@@ -114,14 +114,14 @@ impl<'m, 'a> Judge<'m, 'a> {
     }
 
     /// The worth of a point over the first `count` poses, `None` as soon as it is no better than `bar`.
-    pub(super) fn worth(&mut self, x: &[f64], count: usize, bar: Option<&Worth>) -> Option<Worth> {
+    pub(super) fn worth(&mut self, x: &[f64], count: usize, bar: Option<&PointMerit>) -> Option<PointMerit> {
         let worth = |judged: &PointValues| {
             let within = judged.violation() <= 0.5 * self.model.backoff;
             let violation = if within { 0.0 } else { judged.total_violation(self.task) };
-            Worth { violation, gain: judged.gain(self.task) }
+            PointMerit { violation, gain: judged.gain(self.task) }
         };
-        let mut judging = Judging::new(self.model, x, self.task, self.model.sign(x));
-        let refused = |w: Worth| bar.is_some_and(|bar| !w.is_better(bar));
+        let mut judging = PointJudging::new(self.model, x, self.task, self.model.sign(x));
+        let refused = |w: PointMerit| bar.is_some_and(|bar| !w.is_better(bar));
         if refused(worth(&judging.so_far)) {
             return None;
         }

@@ -13,7 +13,7 @@ pub(crate) struct Rate {
     pub axis: Option<(usize, usize, usize)>,
 }
 
-/// What a formula leaves of its gradient: a [`Pull`], or nothing where the value alone is wanted.
+/// What a formula leaves of its gradient: a [`PoseGradient`], or nothing where the value alone is wanted.
 pub(super) trait Gradient: Copy {
     /// Whether anything is kept; formulas skip their derivatives otherwise.
     const KEPT: bool;
@@ -51,7 +51,7 @@ impl Gradient for () {
 
 /// Gradient of a function of the legs at one pose with respect to base ends, arms `R b` and position.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pull {
+pub(crate) struct PoseGradient {
     pub base: [Vector3<f64>; 6],
     pub arm: [Vector3<f64>; 6],
     pub position: Vector3<f64>,
@@ -61,7 +61,7 @@ pub(crate) struct Pull {
     pub axis: Option<(usize, usize, Vector3<f64>)>,
 }
 
-impl Gradient for Pull {
+impl Gradient for PoseGradient {
     const KEPT: bool = true;
 
     fn none() -> Self {
@@ -98,7 +98,7 @@ impl Gradient for Pull {
     }
 }
 
-impl Pull {
+impl PoseGradient {
     /// Adds `factor` times another.
     pub(super) fn add(&mut self, other: &Self, factor: f64) {
         for i in 0..6 {

@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use super::conflict::{Clash, conflict, demand, elastic, no_objective, unmet};
+use super::conflict::{ConflictOutcome, conflict, demand, elastic, no_objective, unmet};
 use super::leg_lines::HeldPose;
 use super::model::Model;
 use super::outcome::{
     ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
     outcome, solution,
 };
-use super::population::{Judge, Worth, evolve, is_close, offspring};
+use super::population::{Judge, PointMerit, evolve, is_close, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::worst_pose::worse_poses;
 use crate::climb::{Effort, PENALTY, Run, Task};
@@ -126,7 +126,7 @@ pub(crate) struct RefinedRun {
 
 /// How long poses are added to a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Adding {
+pub(crate) enum PoseAdding {
     /// Until the result is worse at none.
     UntilNoneIsWorse,
     /// As long as the run meets the requirements too: more poses only make worse what misses one already.
@@ -141,12 +141,12 @@ pub(super) fn refine(
     poses: Vec<HeldPose>,
     seed: u64,
 ) -> RefinedRun {
-    refine_adding(Adding::UntilNoneIsWorse, model, task, start, poses, seed)
+    refine_adding(PoseAdding::UntilNoneIsWorse, model, task, start, poses, seed)
 }
 
 /// See [`refine`].
 pub(crate) fn refine_adding(
-    adding: Adding,
+    adding: PoseAdding,
     model: &Model<'_>,
     task: &Task,
     start: &[f64],
@@ -158,7 +158,7 @@ pub(crate) fn refine_adding(
     let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible();
     let mut complete = false;
     for round in 0..ROUNDS {
-        let given_up = hopeless || adding == Adding::WhileMet && !run.is_feasible();
+        let given_up = hopeless || adding == PoseAdding::WhileMet && !run.is_feasible();
         if given_up || model.is_stopped() {
             break;
         }
@@ -251,14 +251,14 @@ fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> Run {
 }
 
 /// Tells how far the search is, and heeds the answer.
-pub(crate) struct Watch<'w, 'm, 'a> {
+pub(crate) struct ProgressReport<'w, 'm, 'a> {
     model: &'m Model<'a>,
     best: Option<f64>,
     violation: Option<(Demand, f64)>,
     progress: &'w mut dyn FnMut(Progress) -> ControlFlow<()>,
 }
 
-impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
+impl<'w, 'm, 'a> ProgressReport<'w, 'm, 'a> {
     pub(super) fn new(
         model: &'m Model<'a>,
         progress: &'w mut dyn FnMut(Progress) -> ControlFlow<()>,
@@ -290,13 +290,13 @@ impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
 }
 
 /// An end of the first pass.
-struct End {
+struct FirstPassEnd {
     /// In all variables.
     x: Vec<f64>,
     run: Run,
 }
 
-impl End {
+impl FirstPassEnd {
     fn new(model: &Model<'_>, without_axes: bool, run: Run) -> Self {
         let mut x = run.x.clone();
         x.resize(model.shape.start.len(), 0.0);
@@ -309,7 +309,7 @@ impl End {
 
 /// The ends of the first pass, and what refining some of them taught.
 struct FirstPass {
-    points: Vec<End>,
+    points: Vec<FirstPassEnd>,
     tried: Vec<usize>,
     /// Poses that refine starts with.
     poses: Vec<HeldPose>,
@@ -319,14 +319,14 @@ impl FirstPass {
     /// The most promising ends with different values that were not tried yet and promise more than `best`, by their worth over the poses known.
     fn choose(&self, model: &Model<'_>, task: &Task, best: f64, count: usize) -> Vec<usize> {
         let mut judge = Judge::over(model, task, self.poses.clone());
-        let worths: Vec<Option<Worth>> =
+        let worths: Vec<Option<PointMerit>> =
             self.points.iter().map(|e| judge.worth(&e.run.x, usize::MAX, None)).collect();
-        let tried: Vec<Worth> = self.tried.iter().filter_map(|k| worths[*k]).collect();
-        let mut order: Vec<(usize, Worth)> =
+        let tried: Vec<PointMerit> = self.tried.iter().filter_map(|k| worths[*k]).collect();
+        let mut order: Vec<(usize, PointMerit)> =
             worths.into_iter().enumerate().filter_map(|(k, w)| Some((k, w?))).collect();
         // the merit of the climbs: an end that misses little at poses it did not know is worth more than a poor one that misses nothing
         order.sort_by(|a, b| b.1.merit(PENALTY).total_cmp(&a.1.merit(PENALTY)).then(a.0.cmp(&b.0)));
-        let mut chosen: Vec<(usize, Worth)> = Vec::new();
+        let mut chosen: Vec<(usize, PointMerit)> = Vec::new();
         for (k, worth) in order {
             // symmetric platforms have the same optimum many times
             let known = chosen.iter().map(|c| &c.1).chain(&tried);
@@ -355,15 +355,16 @@ pub(crate) fn search_task(
     task: &Task,
     given: &[Vec<f64>],
     options: &ShapeSearchOptions,
-    watch: &mut Watch<'_, '_, '_>,
+    watch: &mut ProgressReport<'_, '_, '_>,
 ) -> SearchedShape {
     let without_axes = model.without_axes();
     let coarse = without_axes.as_ref().unwrap_or(model);
-    let search = Search { model, coarse, task, options };
+    let search = TaskSearch { model, coarse, task, options };
     let (runs, unmet) = search.first_pass(&search.given(given), watch);
     let (climbed, feasible) = (runs.len(), runs.iter().filter(|r| r.is_feasible()).count());
     let mut refined = unmet.unwrap_or_else(|| {
-        let points = runs.into_iter().map(|run| End::new(model, without_axes.is_some(), run)).collect();
+        let points =
+            runs.into_iter().map(|run| FirstPassEnd::new(model, without_axes.is_some(), run)).collect();
         let ends = FirstPass { poses: model.first_poses(), points, tried: Vec::new() };
         search.polished(ends, watch)
     });
@@ -382,7 +383,7 @@ pub(super) fn expects_no_other(runs: usize, ends: usize) -> bool {
 
 /// What the steps of a search for one task share.
 #[derive(Clone, Copy)]
-struct Search<'s, 'a> {
+struct TaskSearch<'s, 'a> {
     model: &'s Model<'a>,
     /// The model of the first pass: joint axes follow from the legs instead of being variables.
     coarse: &'s Model<'a>,
@@ -390,7 +391,7 @@ struct Search<'s, 'a> {
     options: &'s ShapeSearchOptions,
 }
 
-impl Search<'_, '_> {
+impl TaskSearch<'_, '_> {
     /// The points that are given, and the design itself unless its offsets are variables, in the variables of the first pass.
     fn given(&self, given: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let start = &self.model.shape.start;
@@ -409,7 +410,7 @@ impl Search<'_, '_> {
         &self,
         populations: std::ops::Range<usize>,
         given: &[Vec<f64>],
-        watch: &mut Watch<'_, '_, '_>,
+        watch: &mut ProgressReport<'_, '_, '_>,
     ) -> Vec<SearchStart> {
         let o = self.options;
         let (first, last) = (populations.start, populations.end);
@@ -438,7 +439,7 @@ impl Search<'_, '_> {
     fn first_pass(
         &self,
         given: &[Vec<f64>],
-        watch: &mut Watch<'_, '_, '_>,
+        watch: &mut ProgressReport<'_, '_, '_>,
     ) -> (Vec<Run>, Option<Vec<RefinedRun>>) {
         let populations = self.options.populations.max(1);
         let mut runs: Vec<Run> = Vec::new();
@@ -469,20 +470,20 @@ impl Search<'_, '_> {
     }
 
     /// See [`unmet`], asked where no climb met the requirements.
-    fn unmet(&self, runs: &[Run], watch: &mut Watch<'_, '_, '_>) -> Option<Vec<RefinedRun>> {
+    fn unmet(&self, runs: &[Run], watch: &mut ProgressReport<'_, '_, '_>) -> Option<Vec<RefinedRun>> {
         if runs.iter().any(Run::is_feasible) {
             return None;
         }
         let (model, without_axes) = (self.model, !std::ptr::eq(self.model, self.coarse));
         let ends: Vec<Vec<f64>> =
-            runs.iter().map(|run| End::new(model, without_axes, run.clone()).x).collect();
+            runs.iter().map(|run| FirstPassEnd::new(model, without_axes, run.clone()).x).collect();
         unmet(model, &ends, self.options.threads, watch)
     }
 
     /// Whether hardly another end is to be expected from further climbs; ends count as one by their worth over the same poses.
     fn are_all_found(&self, runs: &[Run]) -> bool {
         let mut judge = Judge::new(self.coarse, self.task);
-        let mut ends: Vec<Worth> = Vec::new();
+        let mut ends: Vec<PointMerit> = Vec::new();
         for worth in runs.iter().filter_map(|r| judge.worth(&r.x, usize::MAX, None)) {
             if !ends.iter().any(|known| known.is_close(&worth, SAME_END)) {
                 ends.push(worth);
@@ -492,7 +493,12 @@ impl Search<'_, '_> {
     }
 
     /// A short climb from each start; `known` climbs of `total` were done before.
-    fn climbs(&self, starts: &[SearchStart], known: usize, watch: &mut Watch<'_, '_, '_>) -> Vec<Run> {
+    fn climbs(
+        &self,
+        starts: &[SearchStart],
+        known: usize,
+        watch: &mut ProgressReport<'_, '_, '_>,
+    ) -> Vec<Run> {
         let total = known + starts.len();
         let climbed = |k: usize| rank(self.coarse, self.task, &starts[k]);
         let tick = &mut |done: usize, run: &Run| {
@@ -503,10 +509,10 @@ impl Search<'_, '_> {
     }
 
     /// The most promising ends polished, batch after batch, while others promise more than the best of them.
-    fn polished(&self, mut ends: FirstPass, watch: &mut Watch<'_, '_, '_>) -> Vec<RefinedRun> {
+    fn polished(&self, mut ends: FirstPass, watch: &mut ProgressReport<'_, '_, '_>) -> Vec<RefinedRun> {
         let Self { model, coarse, task, options } = *self;
         let has_objective = task.weights.iter().any(|w| *w > 0.0);
-        let adding = if has_objective { Adding::UntilNoneIsWorse } else { Adding::WhileMet };
+        let adding = if has_objective { PoseAdding::UntilNoneIsWorse } else { PoseAdding::WhileMet };
         let mut refined: Vec<RefinedRun> = Vec::new();
         for _ in 0..BATCHES {
             let gains = refined.iter().filter(|r| r.run.is_feasible()).map(|r| r.run.judged.gain(task));
@@ -577,7 +583,7 @@ fn searched(
 ) -> Result<DimensionalReport, InvalidProblem> {
     let model = Model::new(problem)?;
     let task = first_task(problem);
-    let mut watch = Watch::new(&model, progress);
+    let mut watch = ProgressReport::new(&model, progress);
     let SearchedShape { refined, starts, feasible } = search_task(&model, &task, given, options, &mut watch);
     let polished = refined.iter().map(|r| r.run.is_feasible().then(|| r.run.judged.gain(&task))).collect();
     let Conclusion { outcome, nearest, others } =
@@ -607,9 +613,9 @@ pub fn meet(
             *x = known.value;
         }
     }
-    let mut watch = Watch::new(&model, progress);
+    let mut watch = ProgressReport::new(&model, progress);
     let (poses, seed) = (model.first_poses(), options.seed);
-    let first = refine_adding(Adding::WhileMet, &model, &plain, &start, poses, seed);
+    let first = refine_adding(PoseAdding::WhileMet, &model, &plain, &start, poses, seed);
     watch.see(&first.run);
     let met = if first.run.is_feasible() {
         Some(first)
@@ -638,7 +644,7 @@ fn concluded(
     task: Task,
     mut refined: Vec<RefinedRun>,
     (options, explains): (&ShapeSearchOptions, bool),
-    watch: &mut Watch<'_, '_, '_>,
+    watch: &mut ProgressReport<'_, '_, '_>,
 ) -> Conclusion {
     let is_met = |refined: &[RefinedRun]| refined.first().is_some_and(|r| r.run.is_feasible());
     let unmet = |outcome, refined: &[RefinedRun]| {
@@ -697,7 +703,7 @@ fn met_or_conflict(
     task: &Task,
     refined: &mut Vec<RefinedRun>,
     (options, explains): (&ShapeSearchOptions, bool),
-    watch: &mut Watch<'_, '_, '_>,
+    watch: &mut ProgressReport<'_, '_, '_>,
 ) -> Option<ConstraintConflict> {
     let settled = elastic(model, task, refined, options.threads, watch);
     let mut met = settled.iter().find(|r| r.run.is_feasible()).cloned();
@@ -707,12 +713,12 @@ fn met_or_conflict(
     }
     if met.is_none() {
         match conflict(model, &settled, options, watch) {
-            Clash::Conflict(conflict) => {
+            ConflictOutcome::Conflict(conflict) => {
                 among(task, refined, settled);
                 return Some(conflict);
             }
-            Clash::Met(refined) => met = Some(*refined),
-            Clash::Unsettled => among(task, refined, settled),
+            ConflictOutcome::Met(refined) => met = Some(*refined),
+            ConflictOutcome::Unsettled => among(task, refined, settled),
         }
     }
     if let Some(met) = met {
@@ -735,7 +741,7 @@ fn through_levels(
     mut refined: Vec<RefinedRun>,
     slack: f64,
     options: &ShapeSearchOptions,
-    watch: &mut Watch<'_, '_, '_>,
+    watch: &mut ProgressReport<'_, '_, '_>,
 ) -> (Task, Vec<RefinedRun>) {
     let levels = model.problem.objectives.len();
     for level in 1..levels {

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::problem::{InvalidProblem, Triangles, Variables};
 use super::pull::Rate;
-use super::skeleton::{Fixed, OctahedralSides, OnFamilies, Room, ScaledBodies, Skeleton};
+use super::skeleton::{Fixed, OctahedralSides, OnFamilies, ReachLeft, ScaledBodies, Skeleton};
 use num::small::symmetric_eigen3;
 use platform::geom::Pose;
 use platform::manipulator::{Body, InvalidManipulator, Manipulator, Octahedral};
@@ -151,7 +151,7 @@ impl Shape {
     }
 
     /// How far the ends of sliding legs may still go out.
-    pub(super) fn rooms(&self, ends: &JointEnds) -> Vec<Room> {
+    pub(super) fn rooms(&self, ends: &JointEnds) -> Vec<ReachLeft> {
         self.skeleton.rooms(&ends.base, &ends.platform)
     }
 

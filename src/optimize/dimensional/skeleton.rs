@@ -36,7 +36,7 @@ pub(crate) trait Skeleton: Debug + Send + Sync {
     }
 
     /// How far ends may still go out.
-    fn rooms(&self, _base: &[Vector3<f64>; 6], _platform: &[Vector3<f64>; 6]) -> Vec<Room> {
+    fn rooms(&self, _base: &[Vector3<f64>; 6], _platform: &[Vector3<f64>; 6]) -> Vec<ReachLeft> {
         Vec::new()
     }
 
@@ -53,7 +53,7 @@ pub(crate) trait Skeleton: Debug + Send + Sync {
 
 /// How far the end of a leg may still go out, in reaches of its body.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Room {
+pub(super) struct ReachLeft {
     pub leg: usize,
     pub body: Body,
     pub value: f64,
@@ -128,7 +128,7 @@ impl Skeleton for ScaledBodies {
 
 /// A triangle that is stretched in its plane about its centroid.
 #[derive(Debug, Clone)]
-struct Triangle {
+struct StretchedTriangle {
     centre: Vector3<f64>,
     /// Coordinates of the vertices in `axes`.
     plane: [[f64; 2]; 3],
@@ -138,7 +138,7 @@ struct Triangle {
     kind: Triangles,
 }
 
-impl Triangle {
+impl StretchedTriangle {
     fn new(vertices: [Point3<f64>; 3], kind: Triangles, first: Option<usize>) -> Self {
         let centre = vertices.iter().map(|v| v.coords).sum::<Vector3<f64>>() / 3.0;
         let edge = (vertices[1] - vertices[0]).normalize();
@@ -184,7 +184,7 @@ impl Triangle {
 pub(crate) struct OctahedralSides {
     /// Leg of the design for each leg in cyclic order.
     order: [usize; 6],
-    triangles: [Triangle; 2],
+    triangles: [StretchedTriangle; 2],
     /// Variable of each offset.
     offsets: Option<[usize; 6]>,
 }
@@ -222,7 +222,7 @@ impl OctahedralSides {
             let chosen = if v.keeps_body(body) { Triangles::Fixed } else { chosen };
             let (diagonal, shear) = (v.stretch_bounds, 0.5 * (v.stretch_bounds.1 - v.stretch_bounds.0));
             match chosen {
-                Triangles::Fixed => return Triangle::new(vertices, chosen, None),
+                Triangles::Fixed => return StretchedTriangle::new(vertices, chosen, None),
                 Triangles::Sizes => {
                     layout.add(format!("{body} size"), diagonal, 0.0);
                 }
@@ -232,7 +232,7 @@ impl OctahedralSides {
                     layout.add(format!("{body} stretch yy"), diagonal, 0.0);
                 }
             }
-            Triangle::new(vertices, chosen, Some(first))
+            StretchedTriangle::new(vertices, chosen, Some(first))
         };
         let triangles = [triangle(o.base(), Body::Base), triangle(o.platform(), Body::Platform)];
         Ok(Self { order: o.order().map(LegIndex::get), triangles, offsets })
@@ -536,13 +536,13 @@ impl Skeleton for OnFamilies {
         Some((det, self.rates(x).iter().map(by).collect()))
     }
 
-    fn rooms(&self, base: &[Vector3<f64>; 6], platform: &[Vector3<f64>; 6]) -> Vec<Room> {
+    fn rooms(&self, base: &[Vector3<f64>; 6], platform: &[Vector3<f64>; 6]) -> Vec<ReachLeft> {
         let mut out = Vec::new();
         for s in &self.sliding {
             for (body, ends) in [(Body::Base, base), (Body::Platform, platform)] {
                 if !s.is_fixed(body) {
                     let (value, gradient) = self.room_of(body, &ends[s.leg]);
-                    out.push(Room { leg: s.leg, body, value, gradient });
+                    out.push(ReachLeft { leg: s.leg, body, value, gradient });
                 }
             }
         }

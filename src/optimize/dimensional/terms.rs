@@ -31,7 +31,7 @@ pub(crate) enum ConvexForm {
 
 /// A requirement at a pose.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Item<P> {
+pub(super) struct PoseTerm<P> {
     pub id: TermId,
     pub value: f64,
     pub pull: P,
@@ -84,7 +84,7 @@ impl<'a> RequirementTerms<'a> {
         l: &LegLines,
         ends: &JointEnds,
         x: &[f64],
-        see: &mut impl FnMut(Item<P>),
+        see: &mut impl FnMut(PoseTerm<P>),
     ) {
         self.lengths(l, see);
         self.swing(l, ends, x, see);
@@ -106,7 +106,7 @@ impl<'a> RequirementTerms<'a> {
         l: &LegLines,
         (ends, x): (&JointEnds, &[f64]),
         (kind, first, second): (TermKind, usize, usize),
-        see: &mut impl FnMut(Item<P>),
+        see: &mut impl FnMut(PoseTerm<P>),
     ) {
         match kind {
             TermKind::LegTooShort | TermKind::LegTooLong => self.lengths(l, see),
@@ -122,7 +122,7 @@ impl<'a> RequirementTerms<'a> {
     }
 
     /// Stiffness over the least one asked for, and half of the square of the natural frequency over its least one, each less what it has to be.
-    fn stiffness<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+    fn stiffness<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(wanted) = self.required.platform_stiffness else { return };
         let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
         let of = |kind, least: f64| 1.0 + self.required.reserve(kind) / least;
@@ -142,7 +142,7 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
-    fn lengths<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+    fn lengths<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(limits) = self.required.hardware.leg_length else { return };
         let (least, greatest) = limits.range();
         let least = least + self.required.reserve(TermKind::LegTooShort);
@@ -151,14 +151,25 @@ impl<'a> RequirementTerms<'a> {
             let mut pull = P::none();
             pull.line(i, l.direction[i] / self.size);
             let short = (l.length[i] - least) / self.size;
-            see(Item { id: (TermKind::LegTooShort, i, i, 0), value: short, pull, exact: None });
+            see(PoseTerm { id: (TermKind::LegTooShort, i, i, 0), value: short, pull, exact: None });
             let exact = Some(ConvexForm::Length { leg: i, greatest });
             let long = (greatest - l.length[i]) / self.size;
-            see(Item { id: (TermKind::LegTooLong, i, i, 0), value: long, pull: pull.scaled(-1.0), exact });
+            see(PoseTerm {
+                id: (TermKind::LegTooLong, i, i, 0),
+                value: long,
+                pull: pull.scaled(-1.0),
+                exact,
+            });
         }
     }
 
-    fn swing<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, x: &[f64], see: &mut impl FnMut(Item<P>)) {
+    fn swing<P: Gradient>(
+        &self,
+        l: &LegLines,
+        ends: &JointEnds,
+        x: &[f64],
+        see: &mut impl FnMut(PoseTerm<P>),
+    ) {
         let h = &self.required.hardware;
         let bodies = [(TermKind::BaseSwing, h.base_swing), (TermKind::PlatformSwing, h.platform_swing)];
         for (body, (kind, swing)) in bodies.into_iter().enumerate() {
@@ -176,7 +187,7 @@ impl<'a> RequirementTerms<'a> {
         x: &[f64],
         (body, kind, i): (usize, TermKind, usize),
         swing: &Swing,
-    ) -> Item<P> {
+    ) -> PoseTerm<P> {
         let cos = (swing.limits_deg[i] - self.required.reserve(kind)).to_radians().cos();
         let here = |c: &Vector3<f64>| if body == 0 { *c } else { l.rotation * c };
         let back = |g: &Vector3<f64>| if body == 0 { *g } else { l.rotation.inverse() * g };
@@ -209,12 +220,12 @@ impl<'a> RequirementTerms<'a> {
             }
         };
         pull.line(i, (axis - l.direction[i] * cos) / self.size);
-        Item { id: (kind, i, i, 0), value: (d.dot(&axis) - cos * l.length[i]) / self.size, pull, exact }
+        PoseTerm { id: (kind, i, i, 0), value: (d.dot(&axis) - cos * l.length[i]) / self.size, pull, exact }
     }
 
     /// Angles of universal joints: `(d.n - cos(limit) |d'|) / size` for the first, `d'` the part of the line across the first axis, and `(sin(limit) |d| -+ d.a) / size` for both sides of the
     /// second.
-    fn hinges<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+    fn hinges<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, see: &mut impl FnMut(PoseTerm<P>)) {
         let hardware = &self.required.hardware;
         for kind in TermKind::HINGES {
             let Some((body, angle)) = kind.hinge() else { continue };
@@ -236,7 +247,12 @@ impl<'a> RequirementTerms<'a> {
                             let value = limit.sin() * l.length[i] - side * l.line[i].dot(&first);
                             let mut pull = P::none();
                             pull.line(i, (l.direction[i] * limit.sin() - first * side) / self.size);
-                            see(Item { id: (kind, i, i, part), value: value / self.size, pull, exact: None });
+                            see(PoseTerm {
+                                id: (kind, i, i, part),
+                                value: value / self.size,
+                                pull,
+                                exact: None,
+                            });
                         }
                     }
                 }
@@ -251,7 +267,7 @@ impl<'a> RequirementTerms<'a> {
         (body, kind, i): (Body, TermKind, usize),
         (first, rest_axes): (Vector3<f64>, JointAxes),
         limit: f64,
-    ) -> Item<P> {
+    ) -> PoseTerm<P> {
         let (turn, home) = if body == Body::Base {
             (nalgebra::Rotation3::identity(), nalgebra::Rotation3::identity())
         } else {
@@ -271,7 +287,7 @@ impl<'a> RequirementTerms<'a> {
         let Some(rest) = spread.try_normalize(0.0) else {
             // no rest direction: as far from it as an angle can be
             let value = -(1.0 + limit.cos()) * aside.norm() / self.size;
-            return Item { id, value, pull: P::none(), exact: None };
+            return PoseTerm { id, value, pull: P::none(), exact: None };
         };
         let mut pull = P::none();
         if !matches!(rest_axes, JointAxes::Given(_)) {
@@ -282,7 +298,7 @@ impl<'a> RequirementTerms<'a> {
         let away = aside.try_normalize(0.0).unwrap_or_default();
         pull.line(i, turn * (rest - away * limit.cos()) / self.size);
         let value = d.dot(&rest) - limit.cos() * aside.norm();
-        Item { id, value: value / self.size, pull, exact: None }
+        PoseTerm { id, value: value / self.size, pull, exact: None }
     }
 
     /// The length of the part of a leg across the first axis of its universal joint.
@@ -294,7 +310,7 @@ impl<'a> RequirementTerms<'a> {
         first.cross(&l.line[leg]).norm()
     }
 
-    fn leg_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+    fn leg_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         for (i, j) in self.separate_legs() {
             self.leg_clearance(l, (i, j), see);
         }
@@ -304,13 +320,13 @@ impl<'a> RequirementTerms<'a> {
         &self,
         l: &LegLines,
         (i, j): (usize, usize),
-        see: &mut impl FnMut(Item<P>),
+        see: &mut impl FnMut(PoseTerm<P>),
     ) {
         let h = &self.required.hardware;
         let Some(body) = h.leg_body else { return };
         let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(TermKind::LegClearance);
         l.leg_gaps(&body, i, j, &mut |gap: Gap<P>| {
-            see(Item {
+            see(PoseTerm {
                 id: (TermKind::LegClearance, i, j, gap.part),
                 value: (gap.value - clearance) / self.size,
                 pull: gap.pull.scaled(1.0 / self.size),
@@ -319,7 +335,7 @@ impl<'a> RequirementTerms<'a> {
         });
     }
 
-    fn keep_outs<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+    fn keep_outs<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
             for i in 0..6 {
                 self.shape_clearance(l, (TermKind::KeepOut, i, k), keep_out, see);
@@ -327,7 +343,7 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
-    fn payload_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+    fn payload_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(shape) = self.required.payload_shape else { return };
         let payload = KeepOut { name: String::new(), fixed_to: Body::Platform, shape };
         for i in 0..6 {
@@ -340,13 +356,13 @@ impl<'a> RequirementTerms<'a> {
         l: &LegLines,
         (kind, i, k): (TermKind, usize, usize),
         shape: &KeepOut,
-        see: &mut impl FnMut(Item<P>),
+        see: &mut impl FnMut(PoseTerm<P>),
     ) {
         let h = &self.required.hardware;
         let Some(body) = h.leg_body else { return };
         let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
         l.keep_out_gaps(&body, i, shape, &mut |gap: Gap<P>| {
-            see(Item {
+            see(PoseTerm {
                 id: (kind, i, k, gap.part),
                 value: (gap.value - clearance) / self.size,
                 pull: gap.pull.scaled(1.0 / self.size),
@@ -356,7 +372,12 @@ impl<'a> RequirementTerms<'a> {
     }
 
     /// Legs clear of both plates: at the plate of an end a leg counts from the housing of its joint on.
-    fn plate_clearances<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+    fn plate_clearances<P: Gradient>(
+        &self,
+        l: &LegLines,
+        ends: &JointEnds,
+        see: &mut impl FnMut(PoseTerm<P>),
+    ) {
         let h = &self.required.hardware;
         let Some(leg_body) = h.leg_body else { return };
         let kind = TermKind::PlateClearance;
@@ -365,7 +386,7 @@ impl<'a> RequirementTerms<'a> {
             for i in 0..6 {
                 let reach = h.joint_reach(model.body, i);
                 plate.clearances(l, (&leg_body, i, reach), &mut |part, gap, pull: P| {
-                    see(Item {
+                    see(PoseTerm {
                         id: (kind, i, model.body.index(), part),
                         value: (gap - clearance) / self.size,
                         pull: pull.scaled(1.0 / self.size),
@@ -384,7 +405,7 @@ impl<'a> RequirementTerms<'a> {
             .filter(move |&(i, j)| joints[i].0 != joints[j].0 && joints[i].1 != joints[j].1)
     }
 
-    fn forces<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+    fn forces<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(greatest) = self.required.hardware.max_leg_force else { return };
         let kept = 1.0 - self.required.reserve(TermKind::LegForce) / greatest;
         let inverse = inverse_of_columns(l, self.size);
@@ -396,21 +417,21 @@ impl<'a> RequirementTerms<'a> {
                     Some(f) => {
                         let (value, pull): (f64, P) = f.of(l, i, self.size);
                         let factor = -value.signum() / greatest;
-                        Item {
+                        PoseTerm {
                             id,
                             value: kept - value.abs() / greatest,
                             pull: pull.scaled(factor),
                             exact: None,
                         }
                     }
-                    None => Item { id, value: SINGULAR_FORCE, pull: P::none(), exact: None },
+                    None => PoseTerm { id, value: SINGULAR_FORCE, pull: P::none(), exact: None },
                 };
                 see(item);
             }
         }
     }
 
-    fn speeds<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+    fn speeds<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let (Some(greatest), Some(speed)) =
             (self.required.hardware.max_leg_speed, self.required.platform_speed)
         else {
@@ -426,12 +447,12 @@ impl<'a> RequirementTerms<'a> {
                 l.pull_row(&mut pull, i, 1.0, &g);
             }
             let value = kept - (speed.linear + rate * moment.norm()) / greatest;
-            see(Item { id: (TermKind::LegSpeed, i, i, 0), value, pull, exact: None });
+            see(PoseTerm { id: (TermKind::LegSpeed, i, i, 0), value, pull, exact: None });
         }
     }
 
     /// Requirements without a pose: gaps of housings and distances of joint centres.
-    pub(super) fn fixed<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+    pub(super) fn fixed<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(PoseTerm<P>)) {
         for (kind, body) in [(TermKind::BaseSpacing, Body::Base), (TermKind::PlatformSpacing, Body::Platform)]
         {
             let reserve = self.required.reserve(kind);
@@ -445,7 +466,7 @@ impl<'a> RequirementTerms<'a> {
                 for (part, gap) in gaps.into_iter().enumerate().filter_map(|(k, gap)| Some((k, gap?))) {
                     let pull = joint_pull(body, i, j, &(gap.slope / self.size));
                     let value = (gap.value - reserve) / self.size;
-                    see(Item { id: (kind, i, j, part), value, pull, exact: None });
+                    see(PoseTerm { id: (kind, i, j, part), value, pull, exact: None });
                 }
             }
         }
@@ -454,7 +475,7 @@ impl<'a> RequirementTerms<'a> {
     }
 
     /// Holes of the plates: far enough from outlines and from each other.
-    fn patterns<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+    fn patterns<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(PoseTerm<P>)) {
         for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
             let edge = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
             let gap = model.body.of((TermKind::BaseHoleGap, TermKind::PlatformHoleGap));
@@ -464,7 +485,7 @@ impl<'a> RequirementTerms<'a> {
     }
 
     /// Joints inside the envelope of their body.
-    fn plates<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+    fn plates<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(PoseTerm<P>)) {
         let envelopes = &self.required.envelopes;
         let bodies = [
             (TermKind::BaseEnvelope, Body::Base, envelopes.base),
@@ -483,14 +504,14 @@ impl<'a> RequirementTerms<'a> {
                         Body::Platform => pull.at_arm(i, &g),
                     }
                     let value = (margin.value - reserve) / self.size;
-                    see(Item { id: (kind, i, i, part), value, pull, exact: None });
+                    see(PoseTerm { id: (kind, i, i, part), value, pull, exact: None });
                 });
             }
         }
     }
 
     /// Both ends of each leg inside the envelope of the machine.
-    fn machine<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+    fn machine<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(envelope) = self.required.envelopes.machine else { return };
         let kind = TermKind::MachineEnvelope;
         let reserve = self.required.reserve(kind);
@@ -508,7 +529,7 @@ impl<'a> RequirementTerms<'a> {
                         }
                     }
                     let value = (margin.value - reserve) / self.size;
-                    see(Item { id: (kind, i, body.index(), part), value, pull, exact: None });
+                    see(PoseTerm { id: (kind, i, body.index(), part), value, pull, exact: None });
                 });
             }
         }
@@ -549,12 +570,12 @@ fn quotients<P: Gradient>(
     found: Option<Vec<RayleighQuotient<P>>>,
     factor: f64,
     wanted: f64,
-    see: &mut impl FnMut(Item<P>),
+    see: &mut impl FnMut(PoseTerm<P>),
 ) {
     let none = vec![RayleighQuotient { value: 0.0, pull: P::none() }];
     for (part, q) in found.unwrap_or(none).into_iter().enumerate() {
         let value = q.value * factor - wanted;
-        see(Item { id: (kind, 0, 0, part), value, pull: q.pull.scaled(factor), exact: None });
+        see(PoseTerm { id: (kind, 0, 0, part), value, pull: q.pull.scaled(factor), exact: None });
     }
 }
 

@@ -10,7 +10,7 @@ use super::leg_lines::{HeldPose, LegLines};
 use super::merit::{Merit, MeritPiece};
 use super::model::Model;
 use super::shape::JointEnds;
-use super::terms::Item;
+use super::terms::PoseTerm;
 use crate::climb::{ConstraintGroup, PointValues, Task};
 use machine::requirements::{Objective, TermKind};
 use num::{Purpose, Rng};
@@ -41,14 +41,14 @@ struct Seen {
     worst: Vec<(f64, Vector6<f64>)>,
 }
 
-struct Look<'a> {
+struct PoseScan<'a> {
     model: &'a Model<'a>,
     ends: JointEnds,
     x: &'a [f64],
     task: &'a Task,
 }
 
-impl Look<'_> {
+impl PoseScan<'_> {
     fn lines(&self, cube: &Vector6<f64>) -> LegLines {
         let pose = self.model.problem.space.pose(cube);
         LegLines::new(&self.ends, &HeldPose { pose, follows: true })
@@ -61,7 +61,7 @@ impl Look<'_> {
             let least = out.entry(q).or_insert(f64::INFINITY);
             *least = f64::min(*least, value);
         };
-        self.model.terms.visit(l, &self.ends, self.x, &mut |item: Item<()>| {
+        self.model.terms.visit(l, &self.ends, self.x, &mut |item: PoseTerm<()>| {
             if !self.task.dropped.contains(&ConstraintGroup::Term(item.id.0)) {
                 keep(PoseQuantity::Constraint(item.id.0, item.id.1, item.id.2), item.value);
             }
@@ -85,7 +85,7 @@ impl Look<'_> {
         if longest { -value } else { value }
     }
 
-    /// The least of [`Look::length`] of all legs over the held poses.
+    /// The least of [`PoseScan::length`] of all legs over the held poses.
     fn least_length(&self, held: &[HeldPose], longest: bool) -> f64 {
         let at = |at: &HeldPose| {
             let l = LegLines::new(&self.ends, at);
@@ -103,7 +103,7 @@ impl Look<'_> {
             PoseQuantity::Length(leg, longest) => self.length(&l, leg, longest),
             PoseQuantity::Constraint(kind, first, second) => {
                 let (mut least, ends) = (f64::INFINITY, (&self.ends, self.x));
-                self.model.terms.visit_some(&l, ends, (kind, first, second), &mut |item: Item<()>| {
+                self.model.terms.visit_some(&l, ends, (kind, first, second), &mut |item: PoseTerm<()>| {
                     if (item.id.0, item.id.1, item.id.2) == (kind, first, second) {
                         least = least.min(item.value);
                     }
@@ -164,7 +164,7 @@ pub(crate) fn worse_poses(
     if axes.is_empty() {
         return Vec::new();
     }
-    let look = Look { model, ends: model.shape.ends(x), x, task };
+    let look = PoseScan { model, ends: model.shape.ends(x), x, task };
     let judged = model.judge(held, x, task, sign);
     let mut seen: BTreeMap<PoseQuantity, Seen> = BTreeMap::new();
     for cube in space.cube_points(POINTS, &mut Purpose::WORSE_POSES.rng(seed)) {
@@ -201,7 +201,7 @@ pub(crate) fn worse_poses(
 }
 
 /// A point that is being judged: violations only grow with every pose, and gains only fall.
-pub(crate) struct Judging<'m, 'a> {
+pub(crate) struct PointJudging<'m, 'a> {
     model: &'m Model<'a>,
     x: &'m [f64],
     task: &'m Task,
@@ -210,7 +210,7 @@ pub(crate) struct Judging<'m, 'a> {
     pub(crate) so_far: PointValues,
 }
 
-impl<'m, 'a> Judging<'m, 'a> {
+impl<'m, 'a> PointJudging<'m, 'a> {
     /// Begins with the requirements without a pose; `sign` of `det A` is to be kept.
     pub(super) fn new(model: &'m Model<'a>, x: &'m [f64], task: &'m Task, sign: f64) -> Self {
         let ends = model.shape.ends(x);
@@ -219,7 +219,7 @@ impl<'m, 'a> Judging<'m, 'a> {
         let mut out = Self { model, x, task, ends, lengths: (f64::INFINITY, f64::NEG_INFINITY), so_far };
         model
             .terms
-            .fixed(&ends, &mut |item: Item<()>| out.hold(ConstraintGroup::Term(item.id.0), item.value));
+            .fixed(&ends, &mut |item: PoseTerm<()>| out.hold(ConstraintGroup::Term(item.id.0), item.value));
         if let Some((value, _)) = model.determinant(x, sign) {
             out.hold(ConstraintGroup::Determinant, value);
         }
@@ -244,7 +244,7 @@ impl<'m, 'a> Judging<'m, 'a> {
         }
         // items of a kind come one after the other: each kind is looked up once
         let mut last: Option<(TermKind, f64)> = None;
-        model.terms.visit(&l, &ends, self.x, &mut |item: Item<()>| match &mut last {
+        model.terms.visit(&l, &ends, self.x, &mut |item: PoseTerm<()>| match &mut last {
             Some((kind, least)) if *kind == item.id.0 => {
                 *least = if least.is_nan() || item.value.is_nan() { f64::NAN } else { least.min(item.value) };
             }

@@ -58,7 +58,7 @@ pub(crate) type OffsetRanges = [(f64, f64); 6];
 /// What the limits of a problem leave of ranges and boxes of offsets.
 #[derive(Debug, Clone)]
 pub(crate) struct OffsetLimits {
-    sides: [Slide; 6],
+    sides: [SlidingJoint; 6],
     /// Square of the required distance.
     required: Interval,
     min_abs_det: f64,
@@ -67,13 +67,13 @@ pub(crate) struct OffsetLimits {
 
 /// A joint `start + t edge` and its distances from the vertices: `|from_vertex + t edge|`.
 #[derive(Debug, Clone, Copy)]
-struct Slide {
+struct SlidingJoint {
     start: Vector,
     edge: Vector,
     from_vertices: [Vector; 3],
 }
 
-impl Slide {
+impl SlidingJoint {
     fn new(side: &HexagonSide) -> Self {
         let [start, end, opposite] = [side.start, side.end, side.opposite].map(|p| vector(&p.coords));
         let from_vertices = [start, end, opposite].map(|v| minus(&start, &v));
@@ -125,7 +125,7 @@ impl Slide {
 impl OffsetLimits {
     pub(super) fn new(p: &OffsetProblem) -> Self {
         Self {
-            sides: sides(&p.octahedral, 1.0).map(|s| Slide::new(&s)),
+            sides: sides(&p.octahedral, 1.0).map(|s| SlidingJoint::new(&s)),
             required: point(p.min_joint_distance).square(),
             min_abs_det: p.min_abs_det,
             bounds: p.bounds,

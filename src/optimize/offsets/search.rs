@@ -154,7 +154,7 @@ const FINALISTS: usize = 3;
 
 /// What is searched: the problem as it was asked, as the search sees it, and as proofs see it.
 #[derive(Debug, Clone, Copy)]
-struct Asked<'a> {
+struct OffsetQuestion<'a> {
     problem: &'a OffsetProblem,
     m: &'a OffsetModel,
     limits: &'a OffsetLimits,
@@ -163,7 +163,7 @@ struct Asked<'a> {
 /// Best feasible run of a few short climbs from sampled starts, seeing the poses of `few`; without one, restoration, then a proof, then
 /// offsets that meet the limits with nothing to spare.
 fn rank_cell(
-    asked: Asked<'_>,
+    asked: OffsetQuestion<'_>,
     few: &OffsetModel,
     cell: &BranchCell,
     index: usize,
@@ -235,7 +235,7 @@ pub fn optimize(
         sample_cells(&m, &cells, options, best, progress)
     };
     let surveyed = sampled.is_none();
-    let asked = Asked { problem, m: &m, limits: &limits };
+    let asked = OffsetQuestion { problem, m: &m, limits: &limits };
     let ranked = sampled.unwrap_or_else(|| survey(asked, &cells, options, best, stopped, progress));
     let chosen = if surveyed { options.polished } else { FINALISTS };
     let starts = if surveyed { options.starts } else { 0 };
@@ -261,7 +261,7 @@ fn best_cells(ranked: &[CellResult], count: usize) -> Vec<usize> {
 
 /// Every cell searched for its own best.
 fn survey(
-    asked: Asked<'_>,
+    asked: OffsetQuestion<'_>,
     cells: &[&BranchCell],
     o: &OffsetSearchOptions,
     best: &Best,

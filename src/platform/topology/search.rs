@@ -24,13 +24,13 @@ pub fn sequences(legs: &[(usize, usize); 6], count: usize) -> Vec<Sequence> {
         }
         let first: Vec<JointIndex> = first.iter().copied().collect();
         let second: Vec<JointIndex> = second.iter().copied().collect();
-        let mut search = Search {
+        let mut search = SequenceSearch {
             legs,
             count,
             placed: first.clone(),
             first: &first,
             second: &second,
-            ..Search::new(legs)
+            ..SequenceSearch::new(legs)
         };
         search.extend(&mut found);
     }
@@ -39,7 +39,7 @@ pub fn sequences(legs: &[(usize, usize); 6], count: usize) -> Vec<Sequence> {
 }
 
 /// A sequence as far as it has been built.
-struct Search<'a> {
+struct SequenceSearch<'a> {
     legs: &'a Legs,
     count: usize,
     first: &'a [JointIndex],
@@ -49,7 +49,7 @@ struct Search<'a> {
     steps: Vec<Step>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> SequenceSearch<'a> {
     fn new(legs: &'a Legs) -> Self {
         let (virtual_legs, steps, placed) = (Vec::new(), Vec::new(), Vec::new());
         Self { legs, count: 0, first: &[], second: &[], placed, virtual_legs, steps }

@@ -10,7 +10,7 @@
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::TOLERANCE;
-use super::rotations::{Axes, Candidates, Projector, candidates, turned};
+use super::rotations::{Axes, Projector, RotationCandidates, candidates, turned};
 use crate::components::spectrum::{Spectrum, unit, without};
 use crate::leg_vector::{Normalisation, leg_vector};
 use num::Purpose;
@@ -78,7 +78,7 @@ impl LegSpace {
     }
 
     /// `L` over the entries `1, a, b`.
-    fn head(&self) -> Result<Head, LinalgError> {
+    fn head(&self) -> Result<HeadMap, LinalgError> {
         let rows: Vec<Vec<f64>> = self.basis.iter().map(|v| HEAD.map(|i| v[i]).to_vec()).collect();
         let d = svd(&rows)?;
         let rank = d.s.iter().filter(|s| **s > TOLERANCE).count();
@@ -91,13 +91,13 @@ impl LegSpace {
         let moments: Vec<Vec<f64>> = (rank..self.dimension()).map(|k| tail(k, 1.0)).collect();
         let image: Vec<Vec<f64>> = (0..rank).map(|k| (0..7).map(|i| d.v[i][k]).collect()).collect();
         let tails = (0..rank).map(|k| without(&tail(k, 1.0 / d.s[k]), &moments)).collect();
-        Ok(Head { image, tails, moments, gap })
+        Ok(HeadMap { image, tails, moments, gap })
     }
 }
 
 /// `L` as a linear map from its entries `(x_0, a, b)` to its 3 x 3 block `C`, up to the elements that have nothing but `C`.
 #[derive(Debug, Clone)]
-pub(super) struct Head {
+pub(super) struct HeadMap {
     /// Orthonormal basis of the possible `(x_0, a, b)`.
     image: Vec<Vec<f64>>,
     /// `C` of each, orthogonal to `moments`.
@@ -108,7 +108,7 @@ pub(super) struct Head {
     pub(super) gap: (f64, f64),
 }
 
-impl Head {
+impl HeadMap {
     pub(super) fn dimension(&self) -> usize {
         self.image.len()
     }
@@ -189,7 +189,7 @@ pub(super) fn centred(space: &LegSpace) -> Result<Centred, LinalgError> {
 type ShiftProblem = (Vec<Vec<f64>>, Vec<f64>);
 
 /// The blocks `C` of the elements `(0, a, b, C)`: a shift adds `s b^T + a t^T`.
-fn differences(head: &Head, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
+fn differences(head: &HeadMap, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
     let level = head.split()?.1;
     let column = |x: &Vec<f64>| {
         let (s, t) = pair(x);
@@ -203,7 +203,7 @@ fn differences(head: &Head, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgErr
 }
 
 /// The part of `(a, b)` of the elements `(1, a, b, C)` across those with first entry zero.
-fn heads(head: &Head, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
+fn heads(head: &HeadMap, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
     let (first, level) = head.split()?;
     let level: Vec<Vec<f64>> = level.iter().map(|d| d[1..].to_vec()).collect();
     Ok((open.iter().map(|x| without(x, &level)).collect(), first[1..].to_vec()))
@@ -213,7 +213,7 @@ fn heads(head: &Head, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
 ///
 /// An open shift `(s, t)` is itself the head of an element `(0, s, t, C')`, and `s t^T` is a moment: the block changes by
 /// `s b^T + a t^T - C'`.
-fn means(head: &Head, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
+fn means(head: &HeadMap, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
     let first = head.split()?.0;
     let (a, b) = pair(&first[1..]);
     let column = |x: &Vec<f64>| {
@@ -234,17 +234,17 @@ fn narrower(x: (f64, f64), y: (f64, f64)) -> (f64, f64) {
 }
 
 /// Solution of one least-squares problem.
-struct Solution {
+struct LeastSquares {
     shift: Vec<f64>,
     open: Vec<Vec<f64>>,
     gap: (f64, f64),
 }
 
 /// The shift within the open directions that makes `target` smallest, and the directions that do not change it.
-fn solve(open: &[Vec<f64>], columns: &[Vec<f64>], target: &[f64]) -> Result<Solution, LinalgError> {
+fn solve(open: &[Vec<f64>], columns: &[Vec<f64>], target: &[f64]) -> Result<LeastSquares, LinalgError> {
     let mut shift = vec![0.0; 6];
     if open.is_empty() || target.is_empty() {
-        return Ok(Solution { shift, open: open.to_vec(), gap: (1.0, 0.0) });
+        return Ok(LeastSquares { shift, open: open.to_vec(), gap: (1.0, 0.0) });
     }
     let d = svd(columns)?;
     let rank = d.s.iter().filter(|s| **s > TOLERANCE).count();
@@ -258,7 +258,7 @@ fn solve(open: &[Vec<f64>], columns: &[Vec<f64>], target: &[f64]) -> Result<Solu
         shift.iter_mut().zip(direction(k)).for_each(|(x, y)| *x -= along * y);
     }
     let rest: Vec<Vec<f64>> = (rank..open.len()).map(direction).collect();
-    Ok(Solution { shift, open: rest, gap })
+    Ok(LeastSquares { shift, open: rest, gap })
 }
 
 /// Size of the trial changes of joints that measure sensitivities, in units of the body; below the tolerance of every rank.
@@ -315,7 +315,7 @@ impl Canonical {
     }
 
     /// The smallest distance of the projectors over all candidates, and the candidates.
-    pub(super) fn nearest(&self, other: &Self, seed: u64) -> (f64, Candidates) {
+    pub(super) fn nearest(&self, other: &Self, seed: u64) -> (f64, RotationCandidates) {
         let found = candidates(&self.projector, &other.projector, seed);
         let distances = found.turns.iter().map(|t| (self.projector - turned(&other.projector, t)).norm());
         (distances.fold(f64::INFINITY, f64::min), found)

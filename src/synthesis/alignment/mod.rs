@@ -15,7 +15,7 @@ pub use outcome::{Alignment, AlignmentUndecided, Difference, Invariant, Motion, 
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use self::leg_space::{Canonical, ShiftSensitivity};
-use self::rotations::{Fit, refine};
+use self::rotations::{MotionPair, refine};
 use super::leg_map::{LegMapTolerances, Relation, leg_map};
 use super::leg_vector::Normalisation;
 use num::linalg::LinalgError;
@@ -113,7 +113,7 @@ impl RoundingBounds {
 }
 
 /// The motions of a fit in the frames and units of the designs.
-fn in_frames(fit: &Fit, a: &Canonical, b: &Canonical) -> (Pose, Pose) {
+fn in_frames(fit: &MotionPair, a: &Canonical, b: &Canonical) -> (Pose, Pose) {
     let pose = |fit: &Pose, unit: f64, from: (Point3<f64>, Vector3<f64>), to: (Point3<f64>, Vector3<f64>)| {
         let r = fit.rotation;
         let position = to.0.coords + (r * from.1 + fit.position - to.1) * unit - r * from.0.coords;

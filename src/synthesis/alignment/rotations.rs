@@ -121,7 +121,7 @@ pub(super) type Turns = (Matrix3<f64>, Matrix3<f64>);
 
 /// Candidates for the pair of rotations.
 #[derive(Debug, Clone)]
-pub(super) struct Candidates {
+pub(super) struct RotationCandidates {
     /// One of every connected family, if `complete`; starts for a search otherwise.
     pub(super) turns: Vec<Turns>,
     /// Every pair of rotations that maps the one span to the other is in the list, up to rotations that keep both spans.
@@ -140,7 +140,7 @@ pub(super) fn turned(p: &Projector, turns: &Turns) -> Projector {
 }
 
 /// What takes the span with projector `b` to the span with projector `a`.
-pub(super) fn candidates(a: &Projector, b: &Projector, seed: u64) -> Candidates {
+pub(super) fn candidates(a: &Projector, b: &Projector, seed: u64) -> RotationCandidates {
     let (base, platform) = (Axes::of_base(a, None), Axes::of_platform(a, None));
     let freedom = [base.freedom(), platform.freedom()];
     let in_a = (base.frame, platform.frame);
@@ -161,7 +161,7 @@ pub(super) fn candidates(a: &Projector, b: &Projector, seed: u64) -> Candidates 
             }
         }
     }
-    Candidates { turns, complete: !freedom.contains(&Freedom::All) }
+    RotationCandidates { turns, complete: !freedom.contains(&Freedom::All) }
 }
 
 /// Rotations among the axes, up to those about the third where these are left open.
@@ -181,7 +181,7 @@ fn flips(freedom: Freedom, drawn: usize, seed: u64) -> Vec<Matrix3<f64>> {
 
 /// A part of the projector that turns by `e^{i (m theta + n phi)}`: `(m, n)`, its norm in A, the phase that takes B to A.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct FourierPart {
     weight: (i32, i32),
     norm: f64,
     phase: f64,
@@ -192,7 +192,7 @@ fn angles(a: &Projector, b: &Projector, freedom: [Freedom; 2]) -> Vec<(f64, f64)
     let mut parts = parts(a, b, freedom.map(|f| f == Freedom::Axis));
     parts.sort_by(|x, y| y.norm.total_cmp(&x.norm));
     let Some(&first) = parts.first() else { return vec![(0.0, 0.0)] };
-    let across = |p: &&Part| p.weight.0 * first.weight.1 != p.weight.1 * first.weight.0;
+    let across = |p: &&FourierPart| p.weight.0 * first.weight.1 != p.weight.1 * first.weight.0;
     match parts.iter().find(across) {
         Some(second) => crossings(&first, second),
         None => along(&first),
@@ -200,7 +200,7 @@ fn angles(a: &Projector, b: &Projector, freedom: [Freedom; 2]) -> Vec<(f64, f64)
 }
 
 /// All angles modulo a full turn with both phases.
-fn crossings(x: &Part, y: &Part) -> Vec<(f64, f64)> {
+fn crossings(x: &FourierPart, y: &FourierPart) -> Vec<(f64, f64)> {
     let det = x.weight.0 * y.weight.1 - x.weight.1 * y.weight.0;
     let mut found: Vec<(f64, f64)> = Vec::new();
     for k in 0..det.abs() {
@@ -222,7 +222,7 @@ fn near(angle: f64) -> bool {
 }
 
 /// One pair of angles of every family `m theta + n phi = phase`: there are `gcd(m, n)` of them.
-fn along(x: &Part) -> Vec<(f64, f64)> {
+fn along(x: &FourierPart) -> Vec<(f64, f64)> {
     let (m, n) = x.weight;
     let families = gcd(m.unsigned_abs(), n.unsigned_abs());
     let angle = |k: u32| (x.phase + TAU * f64::from(k)) / f64::from(if m == 0 { n } else { m });
@@ -234,7 +234,7 @@ fn gcd(a: u32, b: u32) -> u32 {
 }
 
 /// The parts of `a` that are not silent, with weights up to sign and not zero.
-fn parts(a: &Projector, b: &Projector, open: [bool; 2]) -> Vec<Part> {
+fn parts(a: &Projector, b: &Projector, open: [bool; 2]) -> Vec<FourierPart> {
     let (a, b) = (circular(a), circular(b));
     // coordinates (1, x + i y, x - i y, z) turn by e^{0, i, -i, 0}
     let spin = |i: usize, open: bool| if open { [0, 1, -1, 0][i] } else { 0 };
@@ -256,7 +256,7 @@ fn parts(a: &Projector, b: &Projector, open: [bool; 2]) -> Vec<Part> {
             }
             let norm = f64::sqrt(norm);
             if norm > SILENT {
-                found.push(Part { weight: (m, n), norm, phase: inner.arg() });
+                found.push(FourierPart { weight: (m, n), norm, phase: inner.arg() });
             }
         }
     }
@@ -285,7 +285,7 @@ const FREE: f64 = 1e-7;
 
 /// A pair of motions of centred, normalised coordinates.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Fit {
+pub(super) struct MotionPair {
     pub(super) base: Pose,
     pub(super) platform: Pose,
     /// Dimensions in which the motions can move on without changing this to first order.
@@ -293,7 +293,7 @@ pub(super) struct Fit {
 }
 
 /// Improves the pair of rotations `turns`, joined by translations, so that the moved `legs` come near to `space`.
-pub(super) fn refine(space: &LegSpace, legs: &[Leg; 6], turns: &Turns) -> Result<Fit, LinalgError> {
+pub(super) fn refine(space: &LegSpace, legs: &[Leg; 6], turns: &Turns) -> Result<MotionPair, LinalgError> {
     let normals = Spectrum::of(&space.basis, 16)?.kernel(space.dimension()).to_vec();
     let still = |m: &Matrix3<f64>| Pose { rotation: nearest_rotation(m), position: Vector3::zeros() };
     let mut at = (still(&turns.0), still(&turns.1));
@@ -312,7 +312,7 @@ pub(super) fn refine(space: &LegSpace, legs: &[Leg; 6], turns: &Turns) -> Result
         at = next;
         errors = residuals(&normals, legs, &at);
     }
-    Ok(Fit { base: at.0, platform: at.1, freedom })
+    Ok(MotionPair { base: at.0, platform: at.1, freedom })
 }
 
 /// The step, halved until it brings the legs nearer; `None` when it does not.

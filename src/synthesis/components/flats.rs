@@ -121,7 +121,7 @@ fn plane_axes(normal: Vector3<f64>) -> Vec<Vector3<f64>> {
 /// `alpha (x) beta`. The span of the legs has rank `k'`; an orthonormal basis of its complement are the
 /// `m = (i + 1)(j + 1) - k'` equations.
 #[derive(Debug, Clone)]
-pub(super) struct Product {
+pub(super) struct FlatProduct {
     pub(super) base: Flat,
     pub(super) platform: Flat,
     pub(super) rank: usize,
@@ -130,7 +130,7 @@ pub(super) struct Product {
     pub(super) decision: Decision,
 }
 
-impl Product {
+impl FlatProduct {
     /// Of the legs with these ends (normalised coordinates); the rank is what the tolerance says, or prescribed.
     pub(super) fn new(
         base: Flat,
@@ -226,7 +226,7 @@ pub(super) struct ClosedPair {
     pub(super) platform: usize,
     pub(super) rank: usize,
     pub(super) reading: Reading,
-    pub(super) product: Product,
+    pub(super) product: FlatProduct,
     pub(super) decisions: Vec<Decision>,
 }
 
@@ -351,11 +351,11 @@ fn product(
     i: usize,
     j: usize,
     rank: Option<usize>,
-) -> Result<Product, LinalgError> {
+) -> Result<FlatProduct, LinalgError> {
     let pairs = ends.of(legs);
     let base = Flat::nearest(&pairs.iter().map(|p| p.0).collect::<Vec<_>>(), i)?;
     let platform = Flat::nearest(&pairs.iter().map(|p| p.1).collect::<Vec<_>>(), j)?;
-    Product::new(base, platform, &pairs, rank, ends.tolerance)
+    FlatProduct::new(base, platform, &pairs, rank, ends.tolerance)
 }
 
 /// All six legs between the flats they span within the tolerance.

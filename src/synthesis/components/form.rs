@@ -264,7 +264,7 @@ pub(super) fn incidence(line: &[f64], point: &[f64]) -> f64 {
 
 /// A part of a plane curve that does not split further over the reals.
 #[derive(Debug, Clone)]
-pub(super) struct Part {
+pub(super) struct RealPart {
     pub(super) form: Form,
     pub(super) kind: PartKind,
     /// How often it divides the curve.
@@ -311,8 +311,8 @@ impl PartKind {
 
 /// A curve in parts.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Split {
-    pub(super) parts: Vec<Part>,
+pub(super) struct SplitCurve {
+    pub(super) parts: Vec<RealPart>,
     /// The smallest residual of a line that was not accepted.
     pub(super) rejected: Option<f64>,
 }
@@ -324,14 +324,17 @@ pub(super) fn split(
     points: &[Vec<f64>],
     tolerance: f64,
     rng: &mut Rng,
-) -> Result<Split, LinalgError> {
-    let mut out = Split::default();
+) -> Result<SplitCurve, LinalgError> {
+    let mut out = SplitCurve::default();
     let mut rest = form.normalised();
     while rest.degree > 0 {
         let (best, measure) = best_line(&rest, points, tolerance, rng)?;
         if rest.degree == 1 || measure <= tolerance {
             let line = if rest.degree == 1 { rest.clone() } else { Form::linear(&best) };
-            push(&mut out, Part { form: line.normalised(), kind: PartKind::Line, multiplicity: 1, measure });
+            push(
+                &mut out,
+                RealPart { form: line.normalised(), kind: PartKind::Line, multiplicity: 1, measure },
+            );
             rest = rest.divided(&line)?.0.normalised();
             continue;
         }
@@ -341,14 +344,14 @@ pub(super) fn split(
             3 => (PartKind::Cubic, measure),
             _ => (PartKind::Higher, measure),
         };
-        out.parts.push(Part { form: rest.clone(), kind, multiplicity: 1, measure });
+        out.parts.push(RealPart { form: rest.clone(), kind, multiplicity: 1, measure });
         break;
     }
     Ok(out)
 }
 
-fn push(out: &mut Split, part: Part) {
-    let same = |p: &&mut Part| {
+fn push(out: &mut SplitCurve, part: RealPart) {
+    let same = |p: &&mut RealPart| {
         p.kind == PartKind::Line
             && norm(&cross(&unit(&p.form.coefficients), &unit(&part.form.coefficients))) < SAME
     };

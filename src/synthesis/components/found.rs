@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 
 use super::component::FamilyKind;
-use super::flats::{Flat, Product};
+use super::flats::{Flat, FlatProduct};
 use super::form::{Form, conic_frame, exponents, index, power};
 use super::shape::{Curve, FamilyShape};
 use super::spectrum::{
@@ -150,7 +150,7 @@ pub(super) struct FoundComponents {
 /// A product of flats seen from one body, which carries points over which partners stand: `product.base` belongs to `carrying`.
 #[derive(Debug, Clone)]
 pub(super) struct View<'a> {
-    pub(super) product: &'a Product,
+    pub(super) product: &'a FlatProduct,
     pub(super) carrying: Body,
     /// Ends of the legs of the pair on the carrying body and on the other one, normalised.
     pub(super) near: &'a [Vector3<f64>],

@@ -37,7 +37,7 @@ pub use component::{Component, FamilyKind, SampledLeg, flat_name};
 pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
 
 use self::flats::{BothReadings, ClosedPair, closed_pairs};
-use self::search::Search;
+use self::search::FamilySearch;
 use super::leg_vector::{LegSpan, Normalisation};
 use num::Rng;
 use num::algebraic::Algebraic;
@@ -160,7 +160,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     let mut pairs = closed_pairs(&ends)?;
     // families of the exact data first: what exists within the tolerance only is compared with them
     pairs.sort_by_key(|p| (p.reading == Reading::ToleranceOnly, p.base.min(p.platform), p.base + p.platform));
-    let mut search = Search {
+    let mut search = FamilySearch {
         ends: &ends,
         span: &span,
         rng: Rng::new(options.seed),
@@ -259,7 +259,7 @@ fn record(p: &ClosedPair, components: &[Component]) -> FlatPair {
 }
 
 /// The families in a fixed order, with what contains them.
-fn ordered(search: &mut Search<'_>) -> Result<Vec<Component>, LinalgError> {
+fn ordered(search: &mut FamilySearch<'_>) -> Result<Vec<Component>, LinalgError> {
     search.found.sort_by(|(_, a), (_, b)| {
         let key = |c: &Component| {
             let (low, high) = (c.base_span.min(c.platform_span), c.base_span.max(c.platform_span));

@@ -4,10 +4,10 @@
 use nalgebra::{Point3, Vector3};
 
 use super::exact_curve::{ExactCurve, NoExactCurve};
-use super::flats::{ClosedPair, Product};
+use super::flats::{ClosedPair, FlatProduct};
 use super::form::{
-    Form, Part, PartKind, SingularKind, Split, common_factor, cross, determinant, exponents, incidence,
-    index, line_basis, on_line, power, random_minor, random_vector, same_point, singular_kind,
+    Form, PartKind, RealPart, SingularKind, SplitCurve, common_factor, cross, determinant, exponents,
+    incidence, index, line_basis, on_line, power, random_minor, random_vector, same_point, singular_kind,
     singular_point, split,
 };
 use super::found::{FoundComponents, View};
@@ -28,7 +28,7 @@ pub(super) struct PlaneSide {
     pub(super) rank: usize,
     /// The curve on which the rank falls, of degree 0 where there is none.
     pub(super) form: Form,
-    pub(super) split: Split,
+    pub(super) split: SplitCurve,
     pub(super) decisions: Vec<Decision>,
     /// Families with the index of their part; `None` for one over the whole plane.
     pub(super) families: Vec<(Option<usize>, FoundComponents)>,
@@ -113,7 +113,7 @@ pub(super) fn plane_side(
 }
 
 /// The decision that made a part a part.
-fn part_decision(part: &Part, split: &Split, tolerance: f64) -> Decision {
+fn part_decision(part: &RealPart, split: &SplitCurve, tolerance: f64) -> Decision {
     let line = part.kind == PartKind::Line;
     Decision {
         question: if line { Question::LineFactor } else { Question::ConicRank },
@@ -401,7 +401,7 @@ fn curve(
     body: Body,
     frame: [Vector3<f64>; 3],
     side: &PlaneSide,
-    product: &Product,
+    product: &FlatProduct,
     tolerance: f64,
     rng: &mut Rng,
 ) -> Result<PlaneCurve, LinalgError> {
@@ -421,7 +421,7 @@ fn curve(
     }
     let mut decisions = side.decisions.clone();
     decisions.extend(gap);
-    let part = |p: &super::form::Part| CurvePart {
+    let part = |p: &super::form::RealPart| CurvePart {
         kind: p.kind,
         coefficients: p.form.coefficients.clone(),
         multiplicity: p.multiplicity,
@@ -496,7 +496,7 @@ pub fn curve_value(curve: &PlaneCurve, point: [f64; 3]) -> f64 {
 mod tests {
     use nalgebra::Vector3;
 
-    use super::super::flats::{Flat, Product};
+    use super::super::flats::{Flat, FlatProduct};
     use super::super::form::same_point;
     use super::*;
 
@@ -522,7 +522,7 @@ mod tests {
             }
             let (near, far): (Vec<_>, Vec<_>) = ends.iter().copied().unzip();
             let flats = (Flat::nearest(&near, 2).unwrap(), Flat::nearest(&far, 3).unwrap());
-            let product = Product::new(flats.0, flats.1, &ends, None, 1e-9).unwrap();
+            let product = FlatProduct::new(flats.0, flats.1, &ends, None, 1e-9).unwrap();
             let view =
                 View { product: &product, carrying: Body::Base, near: &near, far: &far, tolerance: 1e-9 };
             let (points, complex) = located(&view, &mut Rng::new(42)).unwrap();

@@ -26,7 +26,7 @@ type NormalisedLeg = (Vector3<f64>, Vector3<f64>);
 
 /// The families with the sets they are, in the order in which they were found.
 #[derive(Debug)]
-pub(super) struct Search<'a> {
+pub(super) struct FamilySearch<'a> {
     pub(super) ends: &'a BothReadings,
     pub(super) span: &'a LegSpan,
     pub(super) rng: Rng,
@@ -37,7 +37,7 @@ pub(super) struct Search<'a> {
     pub(super) doubts: Vec<String>,
 }
 
-impl Search<'_> {
+impl FamilySearch<'_> {
     pub(super) fn normalisation(&self) -> Normalisation {
         self.span.normalisation()
     }
@@ -293,7 +293,7 @@ fn names(legs: &[usize]) -> String {
     legs.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")
 }
 
-impl Search<'_> {
+impl FamilySearch<'_> {
     /// Whether a flat of partners of one point lies in a family of larger dimension.
     fn inside_larger(&self, found: &FoundComponents) -> bool {
         let FamilyShape::Product { base, platform, .. } = &found.shape else { return false };
@@ -395,7 +395,7 @@ impl Search<'_> {
     }
 }
 
-impl Search<'_> {
+impl FamilySearch<'_> {
     /// Centre and unit of the normalised coordinates of the carrying body.
     fn frame(&self, view: &View<'_>) -> (Vector3<f64>, f64) {
         let n = self.normalisation();

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::flats::{BothReadings, Flat, Product};
+use super::flats::{BothReadings, Flat, FlatProduct};
 use super::form::{Form, exponents, power};
 use super::found::{Polynomial, value};
 use super::spectrum::{Spectrum, dot, norm, orthonormal, unit, without};
@@ -69,7 +69,7 @@ pub(super) enum FamilyShape {
     /// One partner for every point of a plane: a vector of forms of the given degree.
     Graph { carrying: Body, carrier: Flat, other: Flat, degree: usize, map: Polynomial },
     /// A plane cubic and its partner; `platform` is the platform's curve, `centre` a joint on `base`.
-    Cubic { product: Box<Product>, base: Form, platform: Option<Form>, centre: Vec<f64> },
+    Cubic { product: Box<FlatProduct>, base: Form, platform: Option<Form>, centre: Vec<f64> },
 }
 
 /// Sine of the angle between a vector and a span.
@@ -236,7 +236,7 @@ pub(super) fn frame(flat: &Flat, centre: Vector3<f64>, scale: f64) -> [Vector3<f
     [centre + flat.origin * scale, axis(0), axis(1)]
 }
 
-fn pencil(product: &Product, base: &Form, centre: &[f64], n: &Normalisation) -> CubicPencil {
+fn pencil(product: &FlatProduct, base: &Form, centre: &[f64], n: &Normalisation) -> CubicPencil {
     let matrix = |e: &Vec<f64>| [0, 1, 2].map(|p| [0, 1, 2].map(|q| e[p * 3 + q]));
     CubicPencil {
         base_frame: frame(&product.base, n.base_centre.coords, n.base_unit),

@@ -152,16 +152,16 @@ struct Star {
 
 /// All families, and the dimensions of the summands.
 #[derive(Debug, Clone)]
-pub(super) struct Split {
+pub(super) struct SplitFamilies {
     pub(super) pieces: Vec<Piece>,
     pub(super) summands: Vec<usize>,
 }
 
 /// What was found about a sample.
 #[derive(Debug, Clone)]
-pub(super) enum Outcome {
+pub(super) enum SampleOutcome {
     /// All families of the sample, which are those of every general member.
-    Found(Split),
+    Found(SplitFamilies),
     /// An intersection is larger than it is in general: another sample has to be drawn.
     Special,
     /// The span is no such sum.
@@ -200,7 +200,7 @@ fn stars(sample: &DesignSample, body: Body) -> Vec<Star> {
 }
 
 /// Finds the sum over points of `body`.
-pub(super) fn split(sample: &DesignSample, body: Body) -> Outcome {
+pub(super) fn split(sample: &DesignSample, body: Body) -> SampleOutcome {
     let there = body.other();
     let (own, most) = (sample.dimension(body) + 1, sample.dimension(there) + 1);
     let all = stars(sample, body);
@@ -209,9 +209,9 @@ pub(super) fn split(sample: &DesignSample, body: Body) -> Outcome {
         let points: Vec<ExactVector> = s.iter().map(|k| all[*k].point.clone()).collect();
         legs == 6 && s.iter().all(|k| all[*k].sees.len() <= most) && rank(&points) == own
     });
-    let Some(chosen) = chosen else { return Outcome::None };
+    let Some(chosen) = chosen else { return SampleOutcome::None };
     let basis: Vec<&Star> = chosen.iter().map(|k| &all[*k]).collect();
-    families(sample, body, &basis).map_or(Outcome::Special, Outcome::Found)
+    families(sample, body, &basis).map_or(SampleOutcome::Special, SampleOutcome::Found)
 }
 
 /// The least dimension that the intersection of the `V_j` has: joints in common, and what counting dimensions guarantees.
@@ -228,7 +228,7 @@ fn least(basis: &[&Star], most: usize, set: &[usize]) -> usize {
 }
 
 /// The families; `None` when an intersection has more than its least dimension.
-fn families(sample: &DesignSample, body: Body, basis: &[&Star]) -> Option<Split> {
+fn families(sample: &DesignSample, body: Body, basis: &[&Star]) -> Option<SplitFamilies> {
     let there = body.other();
     let most = sample.dimension(there) + 1;
     let mut pieces = Vec::new();
@@ -258,16 +258,16 @@ fn families(sample: &DesignSample, body: Body, basis: &[&Star]) -> Option<Split>
         let (base, platform) = if body == Body::Base { (own, flat) } else { (flat, own) };
         pieces.push(Piece { kind: PieceKind::AllPairs, base, platform, parts: set, weight });
     }
-    Some(Split { pieces, summands: basis.iter().map(|s| s.sees.len()).collect() })
+    Some(SplitFamilies { pieces, summands: basis.iter().map(|s| s.sees.len()).collect() })
 }
 
 /// The families; `None` when the sample is special.
-pub(super) fn at_joints(sample: &DesignSample, legs: &[(usize, usize); 6]) -> Option<Split> {
+pub(super) fn at_joints(sample: &DesignSample, legs: &[(usize, usize); 6]) -> Option<SplitFamilies> {
     let both = Body::BOTH;
     if !both.into_iter().all(|body| flats_meet_in_joints(sample, body)) {
         return None;
     }
-    let mut split = Split { pieces: complete_graphs(sample, legs), summands: vec![1; 6] };
+    let mut split = SplitFamilies { pieces: complete_graphs(sample, legs), summands: vec![1; 6] };
     let flat = both.into_iter().find(|b| sample.dimension(*b) == 2);
     if let Some(pairing) = flat.and_then(|body| pairing(sample, body)) {
         // a single leg at a joint of the line is a leg of the pairing

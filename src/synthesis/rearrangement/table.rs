@@ -5,7 +5,7 @@
 use thiserror::Error;
 
 use super::octahedral::{Reduction, from_cubics, from_families, in_space};
-use super::pieces::{Outcome, Piece, PieceKind, PlaneGroups, Split, at_joints, split};
+use super::pieces::{Piece, PieceKind, PlaneGroups, SampleOutcome, SplitFamilies, at_joints, split};
 use super::sample::{Arrangement, DesignSample};
 use crate::components::flat_name;
 use num::exact::{ExactVector, rank};
@@ -179,7 +179,7 @@ fn of_sample(
 ) -> Option<Rearrangement> {
     let (argument, found) = families(sample, topology)?;
     let member = Arrangement::of_sample(sample)?;
-    let Some(Split { pieces, summands }) = found else {
+    let Some(SplitFamilies { pieces, summands }) = found else {
         let planes = PlaneGroups::of(sample);
         let legs = planes.legs(sample);
         let fewest = joint_free(&legs, &mut Vec::new(), 0)?;
@@ -219,12 +219,12 @@ fn of_sample(
 }
 
 /// All families, `None` inside for a pair of curves; `None` for a special sample.
-fn families(sample: &DesignSample, topology: NamedTopology) -> Option<(Argument, Option<Split>)> {
+fn families(sample: &DesignSample, topology: NamedTopology) -> Option<(Argument, Option<SplitFamilies>)> {
     for body in Body::BOTH {
         match split(sample, body) {
-            Outcome::Found(found) => return Some((Argument::Stars(body), Some(found))),
-            Outcome::Special => return None,
-            Outcome::None => {}
+            SampleOutcome::Found(found) => return Some((Argument::Stars(body), Some(found))),
+            SampleOutcome::Special => return None,
+            SampleOutcome::None => {}
         }
     }
     if in_space(sample).is_some() {

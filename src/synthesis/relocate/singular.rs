@@ -24,13 +24,13 @@ const ZERO: f64 = 1e-9;
 const LINES: usize = 360;
 
 /// The determinant of `a` with the row of the move replaced by the coefficients of the leg, times the denominators of the leg's ends.
-struct Along<'a> {
+struct RowDeterminant<'a> {
     found: &'a Components,
     step: &'a LegMove,
     rest: &'a Matrix6<f64>,
 }
 
-impl Along<'_> {
+impl RowDeterminant<'_> {
     fn determinant(&self, leg: &Leg) -> f64 {
         let mut a = *self.rest;
         for (j, c) in self.found.span.coefficients(leg).into_iter().enumerate() {
@@ -59,7 +59,7 @@ pub(super) fn singular_parameters(
     step: &LegMove,
     rest: &Matrix6<f64>,
 ) -> Result<SingularParameters, LinalgError> {
-    let along = Along { found, step, rest };
+    let along = RowDeterminant { found, step, rest };
     match step.formulas(&found.components[step.family]) {
         Parametrisation::Rational { base, platform, .. } => {
             let degree = |p: &crate::components::MovingPoint| {
@@ -72,7 +72,7 @@ pub(super) fn singular_parameters(
 }
 
 /// `det A` times the denominators is a polynomial of known degree: interpolated, and its roots.
-fn rational(along: &Along, degree: usize) -> Result<SingularParameters, LinalgError> {
+fn rational(along: &RowDeterminant, degree: usize) -> Result<SingularParameters, LinalgError> {
     let mut nodes = Vec::new();
     // Chebyshev points of [-1, 2], those without a leg left out
     let count = degree + 1;
@@ -132,7 +132,7 @@ fn interpolate(nodes: &[(f64, f64)]) -> Vec<f64> {
     out
 }
 
-fn cubic(along: &Along) -> Result<SingularParameters, LinalgError> {
+fn cubic(along: &RowDeterminant) -> Result<SingularParameters, LinalgError> {
     let step = 2.0 / LINES as f64;
     let mut values = Vec::new();
     for k in 0..=LINES {

@@ -307,13 +307,13 @@ struct TriangleFrame {
 }
 
 /// A circle about a side of the base.
-struct Circle {
+struct SideCircle {
     centre: Vector3<f64>,
     across: Vector3<f64>,
     normal: Vector3<f64>,
 }
 
-impl Circle {
+impl SideCircle {
     fn at(&self, angle: f64) -> Vector3<f64> {
         self.centre + self.across * angle.cos() + self.normal * angle.sin()
     }
@@ -338,14 +338,14 @@ impl TriangleFrame {
     }
 
     /// Where corner `k` of the platform can be.
-    fn circle(&self, k: usize, o: &[f64; 6]) -> Option<Circle> {
+    fn circle(&self, k: usize, o: &[f64; 6]) -> Option<SideCircle> {
         let (from, to) = (self.base[k], self.base[(k + 1) % 3]);
         let side = to - from;
         let part = (o[2 * k] - o[2 * k + 1] + side.norm_squared()) / (2.0 * side.norm_squared());
         let square = o[2 * k] - part * part * side.norm_squared();
         let radius = square.sqrt();
         let across = side.cross(&self.normal).normalize() * radius;
-        (!radius.is_nan()).then(|| Circle {
+        (!radius.is_nan()).then(|| SideCircle {
             centre: from + side * part,
             across,
             normal: self.normal * radius,
@@ -353,7 +353,7 @@ impl TriangleFrame {
     }
 
     /// The corners with the first at `angle`, the others on the branches `first` and `second`.
-    fn corners(&self, circles: &[Circle; 3], angle: f64, branch: usize) -> Option<[Vector3<f64>; 3]> {
+    fn corners(&self, circles: &[SideCircle; 3], angle: f64, branch: usize) -> Option<[Vector3<f64>; 3]> {
         let first = circles[0].at(angle);
         let second = circles[1].at_distance(&first, self.sides[0])?[branch % 2];
         let third = circles[2].at_distance(&first, self.sides[2])?[branch / 2];

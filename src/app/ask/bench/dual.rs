@@ -6,7 +6,7 @@
 
 use num_complex::Complex64;
 
-use super::newton::{LegEquations, Point, solve};
+use super::newton::{Point, ValidationEquations, solve};
 use num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
 
 /// Corrections that no longer shrink below this, relative to the largest of `e`, `g`, are rounding.
@@ -69,7 +69,7 @@ fn quaternion(x: &Point) -> (Quaternion, usize) {
 ///
 /// It starts at the claimed dual quaternion, or where there is none at that of the pose.
 pub(super) fn refine_dual(
-    legs: &LegEquations,
+    legs: &ValidationEquations,
     start: &Point,
     claimed: Option<&[Complex64; 8]>,
 ) -> Option<(Point, f64)> {
@@ -110,7 +110,12 @@ pub(super) fn refine_dual(
 ///
 /// With `v = g + e b - a e` of leg 1 and `u = v_i - v = e (b_i - b) - (a_i - a) e`, the difference of two legs is
 /// `u.(2 v + u) - (s_i - s) e.e`: the square of a large `g` is not in it.
-fn linearised(legs: &LegEquations, e: &Quaternion, g: &Quaternion, patch: usize) -> ([[Z; 8]; 8], [Z; 8]) {
+fn linearised(
+    legs: &ValidationEquations,
+    e: &Quaternion,
+    g: &Quaternion,
+    patch: usize,
+) -> ([[Z; 8]; 8], [Z; 8]) {
     let (mut jacobian, mut values) = ([[Z::ZERO; 8]; 8], [Z::ZERO; 8]);
     let turned = |a: &Quaternion, b: &Quaternion, q: &Quaternion| sum(&product(q, b), &product(a, q), -1.0);
     let joints = |i: usize| (pure_real(&legs.base[i]), pure_real(&legs.platform[i]));

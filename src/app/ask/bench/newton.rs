@@ -14,7 +14,7 @@ use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 
 const N: usize = 12;
 
-/// A pose in double-double: rows of `R`, then `p` in units of [`LegEquations`].
+/// A pose in double-double: rows of `R`, then `p` in units of [`ValidationEquations`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Point(pub(super) [Z; N]);
 
@@ -47,7 +47,7 @@ impl Point {
 
 /// The equations of one problem.
 #[derive(Debug, Clone)]
-pub(super) struct LegEquations {
+pub(super) struct ValidationEquations {
     /// Joints in double-double: those that are known exactly are no doubles.
     pub(super) base: [[DoubleDouble; 3]; 6],
     pub(super) platform: [[DoubleDouble; 3]; 6],
@@ -69,7 +69,7 @@ pub(super) struct NewtonEnd {
     pub(super) proper: bool,
 }
 
-impl LegEquations {
+impl ValidationEquations {
     pub(super) fn new(m: &Manipulator, s: &SquaredLegLengths) -> Self {
         let unit = 2f64.powi(m.size().log2().floor() as i32);
         let legs = m.legs();
@@ -196,7 +196,7 @@ impl LegEquations {
     }
 }
 
-/// Steps that [`LegEquations::steps_from_beside`] takes.
+/// Steps that [`ValidationEquations::steps_from_beside`] takes.
 const STEPS_BESIDE: usize = 9;
 
 /// Corrections of this relative length are as good as `R`, `p` ever give.

@@ -72,7 +72,7 @@ pub struct WrongAnswer {
 
 /// What one problem gave.
 #[derive(Debug, Clone)]
-pub(super) struct Outcome {
+pub(super) struct ProblemOutcome {
     pub(super) k: u64,
     pub(super) verdict: Validation,
     pub(super) claimed: usize,
@@ -116,7 +116,7 @@ fn one(
     k: u64,
     solver: &dyn ForwardKinematics,
     reference: &dyn ForwardKinematics,
-) -> Result<Outcome, NotDrawn> {
+) -> Result<ProblemOutcome, NotDrawn> {
     let problem = problem(plan.class, plan.lengths, plan.seed, k)?;
     let counting = if plan.count_poses { PoseCounting::WhenUnproved } else { PoseCounting::Never };
     let options = FkOptions::new().seed(plan.seed).pose_count(counting);
@@ -153,7 +153,7 @@ fn one(
     });
     verdict.false_certificates += usize::from(claimed_complete && verdict.missed > 0);
     let poses: Vec<ComplexPose> = claims.iter().map(|c| c.pose).collect();
-    Ok(Outcome {
+    Ok(ProblemOutcome {
         k,
         verdict,
         claimed: claims.len(),
@@ -194,7 +194,7 @@ pub fn run(
         }
     };
     let start = Instant::now();
-    let parts: Vec<Result<Vec<Outcome>, RunError>> = std::thread::scope(|scope| {
+    let parts: Vec<Result<Vec<ProblemOutcome>, RunError>> = std::thread::scope(|scope| {
         let others: Vec<_> = (1..plan.threads.max(1)).map(|_| scope.spawn(work)).collect();
         let mut parts = vec![work()];
         for other in others {
@@ -204,7 +204,7 @@ pub fn run(
         parts
     });
     let seconds = start.elapsed().as_secs_f64();
-    let mut outcomes: Vec<Outcome> =
+    let mut outcomes: Vec<ProblemOutcome> =
         parts.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     outcomes.sort_by_key(|o| o.k);
     Ok(summarise(plan, expected, seconds, &outcomes))

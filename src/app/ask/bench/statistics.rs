@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::run::{Outcome, Plan, WrongAnswer};
+use super::run::{Plan, ProblemOutcome, WrongAnswer};
 
 /// The error measure of Martyushev over the problems.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,7 +101,7 @@ pub(super) fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
     values.iter().enumerate().find(|(i, _)| (*i + 1) as f64 >= q * n).map_or(0.0, |(_, value)| *value)
 }
 
-fn epsilon(outcomes: &[Outcome]) -> ErrorStatistics {
+fn epsilon(outcomes: &[ProblemOutcome]) -> ErrorStatistics {
     // no roots, or residuals that are all zero: nothing to take the logarithm of
     let values: Vec<f64> = outcomes.iter().map(|o| o.metric).filter(|e| e.is_finite()).collect();
     let n = (values.len() as f64).max(1.0);
@@ -115,15 +115,20 @@ fn epsilon(outcomes: &[Outcome]) -> ErrorStatistics {
     }
 }
 
-fn is_wrong(o: &Outcome) -> bool {
+fn is_wrong(o: &ProblemOutcome) -> bool {
     o.verdict.missed + o.verdict.spurious + o.verdict.false_certificates > 0
 }
 
-pub(super) fn summarise(plan: &Plan, expected: usize, seconds: f64, outcomes: &[Outcome]) -> BenchReport {
-    let count = |test: &dyn Fn(&Outcome) -> bool| outcomes.iter().filter(|o| test(o)).count() as u64;
-    let sum = |of: &dyn Fn(&Outcome) -> usize| outcomes.iter().map(|o| of(o) as u64).sum();
-    let median = |of: &dyn Fn(&Outcome) -> f64| quantile(outcomes.iter().map(of), 0.5);
-    let histogram = |of: &dyn Fn(&Outcome) -> usize| {
+pub(super) fn summarise(
+    plan: &Plan,
+    expected: usize,
+    seconds: f64,
+    outcomes: &[ProblemOutcome],
+) -> BenchReport {
+    let count = |test: &dyn Fn(&ProblemOutcome) -> bool| outcomes.iter().filter(|o| test(o)).count() as u64;
+    let sum = |of: &dyn Fn(&ProblemOutcome) -> usize| outcomes.iter().map(|o| of(o) as u64).sum();
+    let median = |of: &dyn Fn(&ProblemOutcome) -> f64| quantile(outcomes.iter().map(of), 0.5);
+    let histogram = |of: &dyn Fn(&ProblemOutcome) -> usize| {
         let mut counts = BTreeMap::new();
         for outcome in outcomes {
             *counts.entry(of(outcome)).or_default() += 1;

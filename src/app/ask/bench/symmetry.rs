@@ -18,7 +18,7 @@ struct Reflection {
 
 /// The two reflections of a doubly planar platform.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Mirror {
+pub(super) struct PlanarReflections {
     base: Reflection,
     platform: Reflection,
 }
@@ -43,7 +43,7 @@ fn reflection(points: [Vector3<f64>; 6]) -> Option<Reflection> {
     })
 }
 
-impl Mirror {
+impl PlanarReflections {
     /// The mirror symmetry of a platform with two planar bodies.
     pub(super) fn of(m: &Manipulator) -> Option<Self> {
         let legs = m.legs();

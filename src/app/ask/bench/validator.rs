@@ -8,8 +8,8 @@ use num::double_double::ComplexDoubleDouble;
 use platform::geom::ComplexPose;
 
 use super::generator::Problem;
-use super::newton::{LegEquations, NewtonEnd, Point};
-use super::symmetry::Mirror;
+use super::newton::{NewtonEnd, Point, ValidationEquations};
+use super::symmetry::PlanarReflections;
 
 /// Largest residual of a root, relative to the square of the pose's own numbers.
 const RESIDUAL: f64 = 1e-9;
@@ -74,7 +74,7 @@ struct Root {
 /// planar bodies, mirror images.
 #[must_use]
 pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> Validation {
-    let equations = LegEquations::new(&problem.manipulator, &problem.squares);
+    let equations = ValidationEquations::new(&problem.manipulator, &problem.squares);
     let mut verdict = Validation::default();
     let mut roots: Vec<Root> = Vec::new();
     for claim in claims {
@@ -120,7 +120,7 @@ fn is_regular(start: &Point, refined: &NewtonEnd) -> bool {
 }
 
 /// Steps of Newton's method from beside a root of multiplicity `m` shrink by `(m - 1) / m`, once the directions in which the root is simple are settled; the claimed discs hold the pose.
-fn is_multiple(equations: &LegEquations, claim: &Claim, start: &Point) -> bool {
+fn is_multiple(equations: &ValidationEquations, claim: &Claim, start: &Point) -> bool {
     let expected = 1.0 - 1.0 / f64::from(claim.multiplicity);
     let shrink_so = |distance: f64| {
         let steps = equations.steps_from_beside(start, distance);
@@ -197,7 +197,7 @@ fn is_as_claimed(claim: &Claim, refined: &NewtonEnd, unit: f64) -> bool {
 /// Counts regular roots known from symmetry or from elsewhere that no claim accounts for.
 fn missed(
     problem: &Problem,
-    equations: &LegEquations,
+    equations: &ValidationEquations,
     roots: &[Root],
     claims: &[Claim],
     others: &[ComplexPose],
@@ -220,7 +220,7 @@ fn missed(
             look(equations.refine(&conjugate), true);
         }
     }
-    let mirror = Mirror::of(&problem.manipulator);
+    let mirror = PlanarReflections::of(&problem.manipulator);
     let images = claims.iter().filter_map(|c| mirror.map(|m| m.image(&c.pose)));
     for pose in images.chain(others.iter().copied()) {
         let start = equations.point(&pose);

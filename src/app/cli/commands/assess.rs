@@ -13,7 +13,7 @@ use records::AssessAnswer;
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct AssessArgs {
     /// Design file (.toml or .json) with the tables home, workspace and hardware
     design: PathBuf,
     /// Number of poses of a Halton sequence in the region of poses, and as many random ones
@@ -31,7 +31,7 @@ pub(crate) struct Args {
 }
 
 /// Evaluates the requirements.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &AssessArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     if Context::coupled_of(&design)?.is_some() && design.requirements().leaves_out_moving_legs() {
         let message = format!(

@@ -11,13 +11,13 @@ use records::CheckAnswer;
 
 /// Arguments of `check`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct CheckArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
 }
 
 /// Decides and explains.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &CheckArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let m = design.manipulator();
     let found = design.check_with(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;

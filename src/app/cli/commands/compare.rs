@@ -24,7 +24,7 @@ use records::{AccuracyRecord, CompareAnswer, FigureCell, FigureColumn, FiguresRe
 
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct CompareArgs {
     /// Design files (.toml or .json), all in the same units
     #[arg(value_name = "DESIGN", required = true, num_args = 1..)]
     designs: Vec<PathBuf>,
@@ -52,14 +52,14 @@ pub(crate) struct Args {
 const SAMPLES: usize = 120;
 
 /// What is asked of all designs.
-pub(super) struct Asked {
+pub(super) struct CompareQuestion {
     motions: Vec<(String, Manoeuvre)>,
     accuracy: Option<ErrorBound>,
     points: usize,
     seed: u64,
 }
 
-impl Asked {
+impl CompareQuestion {
     /// Figures alone, for the report.
     pub(super) fn plain(points: usize) -> Self {
         Self { motions: Vec::new(), accuracy: None, points, seed: 1 }
@@ -67,7 +67,7 @@ impl Asked {
 }
 
 /// Every design has its figures: exit 0.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &CompareArgs, context: &mut Context) -> Result<Answer, Failure> {
     let mut designs = Vec::new();
     for path in &args.designs {
         designs.push((files::shown(path), context.load_ideal(path)?));
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer::new(Exit::Yes, comparison.answer, text))
 }
 
-fn asked(args: &Args, context: &Context) -> Result<Asked, Failure> {
+fn asked(args: &CompareArgs, context: &Context) -> Result<CompareQuestion, Failure> {
     let bad = |option: &str, why: &dyn std::fmt::Display| {
         let help = "an axis is x, y, z, roll, pitch or yaw: --sine z:50:1, --accelerate yaw:90";
         Failure::refused("compare::bad_manoeuvre", format!("{option}: {why}")).with_help(help)
@@ -112,14 +112,19 @@ fn asked(args: &Args, context: &Context) -> Result<Asked, Failure> {
         }
         Ok(ErrorBound { position, rotation_deg })
     });
-    Ok(Asked { motions, accuracy: accuracy.transpose()?, points: args.points as usize, seed: context.seed() })
+    Ok(CompareQuestion {
+        motions,
+        accuracy: accuracy.transpose()?,
+        points: args.points as usize,
+        seed: context.seed(),
+    })
 }
 
 /// The figures and pictures of all designs.
 ///
 /// # Errors
 /// `compare::units_differ`.
-pub(super) fn compare(designs: &[(String, Design)], asked: &Asked) -> Result<Comparison, Failure> {
+pub(super) fn compare(designs: &[(String, Design)], asked: &CompareQuestion) -> Result<Comparison, Failure> {
     let all =
         |unit: &dyn Fn(&Design) -> String| designs.iter().map(|(_, d)| unit(d)).collect::<BTreeSet<_>>();
     let (lengths, forces) =

@@ -19,7 +19,7 @@ use records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord};
 
 /// Arguments of `export`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct ExportArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Formats, separated by commas, or `all`
@@ -62,7 +62,7 @@ fn names() -> Vec<&'static str> {
     ExportFormat::ALL.map(ExportFormat::name).into_iter().chain(["all"]).collect()
 }
 
-fn model(args: &Args, design: &Design, hole_places: Option<f64>) -> Result<Export, Failure> {
+fn model(args: &ExportArgs, design: &Design, hole_places: Option<f64>) -> Result<Export, Failure> {
     let unit = args.unit.as_deref().map(LengthUnit::of).transpose();
     let unit = unit.map_err(|e| Failure::refused("export::unknown_unit", format!("--unit: {e}")))?;
     let mut options = ExportOptions::new();
@@ -94,7 +94,7 @@ pub(super) fn plain(design: &Design) -> Result<Export, Failure> {
 }
 
 /// The formats asked for, each once, in the order of the list.
-fn wanted(args: &Args) -> Vec<&'static dyn Writer> {
+fn wanted(args: &ExportArgs) -> Vec<&'static dyn Writer> {
     let all = args.to.iter().any(|t| t == "all");
     let asked = |f: &ExportFormat| all || args.to.iter().any(|t| t == f.name());
     ExportFormat::ALL.into_iter().filter(asked).map(ExportFormat::writer).collect()
@@ -105,7 +105,7 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
 }
 
 /// The diameter in which the centre of each hole has to lie, where an accuracy is asked for: the joints are where their holes are.
-fn hole_places(args: &Args, design: &Design, context: &Context) -> Result<Option<f64>, Failure> {
+fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<Option<f64>, Failure> {
     let Some(bound) = &args.bound else {
         context.no_effect("tool", "it is the point whose accuracy --bound asks for")?;
         return Ok(None);
@@ -118,7 +118,7 @@ fn hole_places(args: &Args, design: &Design, context: &Context) -> Result<Option
 }
 
 /// Writes every format that can hold the design; exit 1 when one cannot.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let coupled = Context::coupled_of(&design)?.is_some();
     if args.bound.is_some() || (coupled && !wanted(args).iter().any(|f| f.takes_coupled())) {

@@ -15,7 +15,7 @@ use records::{
 
 /// Arguments of `limits`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct LimitsArgs {
     /// Design file (.toml or .json) with the table hardware or cranks, or `-` for standard input
     design: PathBuf,
     /// The pose to move from: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
@@ -38,7 +38,7 @@ pub(crate) struct Args {
 const BAD_POSE: &str = "limits::bad_pose";
 
 /// Exit 1 where the pose, or the one asked for with `--to`, is not allowed.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_ideal(&args.design)?;
     let at = poses::parse(&args.at, &design, "--at", BAD_POSE)?;
     let to = args.to.as_ref().map(|text| poses::parse(text, &design, "--to", BAD_POSE)).transpose()?;

@@ -54,60 +54,60 @@ const GENERAL: &str = "every design is taken by `equipod explore`, `equipod chec
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Write a design from a few sizes, from corners, from a table of points or from a model
-    New(new::Args),
+    New(new::NewArgs),
     /// Find all poses, real and complex, for given leg lengths
-    Fk(fk::Args),
+    Fk(fk::FkArgs),
     /// Compute the leg lengths at given poses
-    Ik(ik::Args),
+    Ik(ik::IkArgs),
     /// Compute how far the platform may move from a pose, and the nearest allowed pose
-    Limits(limits::Args),
+    Limits(limits::LimitsArgs),
     /// Compute and change the platforms equivalent to a design
     #[command(subcommand)]
-    Equivalents(equivalents::Command),
+    Equivalents(equivalents::EquivalentsCommand),
     /// Decide whether two designs are kinematically equivalent
-    Verify(verify::Args),
+    Verify(verify::VerifyArgs),
     /// Run the whole analysis of a design and write it into a folder
-    Explore(explore::Args),
+    Explore(explore::ExploreArgs),
     /// Decide whether a design meets its requirements at all poses of its workspace
-    Assess(assess::Args),
+    Assess(assess::AssessArgs),
     /// Set designs side by side: margins, forces, stiffness, sizes, tolerances
-    Compare(compare::Args),
+    Compare(compare::CompareArgs),
     /// Compute forces, speeds and powers of the legs along a trajectory or standard manoeuvres
-    Motion(motion::Args),
+    Motion(motion::MotionArgs),
     /// Find the best platform under the requirements of a design
-    Optimize(optimize::Args),
+    Optimize(optimize::OptimizeArgs),
     /// Decide whether a design is architecturally singular, and explain why
-    Check(check::Args),
+    Check(check::CheckArgs),
     /// Find singular poses and self-motions
     #[command(subcommand)]
-    Singular(singular::Command),
+    Singular(singular::SingularCommand),
     /// Round joints to a grid of holes and budget their tolerances
     #[command(subcommand)]
-    Build(build::Command),
+    Build(build::BuildCommand),
     /// Compute many designs from a plan, in shards that may be interrupted
     #[command(subcommand)]
-    Sweep(sweep::Command),
+    Sweep(sweep::SweepCommand),
     /// Find the joints and leg offsets of a machine from measured poses and lengths
-    Calibrate(calibrate::Args),
+    Calibrate(calibrate::CalibrateArgs),
     /// Write files for CAD, simulators, machine controls, tables and drawings
-    Export(export::Args),
+    Export(export::ExportArgs),
     /// Convert design files, start from designs of real hardware, print schemas
     #[command(subcommand)]
-    Design(design::Command),
+    Design(design::DesignCommand),
     /// Draw one picture as SVG; `equipod plot --help` lists the figures
-    Plot(plot::Args),
+    Plot(plot::PlotArgs),
     /// Write a design as one live HTML page
-    View(view::Args),
+    View(view::ViewArgs),
     /// Write a folder of results as one HTML page
-    Report(report::Args),
+    Report(report::ReportArgs),
     /// Solve random problems, validate the answers by independent code, count and time them
-    Bench(bench::Args),
+    Bench(bench::BenchArgs),
     /// Print completion scripts and write manual pages
     #[command(subcommand)]
-    Shell(shell::Command),
+    Shell(shell::ShellCommand),
     /// Write the options of all commands into the manual
     #[command(hide = true)]
-    Reference(reference::Args),
+    Reference(reference::ReferenceArgs),
 }
 
 impl Command {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::compare::{Asked, compare};
+use super::compare::{CompareQuestion, compare};
 use super::explore::folder::FIRST;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -26,7 +26,7 @@ pub(super) const PAGE: &str = "report.html";
 const MOST_BYTES: u64 = 64 << 20;
 /// Arguments of `report`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct ReportArgs {
     /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); of folders in it only the bill of materials machine/parts.csv is read
     #[arg(value_name = "DIR")]
     folder: PathBuf,
@@ -39,7 +39,7 @@ pub(crate) struct Args {
 }
 
 /// Writes the page.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &ReportArgs, context: &mut Context) -> Result<Answer, Failure> {
     let output = args.output.as_deref().map_or_else(|| args.folder.join(PAGE), Path::to_path_buf);
     let found = gather(&args.folder, &output)?;
     if found.is_empty() {
@@ -77,7 +77,7 @@ fn side_by_side(files: &[ReportFile]) -> Option<Comparison> {
     let designs: Vec<(String, Design)> =
         files.iter().filter_map(|f| design_of(f).map(|design| (f.name.clone(), design))).collect();
     let several = designs.len() > 1;
-    several.then(|| compare(&designs, &Asked::plain(COMPARED_POSES)).ok()).flatten()
+    several.then(|| compare(&designs, &CompareQuestion::plain(COMPARED_POSES)).ok()).flatten()
 }
 
 /// The live page of a design; it begins with the offsets that a result among the files found.

@@ -15,7 +15,7 @@ use verify::{Verdict, VerifyError, verify_mapped};
 
 /// Arguments of `verify`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct VerifyArgs {
     /// Design file (.toml or .json); its home pose and workspace give the sample poses
     a: PathBuf,
     /// Design file to compare with, in the same units and, without --align, in the same two frames
@@ -35,7 +35,7 @@ pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
 }
 
 /// The leg map, forward kinematics of both at the samples, and the verdict.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Answer, Failure> {
     let (a, b) = (context.load(&args.a)?, context.load(&args.b)?);
     same_units(&a, &b, "verify::different_units")?;
     let second = args.frames.apply(&a, &b, context)?;

@@ -12,7 +12,7 @@ use records::{AssessAnswer, ViewAnswer};
 
 /// Arguments of `view`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct ViewArgs {
     /// Design file (.toml or .json); without it the page asks for a hexapod: from a data sheet, twelve points or an example
     design: Option<PathBuf>,
     /// Write the page to this file; the name of the design file with .html when absent, equipod.html without a design
@@ -36,7 +36,7 @@ pub(crate) struct Args {
 }
 
 /// Writes the page.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &ViewArgs, context: &mut Context) -> Result<Answer, Failure> {
     let mut session = match &args.design {
         Some(path) => Session::new(context.load_ideal(path)?),
         None => Session::without_design().map_err(|e| Failure::internal(e.to_string()))?,

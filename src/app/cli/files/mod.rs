@@ -163,7 +163,7 @@ impl Identity {
 
 /// The files of this run.
 #[derive(Debug, Default)]
-struct Run {
+struct FilesOfRun {
     read: Vec<Identity>,
     /// What [`read_text`] read, for the provenance of the answer.
     texts: Vec<FileSourceRecord>,
@@ -174,7 +174,7 @@ struct Run {
 
 thread_local! {
     /// Commands read and write on the thread they are started on; computing threads see no files.
-    static RUN: RefCell<Run> = RefCell::default();
+    static RUN: RefCell<FilesOfRun> = RefCell::default();
 }
 
 /// Forgets the files of an earlier run of this thread.

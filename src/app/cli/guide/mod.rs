@@ -11,7 +11,7 @@ use clap::{Command, CommandFactory};
 use super::args::Cli;
 
 /// Commands that serve one job.
-struct Job {
+struct CommandGroup {
     heading: &'static str,
     commands: &'static [GuideEntry],
 }
@@ -34,8 +34,8 @@ const fn entry(
     GuideEntry { path, examples, words }
 }
 
-const JOBS: [Job; 10] = [
-    Job {
+const JOBS: [CommandGroup; 10] = [
+    CommandGroup {
         heading: "Start",
         commands: &[entry(
             "new",
@@ -47,7 +47,7 @@ const JOBS: [Job; 10] = [
             &["init", "create", "import", "start"],
         )],
     },
-    Job {
+    CommandGroup {
         heading: "Solve",
         commands: &[
             entry(
@@ -79,7 +79,7 @@ const JOBS: [Job; 10] = [
             ),
         ],
     },
-    Job {
+    CommandGroup {
         heading: "Equivalent designs",
         commands: &[
             entry(
@@ -123,7 +123,7 @@ const JOBS: [Job; 10] = [
             entry("explore", &["explore designs/rbt-octahedral.toml -o out"], &["analyse", "analyze"]),
         ],
     },
-    Job {
+    CommandGroup {
         heading: "Requirements",
         commands: &[
             entry("assess", &["assess designs/worked/bench-octahedral.toml"], &["requirements", "margins"]),
@@ -146,7 +146,7 @@ const JOBS: [Job; 10] = [
             ),
         ],
     },
-    Job {
+    CommandGroup {
         heading: "Singular designs and poses",
         commands: &[
             entry("check", &["check designs/rbt-midline.toml"], &["architecture", "singular-design"]),
@@ -162,7 +162,7 @@ const JOBS: [Job; 10] = [
             ),
         ],
     },
-    Job {
+    CommandGroup {
         heading: "Build",
         commands: &[
             entry(
@@ -195,7 +195,7 @@ const JOBS: [Job; 10] = [
             ),
         ],
     },
-    Job {
+    CommandGroup {
         heading: "Many designs",
         commands: &[
             entry(
@@ -219,7 +219,7 @@ const JOBS: [Job; 10] = [
             ),
         ],
     },
-    Job {
+    CommandGroup {
         heading: "Design files",
         commands: &[
             entry(
@@ -238,7 +238,7 @@ const JOBS: [Job; 10] = [
             entry("design schema", &["design schema", "design schema equivalents-family"], &["json-schema"]),
         ],
     },
-    Job {
+    CommandGroup {
         heading: "See and share",
         commands: &[
             entry(
@@ -294,7 +294,7 @@ const JOBS: [Job; 10] = [
             entry("report", &["report out"], &["results"]),
         ],
     },
-    Job {
+    CommandGroup {
         heading: "Measure and install",
         commands: &[
             entry("bench", &["bench --class 6-6 --count 10"], &["benchmark", "time"]),
@@ -360,14 +360,14 @@ fn styled(heading: &str) -> String {
 }
 
 /// A command, what it is for and an example of it.
-struct Line {
+struct GuideLine {
     name: String,
     about: String,
     example: &'static str,
 }
 
 /// The lines of a job. The figures of `plot` share one.
-fn lines<'a>(program: &'a Command, job: &'a Job) -> impl Iterator<Item = Line> + 'a {
+fn lines<'a>(program: &'a Command, job: &'a CommandGroup) -> impl Iterator<Item = GuideLine> + 'a {
     let first_figure = job.commands.iter().position(|e| e.path.starts_with("plot "));
     job.commands.iter().enumerate().filter_map(move |(k, e)| match e.path.strip_prefix("plot ") {
         None => Some(line(program, e.path, e.path, e.examples[0])),
@@ -376,20 +376,20 @@ fn lines<'a>(program: &'a Command, job: &'a Job) -> impl Iterator<Item = Line> +
     })
 }
 
-fn line(program: &Command, path: &str, name: &str, example: &'static str) -> Line {
+fn line(program: &Command, path: &str, name: &str, example: &'static str) -> GuideLine {
     let found = path.split(' ').try_fold(program, |c, word| c.find_subcommand(word));
     let about = found.and_then(Command::get_about).map(ToString::to_string).unwrap_or_default();
-    Line { name: name.into(), about, example }
+    GuideLine { name: name.into(), about, example }
 }
 
 /// Width of the names in the lists of commands.
 const NAMES: usize = 24;
 
-fn list(heading: &str, lines: impl Iterator<Item = Line>) -> String {
+fn list(heading: &str, lines: impl Iterator<Item = GuideLine>) -> String {
     let styles = Styles::default();
     let literal = styles.get_literal();
     let mut out = styled(heading) + "\n";
-    for Line { name, about, example } in lines {
+    for GuideLine { name, about, example } in lines {
         // writing to a string cannot fail
         let _ = writeln!(out, "  {literal}{name:<NAMES$}{literal:#}{about}");
         let _ = writeln!(out, "  {:<NAMES$}$ equipod {example}", "");

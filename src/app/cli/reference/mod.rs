@@ -18,7 +18,7 @@ use records::{ReferenceAnswer, schema_names};
 
 /// Arguments of `reference`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct ReferenceArgs {
     /// Page with marks `<!-- options of COMMAND -->`, `<!-- fields of ANSWER -->`, `<!-- keys of design -->` or `<!-- all records -->`, each up to `<!-- end of options -->` and so on; what is between them is replaced
     page: PathBuf,
 }
@@ -111,7 +111,7 @@ fn block(command: &Command, global: bool) -> String {
 }
 
 /// What is still to be described in the manual: commands, and answers.
-struct Open {
+struct OpenEntries {
     program: Command,
     whole: bool,
     commands: Vec<&'static str>,
@@ -120,7 +120,7 @@ struct Open {
     seen: BTreeSet<String>,
 }
 
-impl Open {
+impl OpenEntries {
     fn new() -> Self {
         let mut program = guide::program().disable_help_subcommand(true);
         program.build();
@@ -150,7 +150,7 @@ impl Open {
 /// The page with the blocks of this program. In the manual every command of the guide has its mark, or its group has one for all, and so has every answer.
 fn written(page: &str) -> Result<String, Failure> {
     let bad = |message: String| Failure::refused("reference::bad_page", message);
-    let mut open = Open::new();
+    let mut open = OpenEntries::new();
     let mut out = String::new();
     let mut until: Option<&str> = None;
     for line in page.lines() {
@@ -188,7 +188,7 @@ fn written(page: &str) -> Result<String, Failure> {
 }
 
 /// The page on standard output.
-pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &ReferenceArgs) -> Result<Answer, Failure> {
     let text = written(&files::read_text(&args.page)?)?;
     Ok(Answer::new(Exit::Yes, ReferenceAnswer { page: text.clone() }, text))
 }

@@ -134,14 +134,14 @@ fn griffis_duffy(out: &mut Sheet, g: &GriffisDuffyRecord) {
     let lengths = match &g.assembly {
         None => return,
         Some(Assembly::Incompatible { defect }) => {
-            format!("cannot be assembled: they miss the condition by {:.1e} (relative)", defect)
+            format!("cannot be assembled: they miss the condition by {defect:.1e} (relative)")
         }
         Some(Assembly::NoRealPose {}) => {
             "satisfy the condition, but have no real pose: the triangles of the legs do not close".into()
         }
         Some(Assembly::Undecided { .. }) => "satisfy the condition; no real pose was found".into(),
         Some(Assembly::Real { residual, .. }) => {
-            format!("can be assembled, and the platform moves: real pose found, residual {:.1e}", residual)
+            format!("can be assembled, and the platform moves: real pose found, residual {residual:.1e}")
         }
     };
     say!(out, "  the lengths of the design {lengths}");

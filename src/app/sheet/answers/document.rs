@@ -15,41 +15,49 @@ type Fields = Map<String, Value>;
 
 /// An answer as its document shows it: fields that no other has, a heading, and the sheet that its command prints. The names
 /// are those of the designs.
-struct Kind(&'static [&'static str], &'static str, fn(&Fields, [&str; 2]) -> Option<Sheet>);
+struct DocumentKind(&'static [&'static str], &'static str, fn(&Fields, [&str; 2]) -> Option<Sheet>);
 
 /// The first whose fields are there.
-const KINDS: [Kind; 16] = [
-    Kind(&["samples", "map"], "Equivalence", |f, [a, b]| {
+const KINDS: [DocumentKind; 16] = [
+    DocumentKind(&["samples", "map"], "Equivalence", |f, [a, b]| {
         read(f).map(|x: VerifyAnswer| answers::verify(&x, a, b))
     }),
-    Kind(&["finite_count"], "Forward kinematics", |_, _| None),
-    Kind(&["status", "objective"], "Optimisation", |f, [a, _]| {
+    DocumentKind(&["finite_count"], "Forward kinematics", |_, _| None),
+    DocumentKind(&["status", "objective"], "Optimisation", |f, [a, _]| {
         read(f).map(|x: OptimizeAnswer| answers::optimize(a, &x))
     }),
-    Kind(&["patterns", "topologies"], "Equivalence class", |f, _| {
+    DocumentKind(&["patterns", "topologies"], "Equivalence class", |f, _| {
         read(f).map(|x: FamilyAnswer| answers::family(&x, false))
     }),
-    Kind(&["requirements", "regular"], "Requirements", |f, _| {
+    DocumentKind(&["requirements", "regular"], "Requirements", |f, _| {
         read(f).map(|x: AssessAnswer| answers::assess(&x))
     }),
-    Kind(&["components"], "Replaceable legs", |_, _| None),
-    Kind(&["curves"], "Self-motions", |_, _| None),
-    Kind(&["topologies"], "Topologies", |_, _| None),
-    Kind(&["exact", "nearest"], "Joints on holes", |f, _| read(f).map(|x: RoundAnswer| answers::round(&x))),
-    Kind(&["relation", "A"], "Leg map", |f, [a, b]| read(f).map(|x: MapAnswer| answers::map(&x, a, b))),
-    Kind(&["architecturally_singular"], "Architectural singularity", |_, _| None),
-    Kind(&["axes", "violated"], "Limits", |f, [a, _]| read(f).map(|x: LimitsAnswer| answers::limits(a, &x))),
-    Kind(&["motions", "stiffness"], "Motion", |f, _| read(f).map(|x: MotionAnswer| answers::motion(&x))),
-    Kind(&["trials", "joints"], "Tolerances", |f, [a, _]| {
+    DocumentKind(&["components"], "Replaceable legs", |_, _| None),
+    DocumentKind(&["curves"], "Self-motions", |_, _| None),
+    DocumentKind(&["topologies"], "Topologies", |_, _| None),
+    DocumentKind(&["exact", "nearest"], "Joints on holes", |f, _| {
+        read(f).map(|x: RoundAnswer| answers::round(&x))
+    }),
+    DocumentKind(&["relation", "A"], "Leg map", |f, [a, b]| {
+        read(f).map(|x: MapAnswer| answers::map(&x, a, b))
+    }),
+    DocumentKind(&["architecturally_singular"], "Architectural singularity", |_, _| None),
+    DocumentKind(&["axes", "violated"], "Limits", |f, [a, _]| {
+        read(f).map(|x: LimitsAnswer| answers::limits(a, &x))
+    }),
+    DocumentKind(&["motions", "stiffness"], "Motion", |f, _| {
+        read(f).map(|x: MotionAnswer| answers::motion(&x))
+    }),
+    DocumentKind(&["trials", "joints"], "Tolerances", |f, [a, _]| {
         read(f).map(|x: TolerancesAnswer| answers::tolerances(a, &x))
     }),
-    Kind(&["drives", "chosen"], "Drives", |f, _| read(f).map(|x: DrivesAnswer| answers::drives(&x))),
-    Kind(&["designs", "manoeuvres"], "Comparison", |f, _| {
+    DocumentKind(&["drives", "chosen"], "Drives", |f, _| read(f).map(|x: DrivesAnswer| answers::drives(&x))),
+    DocumentKind(&["designs", "manoeuvres"], "Comparison", |f, _| {
         read(f).map(|x: CompareAnswer| answers::compare(&x))
     }),
 ];
 
-fn kind(fields: &Fields) -> Option<&'static Kind> {
+fn kind(fields: &Fields) -> Option<&'static DocumentKind> {
     KINDS.iter().find(|kind| kind.0.iter().all(|key| fields.contains_key(*key)))
 }
 

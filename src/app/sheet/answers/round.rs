@@ -15,7 +15,7 @@ fn judged(out: &mut Sheet, what: &str, j: &Judgement, met: Option<bool>, units: 
         (None, true) => "met at the sampled poses",
         _ => "violated",
     };
-    let det = j.det.map_or(String::new(), |d| format!(", det A = {:.6}", d));
+    let det = j.det.map_or(String::new(), |d| format!(", det A = {d:.6}"));
     say!(
         out,
         "{what:<8} worst inverse condition number {:.6}{det}; joints at least {:.4} and {:.4} {units} apart; requirements {requirements}",

@@ -21,8 +21,8 @@ const MAX_DEPTH: usize = 24;
 const MAX_EXPONENT: u32 = 100;
 
 /// The functions of one number.
-const FUNCTIONS: [(&str, Function); 3] =
-    [("sqrt", Function::Sqrt), ("sin_deg", Function::SinDeg), ("cos_deg", Function::CosDeg)];
+const FUNCTIONS: [(&str, NamedFunction); 3] =
+    [("sqrt", NamedFunction::Sqrt), ("sin_deg", NamedFunction::SinDeg), ("cos_deg", NamedFunction::CosDeg)];
 
 /// Names of the functions.
 pub(in crate::design) fn function_names() -> [&'static str; 3] {
@@ -30,7 +30,7 @@ pub(in crate::design) fn function_names() -> [&'static str; 3] {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Function {
+enum NamedFunction {
     Sqrt,
     SinDeg,
     CosDeg,
@@ -48,18 +48,18 @@ enum Operator {
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::design) struct Expression {
     place: Range<usize>,
-    part: Part,
+    part: SumPart,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Part {
+enum SumPart {
     Decimal(Rational),
     Name(String),
     Negative(Box<Expression>),
     /// From left to right: long sums are not deep.
     Chain(Box<Expression>, Vec<(Operator, Expression)>),
     Power(Box<Expression>, i32),
-    Of(Function, Box<Expression>),
+    Of(NamedFunction, Box<Expression>),
 }
 
 /// What is wrong with a text that is no expression, and where in it.
@@ -101,7 +101,7 @@ impl Expression {
             let message = format!("the expression is longer than {MAX_LENGTH} characters");
             return Err(Slip { place: 0..text.len(), message, too_complex: true });
         }
-        let mut reader = Reader { text, at: 0, depth: 0 };
+        let mut reader = ExpressionReader { text, at: 0, depth: 0 };
         let whole = reader.sum()?;
         reader.skip_blanks();
         match reader.rest().chars().next() {
@@ -116,10 +116,10 @@ impl Expression {
     /// The names in it.
     pub(in crate::design) fn names(&self) -> Vec<&str> {
         match &self.part {
-            Part::Decimal(_) => Vec::new(),
-            Part::Name(name) => vec![name],
-            Part::Negative(x) | Part::Power(x, _) | Part::Of(_, x) => x.names(),
-            Part::Chain(first, rest) => {
+            SumPart::Decimal(_) => Vec::new(),
+            SumPart::Name(name) => vec![name],
+            SumPart::Negative(x) | SumPart::Power(x, _) | SumPart::Of(_, x) => x.names(),
+            SumPart::Chain(first, rest) => {
                 first.names().into_iter().chain(rest.iter().flat_map(|(_, x)| x.names())).collect()
             }
         }
@@ -128,8 +128,8 @@ impl Expression {
     /// The value of a decimal with or without a sign.
     pub(in crate::design) fn decimal(&self) -> Option<Rational> {
         match &self.part {
-            Part::Decimal(x) => Some(x.clone()),
-            Part::Negative(x) => x.decimal().map(|x| -x),
+            SumPart::Decimal(x) => Some(x.clone()),
+            SumPart::Negative(x) => x.decimal().map(|x| -x),
             _ => None,
         }
     }
@@ -137,11 +137,13 @@ impl Expression {
     /// Its operations, square roots counted as many.
     pub(in crate::design) fn work(&self) -> usize {
         match &self.part {
-            Part::Decimal(_) | Part::Name(_) => 1,
-            Part::Negative(x) => x.work(),
-            Part::Power(x, _) => x.work() + 10,
-            Part::Of(_, x) => x.work() + 20,
-            Part::Chain(first, rest) => first.work() + rest.iter().map(|(_, x)| 1 + x.work()).sum::<usize>(),
+            SumPart::Decimal(_) | SumPart::Name(_) => 1,
+            SumPart::Negative(x) => x.work(),
+            SumPart::Power(x, _) => x.work() + 10,
+            SumPart::Of(_, x) => x.work() + 20,
+            SumPart::Chain(first, rest) => {
+                first.work() + rest.iter().map(|(_, x)| 1 + x.work()).sum::<usize>()
+            }
         }
     }
 
@@ -153,20 +155,20 @@ impl Expression {
         let stuck = |place: &Range<usize>, why| Stuck { place: place.clone(), why };
         let here = |why: NoReal| stuck(&self.place, Unsolved::NoReal(why));
         match &self.part {
-            Part::Decimal(x) => RealNumber::rational(x).map_err(here),
-            Part::Name(name) => named(name).map_err(|why| stuck(&self.place, why)),
-            Part::Negative(x) => Ok(x.value(named)?.negated()),
-            Part::Power(x, n) => x.value(named)?.power(*n).map_err(here),
-            Part::Of(function, x) => {
+            SumPart::Decimal(x) => RealNumber::rational(x).map_err(here),
+            SumPart::Name(name) => named(name).map_err(|why| stuck(&self.place, why)),
+            SumPart::Negative(x) => Ok(x.value(named)?.negated()),
+            SumPart::Power(x, n) => x.value(named)?.power(*n).map_err(here),
+            SumPart::Of(function, x) => {
                 let x = x.value(named)?;
                 match function {
-                    Function::Sqrt => x.sqrt(),
-                    Function::SinDeg => x.turn().map(|t| t.1),
-                    Function::CosDeg => x.turn().map(|t| t.0),
+                    NamedFunction::Sqrt => x.sqrt(),
+                    NamedFunction::SinDeg => x.turn().map(|t| t.1),
+                    NamedFunction::CosDeg => x.turn().map(|t| t.0),
                 }
                 .map_err(here)
             }
-            Part::Chain(first, rest) => {
+            SumPart::Chain(first, rest) => {
                 let mut x = first.value(named)?;
                 for (operator, other) in rest {
                     let y = other.value(named)?;
@@ -187,13 +189,13 @@ impl Expression {
     }
 }
 
-struct Reader<'t> {
+struct ExpressionReader<'t> {
     text: &'t str,
     at: usize,
     depth: usize,
 }
 
-impl<'t> Reader<'t> {
+impl<'t> ExpressionReader<'t> {
     fn rest(&self) -> &'t str {
         &self.text[self.at..]
     }
@@ -248,7 +250,7 @@ impl<'t> Reader<'t> {
             None => first,
             Some((_, last)) => Expression {
                 place: first.place.start..last.place.end,
-                part: Part::Chain(Box::new(first), rest),
+                part: SumPart::Chain(Box::new(first), rest),
             },
         })
     }
@@ -269,7 +271,7 @@ impl<'t> Reader<'t> {
             Some(sign) => {
                 let inner = self.deeper(Self::signed)?;
                 let place = from..inner.place.end;
-                let part = if sign == '-' { Part::Negative(Box::new(inner)) } else { inner.part };
+                let part = if sign == '-' { SumPart::Negative(Box::new(inner)) } else { inner.part };
                 Ok(Expression { place, part })
             }
         }
@@ -290,7 +292,7 @@ impl<'t> Reader<'t> {
             return self.slip(from, wanted);
         };
         let n = if negative { -n } else { n };
-        Ok(Expression { place: root.place.start..self.at, part: Part::Power(Box::new(root), n) })
+        Ok(Expression { place: root.place.start..self.at, part: SumPart::Power(Box::new(root), n) })
     }
 
     fn atom(&mut self) -> Result<Expression, Slip> {
@@ -311,7 +313,7 @@ impl<'t> Reader<'t> {
             let message = format!("a number, a name or a parenthesis is missing before {found}");
             return Err(Slip { place: from..end, message, too_complex: false });
         }
-        let named = Expression { place: from..self.at, part: Part::Name(word.to_string()) };
+        let named = Expression { place: from..self.at, part: SumPart::Name(word.to_string()) };
         if self.take(&['(']).is_none() {
             return Ok(named);
         }
@@ -320,10 +322,10 @@ impl<'t> Reader<'t> {
             return Err(Slip { place: named.place, message, too_complex: false });
         };
         let argument = self.deeper(Self::sum)?;
-        self.closed(from, Part::Of(*function, Box::new(argument)))
+        self.closed(from, SumPart::Of(*function, Box::new(argument)))
     }
 
-    fn closed(&mut self, from: usize, part: Part) -> Result<Expression, Slip> {
+    fn closed(&mut self, from: usize, part: SumPart) -> Result<Expression, Slip> {
         if self.take(&[')']).is_none() {
             return self.slip(from, "a parenthesis is not closed");
         }
@@ -360,7 +362,7 @@ impl<'t> Reader<'t> {
         let Some(value) = decimal(&format!("{whole}{fraction}"), exponent) else {
             return self.slip(from, "this is not a decimal number");
         };
-        Ok(Expression { place: from..self.at, part: Part::Decimal(value) })
+        Ok(Expression { place: from..self.at, part: SumPart::Decimal(value) })
     }
 }
 

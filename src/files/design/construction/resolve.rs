@@ -381,25 +381,25 @@ fn circle<'a>(owner: Owner, what: &str, names: impl Iterator<Item = &'a str>) ->
 /// An order in which everything comes after what it needs, and the circles, each from its first member on, that keep the rest from having one.
 pub(super) fn ordered(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
     #[derive(Clone, Copy, PartialEq)]
-    enum State {
+    enum ResolvingState {
         New,
         Open,
         Done,
     }
-    let mut state = vec![State::New; needs.len()];
+    let mut state = vec![ResolvingState::New; needs.len()];
     let (mut order, mut cycles) = (Vec::new(), Vec::new());
     // members of a circle and what needs them: without a place in the order
     let mut lost = vec![false; needs.len()];
     for start in 0..needs.len() {
-        if state[start] != State::New {
+        if state[start] != ResolvingState::New {
             continue;
         }
         let mut path = vec![(start, 0)];
-        state[start] = State::Open;
+        state[start] = ResolvingState::Open;
         while let Some((i, next)) = path.last_mut() {
             let i = *i;
             let Some(&need) = needs[i].get(*next) else {
-                state[i] = State::Done;
+                state[i] = ResolvingState::Done;
                 path.pop();
                 lost[i] |= needs[i].iter().any(|n| lost[*n]);
                 if !lost[i] {
@@ -409,12 +409,12 @@ pub(super) fn ordered(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
             };
             *next += 1;
             match state[need] {
-                State::Done => {}
-                State::New => {
-                    state[need] = State::Open;
+                ResolvingState::Done => {}
+                ResolvingState::New => {
+                    state[need] = ResolvingState::Open;
                     path.push((need, 0));
                 }
-                State::Open => {
+                ResolvingState::Open => {
                     let from = path.iter().position(|(j, _)| *j == need).unwrap_or(0);
                     let mut members: Vec<usize> = path[from..].iter().map(|(j, _)| *j).collect();
                     for j in &members {

@@ -7,10 +7,10 @@ use super::document::toml_value;
 use super::found::{check_keys, element_span, elements, nearest_help, number, numbers, shown, table};
 use super::joints::NamedJoints;
 use super::kind::{
-    HALF_WIDTHS, Kind, Numbers, list_of, not_negative, numbers as numbers_of, own, table as table_of, unit,
+    HALF_WIDTHS, KeyKind, Numbers, list_of, not_negative, numbers as numbers_of, own, table as table_of, unit,
 };
-use super::stored::{Item, Stored};
-use super::{Found, Table, key};
+use super::stored::{Stored, StoredValue};
+use super::{FoundKey, KeyTable, key};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use crate::design::{CalibratedNumber, CalibrationTable, Code, Correlations, DesignModel};
@@ -24,8 +24,8 @@ static OFFSETS: Numbers =
 /// The range is checked in lists that are not whole too.
 static DEVIATIONS: Numbers =
     Numbers { code: Code::LengthCount, ..Numbers::coordinates(6, "standard deviations, one for each leg") };
-static OF_JOINT: Kind = numbers_of(&HALF_WIDTHS, unit::LENGTH);
-static OF_JOINTS: Table<()> = Table { named: Some(&OF_JOINT), ..Table::EMPTY };
+static OF_JOINT: KeyKind = numbers_of(&HALF_WIDTHS, unit::LENGTH);
+static OF_JOINTS: KeyTable<()> = KeyTable { named: Some(&OF_JOINT), ..KeyTable::EMPTY };
 
 /// The table, with the names of the joints of both bodies; `None` where they could not be read.
 pub(super) struct CalibrationKeys {
@@ -33,7 +33,7 @@ pub(super) struct CalibrationKeys {
     joints: [Option<Vec<String>>; 2],
 }
 
-pub(super) static CALIBRATION: Table<CalibrationKeys> = Table {
+pub(super) static CALIBRATION: KeyTable<CalibrationKeys> = KeyTable {
     keys: &[
         key!("offsets" { default = "[0, 0, 0, 0, 0, 0]" }: numbers_of(&OFFSETS, unit::LENGTH), table.offsets;
             "what the length that each leg shows is longer than the distance of its joints"),
@@ -62,10 +62,10 @@ pub(super) static CALIBRATION: Table<CalibrationKeys> = Table {
             |of| CORRELATIONS.put(of);
             "how coordinates and offsets are off together; each for itself where it is absent"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
-const TRIANGLE: Kind = own(
+const TRIANGLE: KeyKind = own(
     r#"{
         "type": "array",
         "items": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": -1, "maximum": 1}}
@@ -73,7 +73,7 @@ const TRIANGLE: Kind = own(
     unit::NONE,
 );
 
-static CORRELATIONS: Table<CalibrationKeys> = Table {
+static CORRELATIONS: KeyTable<CalibrationKeys> = KeyTable {
     keys: &[
         key!("unknowns" { required = BOTH }: own(r#"{"type": "array", "uniqueItems": true, "items": {"type": "string"}}"#, unit::NONE),
             |_, _| (),
@@ -87,7 +87,7 @@ static CORRELATIONS: Table<CalibrationKeys> = Table {
             |_, _| (), |of| Some(json!(of.table.correlations.as_ref()?.triangle));
             "the lower triangle of the correlations with the diagonal, which is 1: row i has i numbers"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 const BOTH: &str = "give `unknowns`, a list of names, and `matrix`, the lower triangle of their correlations";
 
@@ -135,7 +135,7 @@ pub(super) fn calibration(
 
 /// What is correlated, and the lower triangle of a matrix that is one of correlations up to rounding.
 fn correlations(
-    found: &mut Found<'_, '_>,
+    found: &mut FoundKey<'_, '_>,
     joints: [&Vec<String>; 2],
     deviations: &CalibrationTable,
 ) -> Option<Correlations> {
@@ -266,7 +266,7 @@ fn refuse_negative(report: &mut Findings<'_>, node: &Node) {
 }
 
 /// Three numbers for each joint that is named.
-fn deviations(found: &mut Found<'_, '_>, names: Option<&[String]>) -> Vec<Option<Vector3<f64>>> {
+fn deviations(found: &mut FoundKey<'_, '_>, names: Option<&[String]>) -> Vec<Option<Vector3<f64>>> {
     let (report, place) = (&mut *found.report, format!("`{}` of [calibration]", found.entry.key));
     let Some(names) = names else { return Vec::new() };
     let mut out = vec![None; names.len()];

@@ -8,10 +8,10 @@ use super::cranks::CrankPlaces;
 use super::found::{LARGEST, check_keys, nearest_help, number, shown, table};
 use super::joints::NamedJoints;
 use super::kind::{
-    Kind, Shape, either, list_of, quantities, quantity as quantity_of, table as table_of, unit, word,
+    KeyKind, KeyShape, either, list_of, quantities, quantity as quantity_of, table as table_of, unit, word,
 };
 use super::stored::{self, Word};
-use super::{Code, TEXT, Table, key};
+use super::{Code, KeyTable, TEXT, key};
 use crate::design::construction::expression::{Slip, function_names, is_name};
 use crate::design::construction::resolve::{Joints, Owner};
 use crate::design::construction::{
@@ -21,7 +21,7 @@ use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 
 /// A point on the line of two joints.
-static ON_LINE: Table<()> = Table {
+static ON_LINE: KeyTable<()> = KeyTable {
     keys: &[
         key!("on": list_of(2, &TEXT);
             ""),
@@ -33,41 +33,41 @@ static ON_LINE: Table<()> = Table {
         "oneOf": [{"required": ["t"]}, {"required": ["offset"]}],
         "description": "a point on the line of two joints of the same body"
     }"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// A point in polar coordinates.
-static POLAR: Table<()> = Table {
+static POLAR: KeyTable<()> = KeyTable {
     keys: &[
         key!("radius": quantity_of(unit::LENGTH); ""),
         key!("angle_deg": quantity_of(unit::DEGREES); "from the x axis towards the y axis"),
         key!("z": quantity_of(unit::LENGTH); "0 when absent"),
     ],
     rules: r#"{"required": ["radius", "angle_deg"]}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// A rotated copy.
-static TURNED: Table<()> = Table {
+static TURNED: KeyTable<()> = KeyTable {
     keys: &[
         key!("turn": TEXT; ""),
         key!("deg": quantity_of(unit::DEGREES); "about the z axis of the frame of the body"),
     ],
     rules: r#"{"required": ["turn", "deg"], "description": "a joint of the same body, turned"}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// A mirrored copy.
-static MIRRORED: Table<()> = Table {
+static MIRRORED: KeyTable<()> = KeyTable {
     keys: &[key!("mirror": TEXT; ""), key!("plane": word(CoordinatePlane::words); "")],
     rules: r#"{"required": ["mirror", "plane"], "description": "a joint of the same body, mirrored in a plane of two axes"}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// Tables of joints; the first key of each decides what the others are.
-static FORMS: [&Table<()>; 4] = [&ON_LINE, &POLAR, &TURNED, &MIRRORED];
+static FORMS: [&KeyTable<()>; 4] = [&ON_LINE, &POLAR, &TURNED, &MIRRORED];
 
-static JOINT: Kind = either(&[
+static JOINT: KeyKind = either(&[
     quantities(3, unit::LENGTH),
     table_of(&ON_LINE),
     table_of(&POLAR),
@@ -76,16 +76,16 @@ static JOINT: Kind = either(&[
 ]);
 
 /// The joints of a body by name.
-pub(super) static BODY: Table<()> =
-    Table { definition: "body", named: Some(&JOINT), rules: r#"{"minProperties": 1}"#, ..Table::EMPTY };
+pub(super) static BODY: KeyTable<()> =
+    KeyTable { definition: "body", named: Some(&JOINT), rules: r#"{"minProperties": 1}"#, ..KeyTable::EMPTY };
 
-static PARAMETER: Kind = quantity_of(unit::NONE);
+static PARAMETER: KeyKind = quantity_of(unit::NONE);
 
 /// `[parameters]` by name.
-pub(super) static PARAMETERS: Table<()> = Table {
+pub(super) static PARAMETERS: KeyTable<()> = KeyTable {
     named: Some(&PARAMETER),
     rules: r#"{"propertyNames": {"pattern": "^[A-Za-z_][A-Za-z0-9_]*$"}}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// A joint as it is written.

@@ -6,10 +6,11 @@ use super::constructions::{Places, quantity, three_quantities};
 use super::found::{check_keys, nearest_help, shown, table, text};
 use super::joints::{Legs, NamedJoints};
 use super::kind::{
-    Joined, Kind, Range, angle, positive, quantities, quantity as quantity_of, table as table_of, unit, word,
+    Joined, KeyKind, Range, angle, positive, quantities, quantity as quantity_of, table as table_of, unit,
+    word,
 };
-use super::stored::{self, Item, Stored, Word};
-use super::{Found, TEXT, Table, key};
+use super::stored::{self, Stored, StoredValue, Word};
+use super::{FoundKey, KeyTable, TEXT, key};
 use crate::design::construction::{
     Constructions, CoordinatePlane, CrankCopy, CrankLimits, PARTS, WrittenCrank, WrittenCranks, WrittenNumber,
 };
@@ -27,7 +28,7 @@ struct CrankKeys {
 }
 
 /// Keys of all cranks and of single ones.
-static CRANK: Table<CrankKeys> = Table {
+static CRANK: KeyTable<CrankKeys> = KeyTable {
     keys: &[
         key!("length": quantity_of(unit::LENGTH),
             |found, to| to.written.length = one(found, &mut to.places, 0),
@@ -53,11 +54,11 @@ static CRANK: Table<CrankKeys> = Table {
             |of| of.written.angle_deg.as_ref().map(|list| stored::quantities(list));
             "`[least, greatest]` angle, degrees; none when absent"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// Keys of single cranks that are copies.
-static COPY: Table<CrankKeys> = Table {
+static COPY: KeyTable<CrankKeys> = KeyTable {
     keys: &[
         key!("turn": TEXT, |_, _| (), |of| of.copy(0);
             "the base joint of another crank: this one has its values, with axis and zero turned about the z axis of the base frame"),
@@ -67,7 +68,7 @@ static COPY: Table<CrankKeys> = Table {
         key!("plane": word(CoordinatePlane::words), |_, _| (), |of| of.copy(3); "with `mirror`"),
     ],
     rules: r#"{"dependentRequired": {"turn": ["deg"], "deg": ["turn"], "mirror": ["plane"], "plane": ["mirror"]}}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 impl CrankKeys {
@@ -86,7 +87,7 @@ impl CrankKeys {
 }
 
 /// Keys of all cranks together.
-static LIMITS: Table<CrankLimits> = Table {
+static LIMITS: KeyTable<CrankLimits> = KeyTable {
     keys: &[
         key!("max_torque": positive(unit::TORQUE), max_torque;
             "greatest torque of a crank, force units times design units"),
@@ -99,11 +100,11 @@ static LIMITS: Table<CrankLimits> = Table {
         key!("platform_swing_deg": angle(Range::Below(180)), platform_swing_deg;
             "how far the joint at the platform lets a rod swing from its direction at home, degrees"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 static ONE_CRANK: Joined = Joined { definition: "crank", shapes: &[&CRANK, &COPY], named: None };
-static ONE_CRANK_KIND: Kind = table_of(&ONE_CRANK);
+static ONE_CRANK_KIND: KeyKind = table_of(&ONE_CRANK);
 /// `[cranks]`: what holds for all cranks, and single ones by the names of their base joints.
 pub(super) static CRANKS: Joined =
     Joined { definition: "", shapes: &[&CRANK, &LIMITS], named: Some(&ONE_CRANK_KIND) };
@@ -241,17 +242,17 @@ fn numbers(report: &mut Findings<'_>, node: &Node, entries: &[Entry], what: &str
     (keys.written, keys.places)
 }
 
-fn label(found: &Found<'_, '_>) -> String {
+fn label(found: &FoundKey<'_, '_>) -> String {
     format!("`{}` of {}", found.entry.key, found.place)
 }
 
-fn one(found: &mut Found<'_, '_>, places: &mut Places, part: usize) -> Option<WrittenNumber> {
+fn one(found: &mut FoundKey<'_, '_>, places: &mut Places, part: usize) -> Option<WrittenNumber> {
     places.parts[part] = found.entry.node.span.clone();
     let what = label(found);
     quantity(found.report, &found.entry.node, &what)
 }
 
-fn three(found: &mut Found<'_, '_>, places: &mut Places, first: usize) -> Option<[WrittenNumber; 3]> {
+fn three(found: &mut FoundKey<'_, '_>, places: &mut Places, first: usize) -> Option<[WrittenNumber; 3]> {
     let what = label(found);
     let nouns = ("component", "components");
     let (list, parts) = three_quantities(found.report, &found.entry.node, &what, nouns)?;
@@ -259,7 +260,7 @@ fn three(found: &mut Found<'_, '_>, places: &mut Places, first: usize) -> Option
     Some(list)
 }
 
-fn elbow(found: &mut Found<'_, '_>) -> Option<Elbow> {
+fn elbow(found: &mut FoundKey<'_, '_>) -> Option<Elbow> {
     let word = found.text()?;
     let elbow = Elbow::of(&word);
     if elbow.is_none() {
@@ -270,7 +271,7 @@ fn elbow(found: &mut Found<'_, '_>) -> Option<Elbow> {
     elbow
 }
 
-fn range(found: &mut Found<'_, '_>, places: &mut Places) -> Option<[WrittenNumber; 2]> {
+fn range(found: &mut FoundKey<'_, '_>, places: &mut Places) -> Option<[WrittenNumber; 2]> {
     let help = "write angle_deg = [least, greatest]";
     let (node, what) = (&found.entry.node, found.place);
     let Value::Array(list) = &node.value else {

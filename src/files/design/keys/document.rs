@@ -21,7 +21,7 @@ use super::plates::{self, PLATES};
 use super::poses::{HOME, home};
 use super::stored::Word;
 use super::workspace::{WORKSPACE, workspace};
-use super::{Code, Found, TEXT, Table, axes, joint_models, key};
+use super::{Code, FoundKey, KeyTable, TEXT, axes, joint_models, key};
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 use crate::design::{DesignModel, Warning, Workspace};
@@ -32,7 +32,7 @@ use platform::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 const SMALLEST: f64 = 1e-60;
 
 /// The keys of a design. Those of tables are read and written in an order of their own, since some need others.
-pub(super) static TOP: Table<DesignModel> = Table {
+pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
     keys: &[
         key!("name" { required = "add `name = \"...\"` at the top" }: TEXT, name; "of the design, not blank"),
         key!("units" { required = "add `units = \"mm\"` (a label; all lengths are in it) at the top" }: TEXT, units;
@@ -89,7 +89,7 @@ pub(super) static TOP: Table<DesignModel> = Table {
         key!("calibration": table(&CALIBRATION), |_, _| (), |of| CALIBRATION.put(&CalibrationKeys::of(of, of.calibration.as_ref()?));
             "what `equipod calibrate` found beside the joints"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 /// The tables behind [hardware] in the order in which they are written.
 const WRITTEN_LAST: [&str; 10] = [
@@ -221,7 +221,7 @@ fn legs_entry<'a>(report: &mut Findings<'_>, root: &Node, entries: &'a [Entry]) 
     required(report, root, entries, "legs")
 }
 
-fn lengths(found: &mut Found<'_, '_>) -> Option<LegLengths> {
+fn lengths(found: &mut FoundKey<'_, '_>) -> Option<LegLengths> {
     let (report, node) = (&mut *found.report, &found.entry.node);
     let l = numbers::<6>(report, node, "`lengths`", Code::LengthCount, "leg lengths, one for each leg");
     for (i, x) in elements(node).enumerate().filter(|(_, x)| *x < 0.0 && x.is_finite()) {

@@ -3,9 +3,9 @@
 use nalgebra::{Point3, Vector3};
 use serde_json::{Value as Json, json};
 
-use super::kind::{Kind, Numbers, numbers, positive, table, unit, vector};
-use super::stored::Item;
-use super::{Code, Found, Table, key};
+use super::kind::{KeyKind, Numbers, numbers, positive, table, unit, vector};
+use super::stored::StoredValue;
+use super::{Code, FoundKey, KeyTable, key};
 use crate::design::tree::{Entry, find};
 use crate::design::violation::Findings;
 use machine::requirements::{Envelope, Envelopes};
@@ -21,7 +21,7 @@ struct EnvelopeKeys {
 
 static CENTER: Numbers = Numbers::coordinates(2, "coordinates x, y");
 
-static SHAPE: Table<EnvelopeKeys> = Table {
+static SHAPE: KeyTable<EnvelopeKeys> = KeyTable {
     definition: "envelope",
     keys: &[
         key!("radius": positive(unit::LENGTH), radius; "of a cylinder about a line along the z axis"),
@@ -31,18 +31,18 @@ static SHAPE: Table<EnvelopeKeys> = Table {
         key!("max": vector(unit::LENGTH), max; "the greatest coordinates of a box"),
     ],
     rules: r#"{"oneOf": [{"required": ["radius"]}, {"required": ["min", "max"]}]}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
-const ENVELOPE: Kind = table(&SHAPE);
+const ENVELOPE: KeyKind = table(&SHAPE);
 
-pub(super) static ENVELOPES: Table<Envelopes> = Table {
+pub(super) static ENVELOPES: KeyTable<Envelopes> = KeyTable {
     keys: &[
         key!("base": ENVELOPE, base; "of the base joints with their housings, base frame"),
         key!("platform": ENVELOPE, platform; "of the platform joints with their housings, platform frame"),
         key!("machine": ENVELOPE, machine; "of all joints with their housings at every pose, base frame"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[envelope]`.
@@ -54,8 +54,8 @@ pub(super) fn envelopes(report: &mut Findings<'_>, top: &[Entry]) -> Envelopes {
     envelopes
 }
 
-impl Item for Envelope {
-    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+impl StoredValue for Envelope {
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
         let (place, mut keys) = (format!("`{}` of [envelope]", found.entry.key), EnvelopeKeys::default());
         let entries = found.table(&SHAPE, &place, &mut keys)?;
         let has = |key: &str| find(entries, key).is_some();

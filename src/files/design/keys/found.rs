@@ -1,8 +1,8 @@
 //! Reading of keys, texts and numbers, with the refusals of what is none.
 
-use super::kind::{Form, Kind, Range};
+use super::kind::{KeyForm, KeyKind, Range};
 use super::stored::{Stored, Word};
-use super::{Code, Table};
+use super::{Code, KeyTable};
 use crate::design::nearest_word;
 use crate::design::tree::{Entry, Node, Span, Value};
 use crate::design::violation::Findings;
@@ -144,15 +144,15 @@ pub fn table<'a>(report: &mut Findings<'_>, node: &'a Node, what: &str) -> Optio
 }
 
 /// The entry of a key of a table.
-pub(super) struct Found<'a, 't> {
+pub(super) struct FoundKey<'a, 't> {
     pub(super) report: &'a mut Findings<'t>,
     pub(super) entry: &'a Entry,
     /// The table, for messages.
     pub(super) place: &'a str,
-    pub(super) kind: Kind,
+    pub(super) kind: KeyKind,
 }
 
-impl<'a> Found<'a, '_> {
+impl<'a> FoundKey<'a, '_> {
     /// The key, for messages.
     pub(super) fn what(&self) -> String {
         let key = &self.entry.key;
@@ -173,7 +173,7 @@ impl<'a> Found<'a, '_> {
     pub(super) fn number(&mut self) -> Option<f64> {
         let (what, key) = (self.what(), &self.entry.key);
         let x = number(self.report, &self.entry.node, &what)?;
-        let Form::Number(range) = self.kind.form else { return Some(x) };
+        let KeyForm::Number(range) = self.kind.form else { return Some(x) };
         let message = format!("`{key}` is {x}");
         match range {
             Range::NotNegative if x < 0.0 => self.refuse(Code::NotPositive, message, "give 0 or more"),
@@ -198,7 +198,7 @@ impl<'a> Found<'a, '_> {
     }
 
     fn numbers_called<const N: usize>(&mut self, what: &str) -> Option<[f64; N]> {
-        let Form::Numbers(n) = self.kind.form else { return None };
+        let KeyForm::Numbers(n) = self.kind.form else { return None };
         let node = &self.entry.node;
         let list = numbers::<N>(self.report, node, what, n.code, n.noun)?;
         let is_out = |x: f64| match n.range {
@@ -236,7 +236,7 @@ impl<'a> Found<'a, '_> {
     }
 
     /// The table behind the key.
-    pub(super) fn table<M>(&mut self, keys: &Table<M>, place: &str, to: &mut M) -> Option<&'a [Entry]> {
+    pub(super) fn table<M>(&mut self, keys: &KeyTable<M>, place: &str, to: &mut M) -> Option<&'a [Entry]> {
         keys.read(self.report, &self.entry.node, place, to)
     }
 

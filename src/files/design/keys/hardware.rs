@@ -5,9 +5,9 @@ use serde_json::{Value as Json, json};
 
 use super::found::numbers;
 use super::joint_models::{self, JOINT_MODELS, JointModel};
-use super::kind::{EDGES, Form, Kind, Range, angle, any, list_of, not_negative, own, positive, unit};
-use super::stored::{Item, Stored};
-use super::{Code, Found, TEXT, Table, key};
+use super::kind::{EDGES, KeyForm, KeyKind, Range, angle, any, list_of, not_negative, own, positive, unit};
+use super::stored::{Stored, StoredValue};
+use super::{Code, FoundKey, KeyTable, TEXT, key};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use machine::requirements::{Hardware, Housing, JointAxes, LegBody, LegMasses, LegPart, LengthLimits, Swing};
@@ -41,10 +41,10 @@ struct PartKeys {
 }
 
 /// A diameter, or the edges of a box.
-pub(super) const HOUSING: Kind = own(r##"{"$ref": "#/$defs/housing"}"##, unit::LENGTH);
-const AXES: Kind = own(r##"{"$ref": "#/$defs/axes"}"##, unit::NONE);
+pub(super) const HOUSING: KeyKind = own(r##"{"$ref": "#/$defs/housing"}"##, unit::LENGTH);
+const AXES: KeyKind = own(r##"{"$ref": "#/$defs/axes"}"##, unit::NONE);
 
-pub(super) static HARDWARE: Table<HardwareKeys> = Table {
+pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
     keys: &[
         key!("joint_diameter": positive(unit::LENGTH), hardware.joint_diameter;
             "diameter of the sphere a joint takes up, both bodies"),
@@ -133,7 +133,7 @@ pub(super) static HARDWARE: Table<HardwareKeys> = Table {
         },
         "not": {"required": ["leg_length", "stroke"]}
     }"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[hardware]`, and the name of the table of drives, which is read where a drive is chosen from it.
@@ -227,13 +227,13 @@ impl HardwareKeys {
     }
 }
 
-impl Item for Housing {
-    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+impl StoredValue for Housing {
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
         if found.is_list() {
-            found.kind.form = Form::Numbers(&EDGES);
+            found.kind.form = KeyForm::Numbers(&EDGES);
             return Vector3::take(found).map(Self::Box);
         }
-        found.kind.form = Form::Number(Range::Positive);
+        found.kind.form = KeyForm::Number(Range::Positive);
         found.number().map(Self::Sphere)
     }
 
@@ -245,7 +245,7 @@ impl Item for Housing {
     }
 }
 
-fn leg_length(found: &mut Found<'_, '_>) -> Option<[f64; 2]> {
+fn leg_length(found: &mut FoundKey<'_, '_>) -> Option<[f64; 2]> {
     let (node, noun) = (&found.entry.node, "lengths, least and greatest");
     let [least, greatest] = numbers::<2>(found.report, node, "`leg_length`", Code::CoordinateCount, noun)?;
     if !(least >= 0.0 && greatest > least) {
@@ -266,7 +266,7 @@ pub(super) fn is_normal(node: &Node) -> bool {
 }
 
 /// The axes that a key says. Normals are put in where the joints are known ([`super::axes::turn_to_normals`]).
-fn joint_axes(found: &mut Found<'_, '_>) -> Option<JointAxes> {
+fn joint_axes(found: &mut FoundKey<'_, '_>) -> Option<JointAxes> {
     let (report, entry) = (&mut *found.report, found.entry);
     match &entry.node.value {
         Value::Text(t) if t == "home" => Some(JointAxes::Home),

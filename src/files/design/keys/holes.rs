@@ -4,9 +4,9 @@ use serde::Serialize;
 use serde_json::{Map, Value as Json, json};
 
 use super::found::{check_keys, nearest_help, number, shown, table};
-use super::kind::{Kind, Numbers, Shape, any, numbers, own, positive, table as table_of, unit, word};
+use super::kind::{KeyKind, KeyShape, Numbers, any, numbers, own, positive, table as table_of, unit, word};
 use super::stored::{Stored, Word};
-use super::{Code, Found, Table, key};
+use super::{Code, FoundKey, KeyTable, key};
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern};
@@ -18,12 +18,12 @@ const MOST_HOLES: f64 = 1e6;
 const WHOLE: f64 = 1e-9;
 
 static ORIGIN: Numbers = Numbers::coordinates(2, "coordinates x, y of a hole");
-const LENGTHS: Kind = own(
+const LENGTHS: KeyKind = own(
     r##"{"oneOf": [{"$ref": "#/$defs/positive"}, {"type": "array", "minItems": 1, "maxItems": 16, "items": {"$ref": "#/$defs/positive"}}]}"##,
     unit::LENGTH,
 );
 
-const COUNTS: Kind = own(
+const COUNTS: KeyKind = own(
     r#"{"oneOf": [
         {"type": "integer", "minimum": 1, "maximum": 1000000},
         {"type": "array", "minItems": 1, "maxItems": 16, "items": {"type": "integer", "minimum": 1, "maximum": 1000000}}
@@ -43,7 +43,7 @@ struct GridKeys {
     angle_deg: Option<f64>,
 }
 
-static GRID: Table<GridKeys> = Table {
+static GRID: KeyTable<GridKeys> = KeyTable {
     definition: "hole_grid",
     keys: &[
         key!("pattern" { default = r#""square""# }: word(HolePattern::words),
@@ -56,7 +56,7 @@ static GRID: Table<GridKeys> = Table {
         key!("radii": LENGTHS,
             |found, to| to.radii = radii(found.report, found.entry), |of| list(of.radii.as_ref()?);
             "radii of bolt circles"),
-        key!("step_deg": Kind { unit: unit::DEGREES, ..LENGTHS };
+        key!("step_deg": KeyKind { unit: unit::DEGREES, ..LENGTHS };
             "angle between neighbouring holes of a ring or of each bolt circle; a whole number of them makes 360"),
         key!("count": COUNTS,
             |_, _| (),
@@ -69,11 +69,11 @@ static GRID: Table<GridKeys> = Table {
             "a hole, or the centre of the circles"),
         key!("angle_deg" { default = "0" }: any(unit::DEGREES).placed(), angle_deg; "turn of the grid"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// The keys of `[holes]` beside those of a grid for both plates.
-pub(super) static HOLES: Table<[Option<Grid>; 2]> = Table {
+pub(super) static HOLES: KeyTable<[Option<Grid>; 2]> = KeyTable {
     keys: &[
         key!("base": table_of(&GRID),
             |_, _| (), |of| GRID.put(&GridKeys::from(of[0].as_ref()?));
@@ -85,7 +85,7 @@ pub(super) static HOLES: Table<[Option<Grid>; 2]> = Table {
             "of the platform alone, likewise"),
     ],
     rules: r#"{"minProperties": 1}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[holes]`: the keys of a grid for both plates, and grids of single plates.
@@ -93,8 +93,8 @@ pub(super) struct HolesShape;
 
 pub(super) static HOLES_SHAPE: HolesShape = HolesShape;
 
-impl Shape for HolesShape {
-    fn kind(&self, key: &str) -> Option<Kind> {
+impl KeyShape for HolesShape {
+    fn kind(&self, key: &str) -> Option<KeyKind> {
         HOLES.kind(key).or_else(|| GRID.kind(key))
     }
 
@@ -305,7 +305,7 @@ fn counts(
     Some((0..circles).map(|k| found[if found.len() == 1 { 0 } else { k }]).collect())
 }
 
-fn pattern(found: &mut Found<'_, '_>) -> Option<HolePattern> {
+fn pattern(found: &mut FoundKey<'_, '_>) -> Option<HolePattern> {
     let word = found.text()?;
     let pattern = HolePattern::of(&word);
     if pattern.is_none() {

@@ -7,11 +7,11 @@ use super::axes::named;
 use super::found::{check_keys, element_span, numbers, table};
 use super::hardware::{HOUSING, axis};
 use super::kind::{
-    Kind, Range, Shape, angle, either, list_of, not_negative, own, positive, table as table_of, unit, vector,
-    word,
+    KeyKind, KeyShape, Range, angle, either, list_of, not_negative, own, positive, table as table_of, unit,
+    vector, word,
 };
-use super::stored::{Item, Stored, Word};
-use super::{Code, Found, Table, key};
+use super::stored::{Stored, StoredValue, Word};
+use super::{Code, FoundKey, KeyTable, key};
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 use machine::requirements::{Hardware, Housing, JointAxes, JointType, UniversalJoint};
@@ -44,12 +44,12 @@ struct JointKeys {
 }
 
 /// One table for all joints of a body, or six in leg order.
-pub(super) const JOINT_MODELS: Kind = either(&JOINT_KINDS);
-static JOINT_KINDS: [Kind; 2] = [ONE_JOINT, list_of(6, &ONE_JOINT_KIND)];
-static ONE_JOINT_KIND: Kind = ONE_JOINT;
-const ONE_JOINT: Kind = table_of(&JOINT);
+pub(super) const JOINT_MODELS: KeyKind = either(&JOINT_KINDS);
+static JOINT_KINDS: [KeyKind; 2] = [ONE_JOINT, list_of(6, &ONE_JOINT_KIND)];
+static ONE_JOINT_KIND: KeyKind = ONE_JOINT;
+const ONE_JOINT: KeyKind = table_of(&JOINT);
 
-const TWO_ANGLES: Kind = own(
+const TWO_ANGLES: KeyKind = own(
     r#"{
         "type": "array",
         "minItems": 2,
@@ -63,7 +63,7 @@ const TWO_ANGLES: Kind = own(
     unit::DEGREES,
 );
 
-static JOINT: Table<JointKeys> = Table {
+static JOINT: KeyTable<JointKeys> = KeyTable {
     definition: "joint_model",
     keys: &[
         key!("model" { required = "add model = \"universal\", \"flexure\" or \"ball\"" }: word(JointType::words), model;
@@ -85,7 +85,7 @@ static JOINT: Table<JointKeys> = Table {
         key!("bending_stiffness": positive(unit::TORQUE), bending;
             "flexure: torque over angle, force units times design units per radian; required"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// Whether joints of a model have a key.
@@ -134,7 +134,7 @@ pub(super) fn with_axes(
 }
 
 /// One table for all joints, or six in leg order.
-pub(super) fn models(found: &mut Found<'_, '_>) -> Option<JointModel> {
+pub(super) fn models(found: &mut FoundKey<'_, '_>) -> Option<JointModel> {
     let (report, entry, key) = (&mut *found.report, found.entry, &found.entry.key);
     let Value::Array(list) = &entry.node.value else {
         let place = format!("`{key}` of [hardware]");
@@ -264,7 +264,7 @@ fn model(
 }
 
 /// One direction for all joints, or six in leg order.
-fn first_axes(found: &mut Found<'_, '_>, is_of_all: bool) -> Option<[Unit<Vector3<f64>>; 6]> {
+fn first_axes(found: &mut FoundKey<'_, '_>, is_of_all: bool) -> Option<[Unit<Vector3<f64>>; 6]> {
     let (report, entry) = (&mut *found.report, found.entry);
     if !is_of_all {
         return axis(report, &entry.node, &entry.key).map(|one| [one; 6]);

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use super::{Code, Table};
+use super::{Code, KeyTable};
 
 /// The power of the unit of length in the unit of a value, by which it changes with that unit.
 pub(super) mod unit {
@@ -75,7 +75,7 @@ pub(super) static HALF_WIDTHS: Numbers = Numbers {
 
 /// The type of a value.
 #[derive(Clone, Copy)]
-pub(crate) enum Form {
+pub(crate) enum KeyForm {
     /// A number.
     Number(Range),
     /// A whole number between bounds.
@@ -89,26 +89,26 @@ pub(crate) enum Form {
     /// One of these words.
     Word(fn() -> Vec<&'static str>),
     /// A table.
-    Table(&'static dyn Shape),
+    Table(&'static dyn KeyShape),
     /// A list of so many values; 0: of any number.
-    List(&'static Kind, usize),
+    List(&'static KeyKind, usize),
     /// One of these.
-    Either(&'static [Kind]),
+    Either(&'static [KeyKind]),
     /// A value with a schema of its own, as JSON: all numbers in it have the unit.
     Own(&'static str),
 }
 
 /// What stands behind a key.
 #[derive(Clone, Copy)]
-pub(crate) struct Kind {
-    pub(in crate::design) form: Form,
+pub(crate) struct KeyKind {
+    pub(in crate::design) form: KeyForm,
     pub(in crate::design) unit: i8,
     /// Messages name the table with the key.
     pub(super) is_placed: bool,
 }
 
-impl Kind {
-    pub(super) const fn new(form: Form, unit: i8) -> Self {
+impl KeyKind {
+    pub(super) const fn new(form: KeyForm, unit: i8) -> Self {
         Self { form, unit, is_placed: false }
     }
 
@@ -117,72 +117,72 @@ impl Kind {
     }
 }
 
-pub(super) const TEXT: Kind = Kind::new(Form::Text, unit::NONE);
+pub(super) const TEXT: KeyKind = KeyKind::new(KeyForm::Text, unit::NONE);
 
-pub(super) const fn any(unit: i8) -> Kind {
-    Kind::new(Form::Number(Range::Any), unit)
+pub(super) const fn any(unit: i8) -> KeyKind {
+    KeyKind::new(KeyForm::Number(Range::Any), unit)
 }
 
-pub(super) const fn positive(unit: i8) -> Kind {
-    Kind::new(Form::Number(Range::Positive), unit)
+pub(super) const fn positive(unit: i8) -> KeyKind {
+    KeyKind::new(KeyForm::Number(Range::Positive), unit)
 }
 
-pub(super) const fn not_negative(unit: i8) -> Kind {
-    Kind::new(Form::Number(Range::NotNegative), unit)
+pub(super) const fn not_negative(unit: i8) -> KeyKind {
+    KeyKind::new(KeyForm::Number(Range::NotNegative), unit)
 }
 
-pub(super) const fn angle(range: Range) -> Kind {
-    Kind::new(Form::Number(range), unit::DEGREES)
+pub(super) const fn angle(range: Range) -> KeyKind {
+    KeyKind::new(KeyForm::Number(range), unit::DEGREES)
 }
 
-pub(super) const fn whole(least: u32, most: u32) -> Kind {
-    Kind::new(Form::Whole(least, most), unit::NONE)
+pub(super) const fn whole(least: u32, most: u32) -> KeyKind {
+    KeyKind::new(KeyForm::Whole(least, most), unit::NONE)
 }
 
-pub(super) const fn numbers(numbers: &'static Numbers, unit: i8) -> Kind {
-    Kind::new(Form::Numbers(numbers), unit)
+pub(super) const fn numbers(numbers: &'static Numbers, unit: i8) -> KeyKind {
+    KeyKind::new(KeyForm::Numbers(numbers), unit)
 }
 
-pub(super) const fn vector(unit: i8) -> Kind {
+pub(super) const fn vector(unit: i8) -> KeyKind {
     numbers(&VECTOR, unit)
 }
 
-pub(super) const fn quantity(unit: i8) -> Kind {
-    Kind::new(Form::Quantity(None), unit)
+pub(super) const fn quantity(unit: i8) -> KeyKind {
+    KeyKind::new(KeyForm::Quantity(None), unit)
 }
 
-pub(super) const fn quantities(count: usize, unit: i8) -> Kind {
-    Kind::new(Form::Quantity(Some(count)), unit)
+pub(super) const fn quantities(count: usize, unit: i8) -> KeyKind {
+    KeyKind::new(KeyForm::Quantity(Some(count)), unit)
 }
 
-pub(super) const fn word(words: fn() -> Vec<&'static str>) -> Kind {
-    Kind::new(Form::Word(words), unit::NONE)
+pub(super) const fn word(words: fn() -> Vec<&'static str>) -> KeyKind {
+    KeyKind::new(KeyForm::Word(words), unit::NONE)
 }
 
-pub(super) const fn own(schema: &'static str, unit: i8) -> Kind {
-    Kind::new(Form::Own(schema), unit)
+pub(super) const fn own(schema: &'static str, unit: i8) -> KeyKind {
+    KeyKind::new(KeyForm::Own(schema), unit)
 }
 
-pub(super) const fn table(shape: &'static dyn Shape) -> Kind {
-    Kind::new(Form::Table(shape), unit::NONE)
+pub(super) const fn table(shape: &'static dyn KeyShape) -> KeyKind {
+    KeyKind::new(KeyForm::Table(shape), unit::NONE)
 }
 
-pub(super) const fn list(item: &'static Kind) -> Kind {
+pub(super) const fn list(item: &'static KeyKind) -> KeyKind {
     list_of(0, item)
 }
 
-pub(super) const fn list_of(count: usize, item: &'static Kind) -> Kind {
-    Kind::new(Form::List(item, count), unit::NONE)
+pub(super) const fn list_of(count: usize, item: &'static KeyKind) -> KeyKind {
+    KeyKind::new(KeyForm::List(item, count), unit::NONE)
 }
 
-pub(super) const fn either(kinds: &'static [Kind]) -> Kind {
-    Kind::new(Form::Either(kinds), unit::NONE)
+pub(super) const fn either(kinds: &'static [KeyKind]) -> KeyKind {
+    KeyKind::new(KeyForm::Either(kinds), unit::NONE)
 }
 
 /// The keys of a table, whatever they are read into.
-pub(crate) trait Shape: Sync {
+pub(crate) trait KeyShape: Sync {
     /// The kind of a key.
-    fn kind(&self, key: &str) -> Option<Kind>;
+    fn kind(&self, key: &str) -> Option<KeyKind>;
     /// What the schema says of the table; named definitions go to `definitions`.
     fn schema(&self, definitions: &mut Map<String, Json>) -> Json;
 }
@@ -212,24 +212,24 @@ impl Range {
     }
 }
 
-impl Kind {
+impl KeyKind {
     /// What the schema says of a value.
     pub(super) fn schema(&self, definitions: &mut Map<String, Json>) -> Json {
         match self.form {
-            Form::Number(range) => range.schema(),
-            Form::Whole(least, most) => json!({"type": "integer", "minimum": least, "maximum": most}),
-            Form::Numbers(n) => defined(definitions, n.definition, array(n.count, &n.range.schema())),
-            Form::Quantity(None) => json!({"$ref": "#/$defs/quantity"}),
-            Form::Quantity(Some(count)) => array(count, &json!({"$ref": "#/$defs/quantity"})),
-            Form::Text => json!({"type": "string", "pattern": "\\S"}),
-            Form::Word(words) => json!({"enum": words()}),
-            Form::Table(shape) => shape.schema(definitions),
-            Form::List(item, 0) => json!({"type": "array", "items": item.schema(definitions)}),
-            Form::List(item, count) => array(count, &item.schema(definitions)),
-            Form::Either(kinds) => {
+            KeyForm::Number(range) => range.schema(),
+            KeyForm::Whole(least, most) => json!({"type": "integer", "minimum": least, "maximum": most}),
+            KeyForm::Numbers(n) => defined(definitions, n.definition, array(n.count, &n.range.schema())),
+            KeyForm::Quantity(None) => json!({"$ref": "#/$defs/quantity"}),
+            KeyForm::Quantity(Some(count)) => array(count, &json!({"$ref": "#/$defs/quantity"})),
+            KeyForm::Text => json!({"type": "string", "pattern": "\\S"}),
+            KeyForm::Word(words) => json!({"enum": words()}),
+            KeyForm::Table(shape) => shape.schema(definitions),
+            KeyForm::List(item, 0) => json!({"type": "array", "items": item.schema(definitions)}),
+            KeyForm::List(item, count) => array(count, &item.schema(definitions)),
+            KeyForm::Either(kinds) => {
                 json!({"oneOf": kinds.iter().map(|kind| kind.schema(definitions)).collect::<Vec<_>>()})
             }
-            Form::Own(schema) => parsed(schema),
+            KeyForm::Own(schema) => parsed(schema),
         }
     }
 }
@@ -239,8 +239,8 @@ pub(super) fn parsed(text: &str) -> Json {
     serde_json::from_str(text).unwrap_or_default()
 }
 
-impl<M> Shape for Table<M> {
-    fn kind(&self, key: &str) -> Option<Kind> {
+impl<M> KeyShape for KeyTable<M> {
+    fn kind(&self, key: &str) -> Option<KeyKind> {
         let found = self.keys.iter().find(|k| k.name == key).map(|k| k.kind);
         found.or(self.named.copied())
     }
@@ -282,12 +282,12 @@ impl<M> Shape for Table<M> {
 /// Tables whose keys stand in one table of the file, with names as further keys.
 pub(super) struct Joined {
     pub(super) definition: &'static str,
-    pub(super) shapes: &'static [&'static dyn Shape],
-    pub(super) named: Option<&'static Kind>,
+    pub(super) shapes: &'static [&'static dyn KeyShape],
+    pub(super) named: Option<&'static KeyKind>,
 }
 
-impl Shape for Joined {
-    fn kind(&self, key: &str) -> Option<Kind> {
+impl KeyShape for Joined {
+    fn kind(&self, key: &str) -> Option<KeyKind> {
         self.shapes.iter().find_map(|shape| shape.kind(key)).or(self.named.copied())
     }
 

@@ -3,9 +3,9 @@
 use serde_json::{Map, Value as Json, json};
 
 use super::found::{check_keys, shown, table};
-use super::kind::{Form, Kind, Range, Shape, either, not_negative, own, table as table_of, unit};
-use super::stored::Item;
-use super::{Code, Found, Table, key};
+use super::kind::{KeyForm, KeyKind, KeyShape, Range, either, not_negative, own, table as table_of, unit};
+use super::stored::StoredValue;
+use super::{Code, FoundKey, KeyTable, key};
 use crate::design::tree::{Entry, Value, find};
 use crate::design::violation::Findings;
 use machine::requirements::{Quantity, Reserve, Reserves, TermKind};
@@ -13,15 +13,15 @@ use machine::requirements::{Quantity, Reserve, Reserves, TermKind};
 /// The reserve of every limit that has none of its own.
 const ALL: &str = "all";
 
-const PERCENT: Kind = own(r##"{"$ref": "#/$defs/percent"}"##, unit::NONE);
+const PERCENT: KeyKind = own(r##"{"$ref": "#/$defs/percent"}"##, unit::NONE);
 
 /// The names of the rows of `assess`.
 struct ByKind;
 
 static BY_KIND: ByKind = ByKind;
 
-impl Shape for ByKind {
-    fn kind(&self, key: &str) -> Option<Kind> {
+impl KeyShape for ByKind {
+    fn kind(&self, key: &str) -> Option<KeyKind> {
         if key == ALL {
             return Some(PERCENT);
         }
@@ -45,11 +45,11 @@ impl Shape for ByKind {
     }
 }
 
-pub(super) static LIMITS: Table<Reserves> = Table {
+pub(super) static LIMITS: KeyTable<Reserves> = KeyTable {
     keys: &[key!("reserve": either(&[PERCENT, table_of(&BY_KIND)]),
         reserve, written;
         "one percentage for all limits, or amounts and percentages by the names of the rows of assess")],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[limits]`.
@@ -61,7 +61,7 @@ pub(super) fn reserves(report: &mut Findings<'_>, top: &[Entry]) -> Reserves {
     reserves
 }
 
-fn reserve(found: &mut Found<'_, '_>, to: &mut Reserves) {
+fn reserve(found: &mut FoundKey<'_, '_>, to: &mut Reserves) {
     if !matches!(found.entry.node.value, Value::Table(_)) {
         to.all = percent(found);
         return;
@@ -71,8 +71,8 @@ fn reserve(found: &mut Found<'_, '_>, to: &mut Reserves) {
     let known: Vec<&str> = TermKind::ALL.map(TermKind::code).into_iter().chain([ALL]).collect();
     check_keys(found.report, own, &known, place);
     for entry in own {
-        let kind = Kind::new(Form::Number(Range::NotNegative), unit::NONE);
-        let mut found = Found { report: &mut *found.report, entry, place, kind };
+        let kind = KeyKind::new(KeyForm::Number(Range::NotNegative), unit::NONE);
+        let mut found = FoundKey { report: &mut *found.report, entry, place, kind };
         if entry.key == ALL {
             to.all = percent(&mut found);
         }
@@ -87,7 +87,7 @@ fn reserve(found: &mut Found<'_, '_>, to: &mut Reserves) {
 }
 
 /// `"5%"`.
-fn percent(found: &mut Found<'_, '_>) -> Option<f64> {
+fn percent(found: &mut FoundKey<'_, '_>) -> Option<f64> {
     let (key, help) = (&found.entry.key, "write a percentage in quotes, such as \"5%\"");
     if !matches!(found.entry.node.value, Value::Text(_)) {
         let message = format!("`{key}` is {}, not a percentage", found.entry.node.value.kind());

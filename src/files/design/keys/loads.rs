@@ -4,22 +4,22 @@
 use nalgebra::{Point3, Vector3};
 
 use super::found::shown;
-use super::kind::{Kind, not_negative, positive, table as table_of, unit, vector, word};
+use super::kind::{KeyKind, not_negative, positive, table as table_of, unit, vector, word};
 use super::shapes::{BOX, CAPSULE, SPHERE, shape, written};
 use super::stored::Word;
-use super::{Code, TEXT, Table, key};
+use super::{Code, KeyTable, TEXT, key};
 use crate::design::scale::micrometres;
 use crate::design::tree::{Entry, Value, find};
 use crate::design::violation::Findings;
 use machine::requirements::{Hardware, KeepOut, KeepOutShape, Load, PlatformSpeed, PlatformStiffness};
 use platform::manipulator::Body;
 
-pub(super) static SPEED: Table<PlatformSpeed> = Table {
+pub(super) static SPEED: KeyTable<PlatformSpeed> = KeyTable {
     keys: &[
         key!("linear": not_negative(unit::SPEED), linear; "of the platform origin, design units per second"),
         key!("angular_deg": not_negative(unit::DEGREES), angular_deg; "degrees per second"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[speed]`.
@@ -29,7 +29,7 @@ pub(super) fn speed(report: &mut Findings<'_>, top: &[Entry]) -> Option<Platform
     Some(speed)
 }
 
-pub(super) static STIFFNESS: Table<PlatformStiffness> = Table {
+pub(super) static STIFFNESS: KeyTable<PlatformStiffness> = KeyTable {
     keys: &[
         key!("linear": positive(unit::STIFFNESS), linear;
             "least stiffness against a force through the platform origin in the softest direction, the platform free to turn, force units per design unit"),
@@ -38,7 +38,7 @@ pub(super) static STIFFNESS: Table<PlatformStiffness> = Table {
         key!("natural_frequency": positive(unit::NONE), natural_frequency;
             "least natural frequency of `[payload]` and legs, hertz; `units` is then a unit of length that is known"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[stiffness]`, which is about legs whose stiffness is known, and about known masses in known units where it asks
@@ -73,9 +73,9 @@ pub(super) fn stiffness(
     Some(wanted)
 }
 
-const FIXED_TO: Kind = word(Body::words);
+const FIXED_TO: KeyKind = word(Body::words);
 
-pub(super) static LOAD: Table<Load> = Table {
+pub(super) static LOAD: KeyTable<Load> = KeyTable {
     keys: &[
         key!("name": TEXT, name; "for answers"),
         key!("force" { default = "[0, 0, 0]" }: vector(unit::FORCE), force; "force units"),
@@ -86,14 +86,14 @@ pub(super) static LOAD: Table<Load> = Table {
         key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
             "whose directions force and torque have; a weight has those of the base"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// Reads each table of a list of tables, which begins with a value for the tables of its place.
 fn read_all<'e, M>(
     report: &mut Findings<'_>,
     top: &'e [Entry],
-    (key, keys): (&str, &Table<M>),
+    (key, keys): (&str, &KeyTable<M>),
     begin: impl Fn(usize) -> M,
 ) -> Vec<(M, &'e [Entry])> {
     let Some(entry) = find(top, key) else { return Vec::new() };
@@ -132,7 +132,7 @@ pub(super) struct KeepOutKeys {
     shape: Option<KeepOutShape>,
 }
 
-pub(super) static KEEP_OUT: Table<KeepOutKeys> = Table {
+pub(super) static KEEP_OUT: KeyTable<KeepOutKeys> = KeyTable {
     keys: &[
         key!("name": TEXT, name; "for answers"),
         key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
@@ -152,7 +152,7 @@ pub(super) static KEEP_OUT: Table<KeepOutKeys> = Table {
             "all points within half the diameter of a line"),
     ],
     rules: r#"{"oneOf": [{"required": ["box"]}, {"required": ["sphere"]}, {"required": ["capsule"]}]}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 impl From<&KeepOut> for KeepOutKeys {

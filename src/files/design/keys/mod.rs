@@ -29,22 +29,22 @@ use serde_json::{Map, Value as Json};
 
 pub(super) use document::design;
 pub use found::{check_keys, nearest_help, number, shown, table, text};
-pub(super) use kind::{Form, Kind, Shape};
+pub(super) use kind::{KeyForm, KeyKind, KeyShape};
 pub use schema::SCHEMA;
 
-use self::found::Found;
+use self::found::FoundKey;
 use self::kind::TEXT;
 use super::Code;
 use super::tree::{Entry, Node, Span, find};
 use super::violation::Findings;
 
 /// The keys of a whole file.
-pub(super) static FILE: &dyn Shape = &document::TOP;
+pub(super) static FILE: &dyn KeyShape = &document::TOP;
 
 /// A key of a table that is read into an `M` and written from one.
 struct Key<M: 'static> {
     name: &'static str,
-    kind: Kind,
+    kind: KeyKind,
     /// The sentence of schema and documentation.
     says: &'static str,
     /// The value of an absent key, as JSON; empty where there is none.
@@ -53,16 +53,16 @@ struct Key<M: 'static> {
     required: &'static str,
     /// Keys of the same table without which this one means nothing.
     needs: &'static [&'static str],
-    read: fn(&mut Found<'_, '_>, &mut M),
+    read: fn(&mut FoundKey<'_, '_>, &mut M),
     write: fn(&M) -> Option<Json>,
 }
 
 impl<M> Key<M> {
     const fn new(
         name: &'static str,
-        kind: Kind,
+        kind: KeyKind,
         says: &'static str,
-        read: fn(&mut Found<'_, '_>, &mut M),
+        read: fn(&mut FoundKey<'_, '_>, &mut M),
         write: fn(&M) -> Option<Json>,
     ) -> Self {
         Self { name, kind, says, default: "", required: "", needs: &[], read, write }
@@ -94,12 +94,12 @@ macro_rules! key {
 use key;
 
 /// The keys of a table of the file, in the order in which they are listed and written.
-struct Table<M: 'static> {
+struct KeyTable<M: 'static> {
     /// Its name among the definitions of the schema; empty where it stands in one place.
     definition: &'static str,
     keys: &'static [Key<M>],
     /// The kind of the keys that are names.
-    named: Option<&'static Kind>,
+    named: Option<&'static KeyKind>,
     /// Rules of the schema beside those of single keys, as JSON.
     rules: &'static str,
 }
@@ -113,7 +113,7 @@ fn is_table(value: &Json) -> bool {
     }
 }
 
-impl<M> Table<M> {
+impl<M> KeyTable<M> {
     const EMPTY: Self = Self { definition: "", keys: &[], named: None, rules: "{}" };
 
     fn names(&self) -> Vec<&'static str> {
@@ -150,7 +150,7 @@ impl<M> Table<M> {
                 let help = format!("add `{other}`, or remove `{}`", key.name);
                 report.refuse(Code::MissingKey, &entry.key_span, message, help);
             }
-            (key.read)(&mut Found { report, entry, place, kind: key.kind }, to);
+            (key.read)(&mut FoundKey { report, entry, place, kind: key.kind }, to);
         }
     }
 

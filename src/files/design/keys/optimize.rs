@@ -4,9 +4,9 @@ use serde_json::{Value as Json, json};
 
 use super::found::{nearest_help, number, numbers, shown};
 use super::joints::NamedJoints;
-use super::kind::{Kind, either, list as list_of, own, positive, table, unit, whole, word};
-use super::stored::{Item, Stored, Word};
-use super::{Code, Found, TEXT, Table, key};
+use super::kind::{KeyKind, either, list as list_of, own, positive, table, unit, whole, word};
+use super::stored::{Stored, StoredValue, Word};
+use super::{Code, FoundKey, KeyTable, TEXT, key};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use crate::design::{Combination, DesignModel, OptimizeTable, SearchTable};
@@ -24,7 +24,7 @@ pub(super) struct OptimizeKeys {
     limits: OptimizeTable,
     search: SearchTable,
     objective: Option<Objective>,
-    mode: Option<Mode>,
+    mode: Option<WeighingMode>,
     slack: Option<f64>,
     points: Option<usize>,
     /// The names of the joints of both bodies; `None` where they could not be read.
@@ -33,13 +33,13 @@ pub(super) struct OptimizeKeys {
 
 /// How several objectives are weighed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mode {
+pub(super) enum WeighingMode {
     Weighted,
     Lexicographic,
     Pareto,
 }
 
-impl Mode {
+impl WeighingMode {
     pub(super) const ALL: [Self; 3] = [Self::Weighted, Self::Lexicographic, Self::Pareto];
 
     pub(super) fn name(self) -> &'static str {
@@ -51,10 +51,10 @@ impl Mode {
     }
 }
 
-const RANGE: Kind = own(r##"{"$ref": "#/$defs/range"}"##, unit::NONE);
-const OBJECTIVE: Kind = own(r##"{"$ref": "#/$defs/objective"}"##, unit::NONE);
+const RANGE: KeyKind = own(r##"{"$ref": "#/$defs/range"}"##, unit::NONE);
+const OBJECTIVE: KeyKind = own(r##"{"$ref": "#/$defs/objective"}"##, unit::NONE);
 
-pub(super) static OPTIMIZE: Table<OptimizeKeys> = Table {
+pub(super) static OPTIMIZE: KeyTable<OptimizeKeys> = KeyTable {
     keys: &[
         key!("min_joint_distance": positive(unit::LENGTH), limits.min_joint_distance;
             "least distance of joint centres of a body, design units; left to the optimiser where it is absent"),
@@ -80,7 +80,7 @@ pub(super) static OPTIMIZE: Table<OptimizeKeys> = Table {
                 json!(WEIGHTED.write(&WeightedKeys { name, weight }))
             });
             "instead of `objective`: several, with weights"),
-        key!("mode" { default = r#""weighted""# }: word(Mode::words),
+        key!("mode" { default = r#""weighted""# }: word(WeighingMode::words),
             |found, to| to.mode = named(found.report, &found.entry.node, "a mode"),
             |of| of.mode.written();
             "how several objectives are weighed: by their weights, in the order of the list, or as a front"),
@@ -107,7 +107,7 @@ pub(super) static OPTIMIZE: Table<OptimizeKeys> = Table {
             "points": {"required": ["mode"], "properties": {"mode": {"const": "pareto"}}}
         }
     }"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// An objective with a weight.
@@ -117,14 +117,14 @@ struct WeightedKeys {
     weight: Option<f64>,
 }
 
-static WEIGHTED: Table<WeightedKeys> = Table {
+static WEIGHTED: KeyTable<WeightedKeys> = KeyTable {
     keys: &[
         key!("name" { required = "write { name = \"...\", weight = 1.0 }" }: OBJECTIVE,
             |found, to| to.name = objective(found.report, &found.entry.node), |of| of.name.written();
             ""),
         key!("weight": positive(unit::NONE), weight; ""),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[optimize]`, for bodies whose joints are named.
@@ -141,7 +141,7 @@ pub(super) fn optimize(
         let help = "keep one of `objective` and `objectives`";
         report.refuse(Code::ConflictingKeys, &entry.key_span, "objectives are given twice", help);
     }
-    for (key, mode) in [("slack", Mode::Lexicographic), ("points", Mode::Pareto)] {
+    for (key, mode) in [("slack", WeighingMode::Lexicographic), ("points", WeighingMode::Pareto)] {
         if let (Some(e), true) = (find(entries, key), keys.mode != Some(mode)) {
             let message = format!("`{key}` without `mode = \"{}\"`", mode.name());
             report.refuse(Code::MissingKey, &e.key_span, message, format!("remove `{key}`, or add the mode"));
@@ -149,9 +149,9 @@ pub(super) fn optimize(
     }
     keys.search.objectives.extend(keys.objective.map(|objective| (objective, 1.0)));
     keys.search.mode = keys.mode.map(|mode| match mode {
-        Mode::Weighted => Combination::Weighted,
-        Mode::Lexicographic => Combination::Lexicographic { slack: keys.slack.unwrap_or(SLACK) },
-        Mode::Pareto => Combination::Pareto { points: keys.points.unwrap_or(POINTS.0) },
+        WeighingMode::Weighted => Combination::Weighted,
+        WeighingMode::Lexicographic => Combination::Lexicographic { slack: keys.slack.unwrap_or(SLACK) },
+        WeighingMode::Pareto => Combination::Pareto { points: keys.points.unwrap_or(POINTS.0) },
     });
     (keys.limits, keys.search)
 }
@@ -162,9 +162,11 @@ impl OptimizeKeys {
         let mut search = design.search.clone();
         let (mode, slack, points) = match search.mode {
             None => (None, None, None),
-            Some(Combination::Weighted) => (Some(Mode::Weighted), None, None),
-            Some(Combination::Lexicographic { slack }) => (Some(Mode::Lexicographic), Some(slack), None),
-            Some(Combination::Pareto { points }) => (Some(Mode::Pareto), None, Some(points)),
+            Some(Combination::Weighted) => (Some(WeighingMode::Weighted), None, None),
+            Some(Combination::Lexicographic { slack }) => {
+                (Some(WeighingMode::Lexicographic), Some(slack), None)
+            }
+            Some(Combination::Pareto { points }) => (Some(WeighingMode::Pareto), None, Some(points)),
         };
         for body in Body::BOTH {
             search.fixed[body.index()].retain(|name| design.joint_names(body).contains(name));
@@ -179,7 +181,7 @@ fn list<T>(list: &[T], of: impl Fn(&T) -> Json) -> Option<Json> {
 }
 
 /// The names of joints, or of a body for all its joints; a name that both bodies have means both joints.
-fn fixed(found: &mut Found<'_, '_>, joints: &[Option<Vec<String>>; 2]) -> [Vec<String>; 2] {
+fn fixed(found: &mut FoundKey<'_, '_>, joints: &[Option<Vec<String>>; 2]) -> [Vec<String>; 2] {
     let mut out = [Vec::new(), Vec::new()];
     let names = joints.each_ref().map(|names| names.as_deref().unwrap_or_default());
     for node in nodes(found) {
@@ -236,7 +238,7 @@ fn named<W: Word>(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<
 }
 
 /// The elements of a list.
-fn nodes<'a>(found: &mut Found<'a, '_>) -> &'a [Node] {
+fn nodes<'a>(found: &mut FoundKey<'a, '_>) -> &'a [Node] {
     if let Value::Array(list) = &found.entry.node.value {
         return list;
     }
@@ -245,7 +247,7 @@ fn nodes<'a>(found: &mut Found<'a, '_>) -> &'a [Node] {
     &[]
 }
 
-fn variables(found: &mut Found<'_, '_>) -> Vec<VariableKind> {
+fn variables(found: &mut FoundKey<'_, '_>) -> Vec<VariableKind> {
     nodes(found).iter().filter_map(|node| named(found.report, node, "a variable")).collect()
 }
 
@@ -254,7 +256,7 @@ fn objective(report: &mut Findings<'_>, node: &Node) -> Option<Objective> {
 }
 
 /// Names, or `{ name, weight }`.
-fn objectives(found: &mut Found<'_, '_>) -> Vec<(Objective, f64)> {
+fn objectives(found: &mut FoundKey<'_, '_>) -> Vec<(Objective, f64)> {
     let list = nodes(found);
     let mut weighted = |node: &Node| {
         if matches!(node.value, Value::Text(_)) {
@@ -271,7 +273,7 @@ fn objectives(found: &mut Found<'_, '_>) -> Vec<(Objective, f64)> {
     list.iter().filter_map(&mut weighted).collect()
 }
 
-fn points(found: &mut Found<'_, '_>) -> Option<usize> {
+fn points(found: &mut FoundKey<'_, '_>) -> Option<usize> {
     let x = number(found.report, &found.entry.node, "`points`")?;
     let whole = (2..=POINTS.1).find(|n| (*n as f64 - x).abs() < 1e-9);
     if whole.is_none() {
@@ -281,8 +283,8 @@ fn points(found: &mut Found<'_, '_>) -> Option<usize> {
     whole
 }
 
-impl Item for (f64, f64) {
-    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+impl StoredValue for (f64, f64) {
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
         let (what, noun) = (found.what(), "bounds, least and greatest");
         let [low, high] = numbers::<2>(found.report, &found.entry.node, &what, Code::CoordinateCount, noun)?;
         if low > high {

@@ -3,19 +3,19 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::found::numbers;
-use super::kind::{Kind, own, positive, table, unit, vector, word};
+use super::kind::{KeyKind, own, positive, table, unit, vector, word};
 use super::shapes::{BOX, SPHERE, shape, written};
-use super::stored::{Item, Word, rows};
-use super::{Code, Found, Table, key};
+use super::stored::{StoredValue, Word, rows};
+use super::{Code, FoundKey, KeyTable, key};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use machine::requirements::{GRAVITY, Payload, PlateMass};
 
 /// Principal moments, or rows.
-const MOMENTS: Kind =
+const MOMENTS: KeyKind =
     own(r##"{"oneOf": [{"$ref": "#/$defs/vector"}, {"$ref": "#/$defs/rows"}]}"##, unit::INERTIA);
 
-pub(super) static PAYLOAD: Table<Payload> = Table {
+pub(super) static PAYLOAD: KeyTable<Payload> = KeyTable {
     keys: &[
         key!("mass" { required = "add mass = 100.0" }: positive(unit::MASS), mass;
             "mass units, kilograms where none are named, with the platform itself unless `plate` says otherwise"),
@@ -40,7 +40,7 @@ pub(super) static PAYLOAD: Table<Payload> = Table {
             "the same as a ball"),
     ],
     rules: r#"{"not": {"required": ["box", "sphere"]}}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[payload]`.
@@ -64,7 +64,7 @@ pub(super) fn payload(report: &mut Findings<'_>, top: &[Entry]) -> Option<Payloa
 }
 
 /// Three principal moments along the axes, or three rows.
-fn inertia(found: &mut Found<'_, '_>) -> Option<Matrix3<f64>> {
+fn inertia(found: &mut FoundKey<'_, '_>) -> Option<Matrix3<f64>> {
     let (report, node) = (&mut *found.report, &found.entry.node);
     let what = "`inertia` of [payload]";
     let m = match &node.value {

@@ -3,9 +3,9 @@
 use serde_json::{Value as Json, json};
 
 use super::found::{nearest_help, shown};
-use super::kind::{Kind, any, not_negative, positive, table, unit, whole, word};
-use super::stored::{Item, Word};
-use super::{Code, Found, TEXT, Table, key};
+use super::kind::{KeyKind, any, not_negative, positive, table, unit, whole, word};
+use super::stored::{StoredValue, Word};
+use super::{Code, FoundKey, KeyTable, TEXT, key};
 use crate::design::DesignModel;
 use crate::design::scale::micrometres;
 use crate::design::tree::{Entry, find};
@@ -16,7 +16,7 @@ use platform::manipulator::Body;
 /// Most bolts of a joint.
 const MOST_BOLTS: u32 = 64;
 
-static BOLTS: Table<BoltPattern> = Table {
+static BOLTS: KeyTable<BoltPattern> = KeyTable {
     definition: "bolts",
     keys: &[
         key!("count" { required = BOLTS_TAKE }: whole(1, MOST_BOLTS),
@@ -28,11 +28,11 @@ static BOLTS: Table<BoltPattern> = Table {
         key!("from" { default = r#""axis""# }: word(BoltsFrom::words), from;
             "from where it counts: from the first axis of the plate, or from the direction from the origin of the plate to the joint"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 const BOLTS_TAKE: &str = "bolts take count, circle (its diameter) and hole, and may take first_deg and from";
 
-static PLATE: Table<PlateDesign> = Table {
+static PLATE: KeyTable<PlateDesign> = KeyTable {
     definition: "plate",
     keys: &[
         key!("thickness" { required = "add thickness = 20" }: positive(unit::LENGTH), thickness; "thickness"),
@@ -53,18 +53,18 @@ static PLATE: Table<PlateDesign> = Table {
         key!("foot": positive(unit::LENGTH), foot; "diameter of the round foot of a joint; feet keep apart"),
         key!("bolts": table(&BOLTS), bolts; "the bolts of each joint, on a circle about its centre"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
-const PLATE_KIND: Kind = table(&PLATE);
+const PLATE_KIND: KeyKind = table(&PLATE);
 
-pub(super) static PLATES: Table<Plates> = Table {
+pub(super) static PLATES: KeyTable<Plates> = KeyTable {
     keys: &[
         key!("base": PLATE_KIND, |_, _| (), |of| PLATE.put(of.base.as_ref()?); "of the base"),
         key!("platform": PLATE_KIND, |_, _| (), |of| PLATE.put(of.platform.as_ref()?); "of the platform"),
     ],
     rules: r#"{"minProperties": 1}"#,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[plates.base]` and `[plates.platform]`; `units` is the label of the unit of length.
@@ -155,8 +155,8 @@ fn check_material(report: &mut Findings<'_>, entries: &[Entry], material: Option
     }
 }
 
-impl Item for BoltPattern {
-    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+impl StoredValue for BoltPattern {
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
         let place = "`bolts`";
         let mut bolts =
             Self { count: 0, circle: f64::NAN, hole: f64::NAN, first_deg: 0.0, from: BoltsFrom::default() };
@@ -173,7 +173,7 @@ impl Item for BoltPattern {
 }
 
 /// A whole number; 0 where there is none.
-fn bolt_count(found: &mut Found<'_, '_>) -> u32 {
+fn bolt_count(found: &mut FoundKey<'_, '_>) -> u32 {
     found.kind = positive(unit::NONE);
     let Some(count) = found.number() else { return 0 };
     let whole = (1..=MOST_BOLTS).find(|n| (f64::from(*n) - count).abs() < f64::EPSILON);

@@ -4,17 +4,17 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use super::constructions::{Places, is_constructed, three_quantities};
 use super::found::{check_keys, numbers, table};
-use super::kind::{Kind, own, quantities, unit, vector};
-use super::stored::{self, Item, rows};
-use super::{Code, Found, Table, key};
+use super::kind::{KeyKind, own, quantities, unit, vector};
+use super::stored::{self, StoredValue, rows};
+use super::{Code, FoundKey, KeyTable, key};
 use crate::design::DesignModel;
 use crate::design::construction::WrittenHome;
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use platform::geom::Pose;
 
-const QUATERNION: Kind = own(r##"{"$ref": "#/$defs/quaternion"}"##, unit::NONE);
-const ROWS: Kind = own(r##"{"$ref": "#/$defs/rows"}"##, unit::NONE);
+const QUATERNION: KeyKind = own(r##"{"$ref": "#/$defs/quaternion"}"##, unit::NONE);
+const ROWS: KeyKind = own(r##"{"$ref": "#/$defs/rows"}"##, unit::NONE);
 const POSITION: &str = "of the platform origin, base frame";
 const RPY: &str = "roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; exactly one of `rpy_deg`, `quat_wxyz` and `rotation` is there";
 const QUAT: &str = "scalar part first, of norm 1 within 1e-3; it is normalised";
@@ -25,7 +25,7 @@ const ONE_ROTATION: &str = r#"{
 }"#;
 
 /// A pose of plain numbers.
-pub(super) static POSE: Table<Pose> = Table {
+pub(super) static POSE: KeyTable<Pose> = KeyTable {
     definition: "pose",
     keys: &[
         key!("position": vector(unit::LENGTH), |_, _| (), |of| Some(of.position.json()); POSITION),
@@ -34,11 +34,11 @@ pub(super) static POSE: Table<Pose> = Table {
         key!("rotation": ROWS, |_, _| (), |of| Some(rows(of.rotation.matrix())); ROTATION),
     ],
     rules: ONE_ROTATION,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// The home pose, whose numbers may be expressions.
-pub(super) static HOME: Table<DesignModel> = Table {
+pub(super) static HOME: KeyTable<DesignModel> = KeyTable {
     definition: "home_pose",
     keys: &[
         key!("position": quantities(3, unit::LENGTH),
@@ -66,7 +66,7 @@ pub(super) static HOME: Table<DesignModel> = Table {
             ROTATION),
     ],
     rules: ONE_ROTATION,
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 const ROTATION_HELP: &str =
@@ -209,7 +209,7 @@ fn rotation_matrix(report: &mut Findings<'_>, node: &Node, what: &str) -> Option
 }
 
 /// `poses` of `[workspace]`.
-pub(super) fn poses(found: &mut Found<'_, '_>) -> Vec<Pose> {
+pub(super) fn poses(found: &mut FoundKey<'_, '_>) -> Vec<Pose> {
     let Value::Array(list) = &found.entry.node.value else {
         let message = format!("`poses` is {}, not an array of poses", found.entry.node.value.kind());
         found.refuse(Code::WrongType, message, "write poses = [{ position = [..], rpy_deg = [..] }]");

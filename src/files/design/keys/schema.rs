@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use serde_json::{Map, Value as Json, json};
 
 use super::document::TOP;
-use super::kind::{EDGES, HALF_WIDTHS, Shape, VECTOR, numbers, parsed, unit, word};
+use super::kind::{EDGES, HALF_WIDTHS, KeyShape, VECTOR, numbers, parsed, unit, word};
 use super::stored::Word;
 use machine::requirements::Objective;
 

@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 
 use super::found::{self, check_keys};
 use super::kind::{EDGES, numbers, positive, unit, vector};
-use super::{Code, Found, Table, key};
+use super::{Code, FoundKey, KeyTable, key};
 use crate::design::tree::find;
 use machine::requirements::KeepOutShape;
 
@@ -22,36 +22,36 @@ pub(super) struct ShapeKeys {
     diameter: Option<f64>,
 }
 
-pub(super) static BOX: Table<ShapeKeys> = Table {
+pub(super) static BOX: KeyTable<ShapeKeys> = KeyTable {
     definition: "box",
     keys: &[
         key!("center" { required = ADD }: vector(unit::LENGTH), center; ""),
         key!("size" { required = ADD }: numbers(&EDGES, unit::LENGTH), size; ""),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
-pub(super) static SPHERE: Table<ShapeKeys> = Table {
+pub(super) static SPHERE: KeyTable<ShapeKeys> = KeyTable {
     definition: "sphere",
     keys: &[
         key!("center" { required = ADD }: vector(unit::LENGTH), center; ""),
         key!("diameter" { required = ADD }: positive(unit::LENGTH), diameter; ""),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
-pub(super) static CAPSULE: Table<ShapeKeys> = Table {
+pub(super) static CAPSULE: KeyTable<ShapeKeys> = KeyTable {
     definition: "capsule",
     keys: &[
         key!("from" { required = ADD }: vector(unit::LENGTH), from; ""),
         key!("to" { required = ADD }: vector(unit::LENGTH), to; ""),
         key!("diameter" { required = ADD }: positive(unit::LENGTH), diameter; ""),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// The shape of a key that is named after it.
-pub(super) fn shape(found: &mut Found<'_, '_>) -> Option<KeepOutShape> {
+pub(super) fn shape(found: &mut FoundKey<'_, '_>) -> Option<KeepOutShape> {
     let (place, mut keys) = (format!("`{}`", found.entry.key), ShapeKeys::default());
     let table = match found.entry.key.as_str() {
         "box" => &BOX,

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde_json::{Value as Json, json};
 
-use super::found::Found;
-use super::optimize::Mode;
+use super::found::FoundKey;
+use super::optimize::WeighingMode;
 use crate::design::construction::Spelling;
 use crate::design::{WrittenNumber, construction::CoordinatePlane};
 use machine::requirements::{
@@ -15,9 +15,9 @@ use machine::rotary::Elbow;
 use platform::manipulator::Body;
 
 /// A value behind a key.
-pub(super) trait Item: Sized {
+pub(super) trait StoredValue: Sized {
     /// Reads it; `None` where there is none, with the reason in the report.
-    fn take(found: &mut Found<'_, '_>) -> Option<Self>;
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self>;
     /// Writes it.
     fn json(&self) -> Json;
 }
@@ -25,13 +25,13 @@ pub(super) trait Item: Sized {
 /// A field of the design: an item, or one that may be absent.
 pub(super) trait Stored {
     /// Puts the value of a key into it.
-    fn fill(&mut self, found: &mut Found<'_, '_>);
+    fn fill(&mut self, found: &mut FoundKey<'_, '_>);
     /// The value of the key; `None` for an absent one.
     fn written(&self) -> Option<Json>;
 }
 
-impl<T: Item> Stored for T {
-    fn fill(&mut self, found: &mut Found<'_, '_>) {
+impl<T: StoredValue> Stored for T {
+    fn fill(&mut self, found: &mut FoundKey<'_, '_>) {
         if let Some(value) = T::take(found) {
             *self = value;
         }
@@ -42,8 +42,8 @@ impl<T: Item> Stored for T {
     }
 }
 
-impl<T: Item> Stored for Option<T> {
-    fn fill(&mut self, found: &mut Found<'_, '_>) {
+impl<T: StoredValue> Stored for Option<T> {
+    fn fill(&mut self, found: &mut FoundKey<'_, '_>) {
         *self = T::take(found);
     }
 
@@ -52,8 +52,8 @@ impl<T: Item> Stored for Option<T> {
     }
 }
 
-impl Item for f64 {
-    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+impl StoredValue for f64 {
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
         found.number()
     }
 
@@ -62,8 +62,8 @@ impl Item for f64 {
     }
 }
 
-impl<const N: usize> Item for [f64; N] {
-    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+impl<const N: usize> StoredValue for [f64; N] {
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
         found.numbers()
     }
 
@@ -72,8 +72,8 @@ impl<const N: usize> Item for [f64; N] {
     }
 }
 
-impl Item for Vector3<f64> {
-    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+impl StoredValue for Vector3<f64> {
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
         found.numbers::<3>().map(Self::from)
     }
 
@@ -82,8 +82,8 @@ impl Item for Vector3<f64> {
     }
 }
 
-impl Item for Point3<f64> {
-    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+impl StoredValue for Point3<f64> {
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
         found.numbers::<3>().map(Self::from)
     }
 
@@ -92,8 +92,8 @@ impl Item for Point3<f64> {
     }
 }
 
-impl Item for String {
-    fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+impl StoredValue for String {
+    fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
         found.text()
     }
 
@@ -122,8 +122,8 @@ macro_rules! words {
             }
         }
 
-        impl Item for $name {
-            fn take(found: &mut Found<'_, '_>) -> Option<Self> {
+        impl StoredValue for $name {
+            fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {
                 found.word()
             }
 
@@ -143,7 +143,7 @@ words! {
     HolePattern: Self::ALL, Self::name;
     JointType: [Self::Ball, Self::Universal, Self::Flexure], Self::name;
     KeptSymmetry: Self::ALL, Self::code;
-    Mode: Self::ALL, Self::name;
+    WeighingMode: Self::ALL, Self::name;
     ListedFrom: [Self::Home, Self::Base], Self::name;
     MassUnit: Self::ALL, Self::label;
     Objective: Self::ALL, Self::code;

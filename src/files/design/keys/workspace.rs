@@ -3,21 +3,21 @@
 use serde_json::json;
 
 use super::found::element_span;
-use super::kind::{HALF_WIDTHS, Kind, list, numbers, own, table, unit, word};
+use super::kind::{HALF_WIDTHS, KeyKind, list, numbers, own, table, unit, word};
 use super::poses::{POSE, poses};
-use super::stored::{Item, Stored, Word};
-use super::{Code, Found, TEXT, Table, key};
+use super::stored::{Stored, StoredValue, Word};
+use super::{Code, FoundKey, KeyTable, TEXT, key};
 use crate::design::tree::{Entry, find};
 use crate::design::violation::Findings;
 use crate::design::{Trajectory, Workspace};
 use machine::requirements::{ListedFrom, Region};
 
-const HALF_ANGLES: Kind = own(
+const HALF_ANGLES: KeyKind = own(
     r#"{"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number", "minimum": 0, "maximum": 180}}"#,
     unit::DEGREES,
 );
 
-pub(super) static WORKSPACE: Table<Workspace> = Table {
+pub(super) static WORKSPACE: KeyTable<Workspace> = KeyTable {
     keys: &[
         key!("translation" { default = "[0, 0, 0]" }: numbers(&HALF_WIDTHS, unit::LENGTH), translation;
             "half widths around home, base frame"),
@@ -51,7 +51,7 @@ pub(super) static WORKSPACE: Table<Workspace> = Table {
             |of| Some(of.listed_from.json()).filter(|_| of.listed_from != ListedFrom::default());
             "what poses and trajectory are measured from: home, (R, p) meaning (R R_home, p_home + p), so that they move with it, or the base frame"),
     ],
-    ..Table::EMPTY
+    ..KeyTable::EMPTY
 };
 
 /// `[workspace]`.
@@ -93,7 +93,7 @@ pub(super) fn workspace(report: &mut Findings<'_>, top: &[Entry]) -> Workspace {
     result
 }
 
-fn region(found: &mut Found<'_, '_>) -> Region {
+fn region(found: &mut FoundKey<'_, '_>) -> Region {
     let region = found.text().map(|word| Region::of(&word));
     if region == Some(None) {
         let help = "write \"box\" or \"ellipsoid\"";
@@ -102,7 +102,7 @@ fn region(found: &mut Found<'_, '_>) -> Region {
     region.flatten().unwrap_or_default()
 }
 
-fn grid(found: &mut Found<'_, '_>) -> Option<usize> {
+fn grid(found: &mut FoundKey<'_, '_>) -> Option<usize> {
     let x = found.number()?;
     let points = (1..=5_u8).find(|n| (f64::from(*n) - x).abs() < f64::EPSILON);
     if points.is_none() {

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::sheet::{InvalidSheet, Sheet, SheetRow};
+use super::sheet::{CellTable, InvalidSheet, SheetRow};
 use crate::design::{micrometres, nearest_word};
 use machine::requirements::{ForceUnit, LengthLimits, MassUnit};
 
@@ -102,7 +102,7 @@ pub enum InvalidDriveTable {
 
 /// What a column can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Column {
+enum DriveColumn {
     Name,
     Stroke,
     DeadLength,
@@ -115,7 +115,7 @@ enum Column {
     Source,
 }
 
-impl Column {
+impl DriveColumn {
     const ALL: [Self; 10] = [
         Self::Name,
         Self::Stroke,
@@ -213,14 +213,14 @@ impl DriveTable {
     /// # Errors
     /// [`InvalidDriveTable`].
     pub fn read(bytes: &[u8], units: &DesignUnits<'_>) -> Result<Self, InvalidDriveTable> {
-        let sheet = Sheet::read(bytes, 2)?;
+        let sheet = CellTable::read(bytes, 2)?;
         let header = sheet.header.clone().ok_or(InvalidDriveTable::NoHeader)?;
         let mut guesses = sheet.guesses.clone();
-        let mut columns: Vec<(Column, usize, f64)> = Vec::new();
+        let mut columns: Vec<(DriveColumn, usize, f64)> = Vec::new();
         let mut currency = None;
         for (k, cell) in header.iter().enumerate() {
-            let Some((column, unit)) = Column::of(cell) else {
-                let near = nearest_word(cell, &Column::ALL.map(Column::name), NEAR);
+            let Some((column, unit)) = DriveColumn::of(cell) else {
+                let near = nearest_word(cell, &DriveColumn::ALL.map(DriveColumn::name), NEAR);
                 let help = near.map_or(String::new(), |near| format!("; is it `{near}`?"));
                 guesses.push(format!("The column `{cell}` is not used{help}."));
                 continue;
@@ -239,18 +239,18 @@ impl DriveTable {
                     return Err(InvalidDriveTable::Unit { column: cell.clone(), unit, quantity });
                 }
             };
-            if column == Column::Price && !unit.is_empty() {
+            if column == DriveColumn::Price && !unit.is_empty() {
                 currency = Some(unit);
             }
             columns.push((column, k, factor));
         }
         let has = |column| columns.iter().any(|c| c.0 == column);
-        if !has(Column::Stroke) {
-            return Err(InvalidDriveTable::NoColumn(Column::Stroke.name()));
+        if !has(DriveColumn::Stroke) {
+            return Err(InvalidDriveTable::NoColumn(DriveColumn::Stroke.name()));
         }
-        match (has(Column::DeadLength), has(Column::RetractedLength)) {
+        match (has(DriveColumn::DeadLength), has(DriveColumn::RetractedLength)) {
             (true, true) => return Err(InvalidDriveTable::TwoLengths),
-            (false, false) => return Err(InvalidDriveTable::NoColumn(Column::DeadLength.name())),
+            (false, false) => return Err(InvalidDriveTable::NoColumn(DriveColumn::DeadLength.name())),
             _ => (),
         }
         let mut faults = Vec::new();
@@ -274,20 +274,20 @@ impl DriveTable {
 }
 
 struct RowReader<'a> {
-    sheet: &'a Sheet,
+    sheet: &'a CellTable,
     row: &'a SheetRow,
-    columns: &'a [(Column, usize, f64)],
+    columns: &'a [(DriveColumn, usize, f64)],
 }
 
 impl RowReader<'_> {
-    fn cell(&self, column: Column) -> Option<(&str, f64)> {
+    fn cell(&self, column: DriveColumn) -> Option<(&str, f64)> {
         let (_, k, factor) = self.columns.iter().find(|c| c.0 == column)?;
         let cell = self.row.cells.get(*k)?.trim();
         (!cell.is_empty()).then_some((cell, *factor))
     }
 
     /// A number of at least 0, above it unless `zero` may be.
-    fn number(&self, column: Column, zero: bool, faults: &mut Vec<String>) -> Option<f64> {
+    fn number(&self, column: DriveColumn, zero: bool, faults: &mut Vec<String>) -> Option<f64> {
         let (cell, factor) = self.cell(column)?;
         let x = self.sheet.number(cell);
         if !x.is_some_and(|x| x > 0.0 || (zero && x >= 0.0)) {
@@ -297,7 +297,7 @@ impl RowReader<'_> {
         x.map(|x| x * factor)
     }
 
-    fn needed(&self, column: Column, zero: bool, faults: &mut Vec<String>) -> Option<f64> {
+    fn needed(&self, column: DriveColumn, zero: bool, faults: &mut Vec<String>) -> Option<f64> {
         if self.cell(column).is_none() {
             faults.push(format!("line {}: `{}` is empty", self.row.line, column.name()));
         }
@@ -306,14 +306,14 @@ impl RowReader<'_> {
 
     fn drive(&self, number: usize, faults: &mut Vec<String>) -> Option<Drive> {
         let text = |column| self.cell(column).map(|(cell, _)| cell.to_owned());
-        let stroke = self.needed(Column::Stroke, false, faults);
-        let retracted = self.columns.iter().any(|c| c.0 == Column::RetractedLength);
-        let least = if retracted { Column::RetractedLength } else { Column::DeadLength };
+        let stroke = self.needed(DriveColumn::Stroke, false, faults);
+        let retracted = self.columns.iter().any(|c| c.0 == DriveColumn::RetractedLength);
+        let least = if retracted { DriveColumn::RetractedLength } else { DriveColumn::DeadLength };
         let least = self.needed(least, !retracted, faults);
         let mut other = |column| self.number(column, false, faults);
-        let (force, speed) = (other(Column::Force), other(Column::Speed));
-        let (mass, stiffness) = (other(Column::Mass), other(Column::Stiffness));
-        let price = self.number(Column::Price, true, faults);
+        let (force, speed) = (other(DriveColumn::Force), other(DriveColumn::Speed));
+        let (mass, stiffness) = (other(DriveColumn::Mass), other(DriveColumn::Stiffness));
+        let price = self.number(DriveColumn::Price, true, faults);
         let (stroke, least) = (stroke?, least?);
         let lengths = if retracted {
             LengthLimits::Range(least, least + stroke)
@@ -322,7 +322,7 @@ impl RowReader<'_> {
         };
         Some(Drive {
             line: self.row.line,
-            name: text(Column::Name).unwrap_or_else(|| format!("drive {number}")),
+            name: text(DriveColumn::Name).unwrap_or_else(|| format!("drive {number}")),
             stroke,
             lengths,
             force,
@@ -330,7 +330,7 @@ impl RowReader<'_> {
             mass,
             stiffness,
             price,
-            source: text(Column::Source),
+            source: text(DriveColumn::Source),
         })
     }
 }

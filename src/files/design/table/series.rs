@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::header::plain;
-use super::sheet::{InvalidSheet, Sheet, SheetRow};
+use super::sheet::{CellTable, InvalidSheet, SheetRow};
 
 /// A row with fewer numbers is none.
 const LEAST_NUMBERS: usize = 2;
@@ -101,7 +101,7 @@ impl SeriesKind {
         bytes: &[u8],
         record: impl Fn(&str) -> Result<T, String>,
     ) -> Result<TimeSeries<T>, InvalidSeries> {
-        let mut sheet = match Sheet::read(bytes, LEAST_NUMBERS) {
+        let mut sheet = match CellTable::read(bytes, LEAST_NUMBERS) {
             Ok(sheet) => sheet,
             Err(InvalidSheet::NoNumbers(_)) => return Err(InvalidSeries::Empty),
             Err(why) => return Err(InvalidSeries::Sheet(why)),
@@ -171,7 +171,7 @@ impl SeriesKind {
 impl SeriesColumns {
     fn read<T>(
         &self,
-        sheet: &Sheet,
+        sheet: &CellTable,
         row: &SheetRow,
         record: impl Fn(&str) -> Result<T, String>,
     ) -> Result<(Option<f64>, T), String> {

@@ -15,7 +15,7 @@ pub(crate) struct SheetRow {
 
 /// A table of cells, some of which are numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Sheet {
+pub(super) struct CellTable {
     /// The names of the columns, where the table has them.
     pub header: Option<Vec<String>>,
     /// All rows below the header, those without numbers included.
@@ -49,7 +49,7 @@ const SEPARATORS: [(char, &str); 5] =
 /// A line that begins so is a comment.
 const COMMENTS: [&str; 3] = ["#", "%", "//"];
 
-impl Sheet {
+impl CellTable {
     /// Reads a table whose rows have at least `least` numbers; rows without any number are kept, since they may be titles.
     ///
     /// # Errors
@@ -297,7 +297,7 @@ mod tests {
     use super::*;
 
     fn numbers(text: &str) -> Vec<Vec<f64>> {
-        let sheet = Sheet::read(text.as_bytes(), 2).unwrap();
+        let sheet = CellTable::read(text.as_bytes(), 2).unwrap();
         let row = |r: &SheetRow| r.cells.iter().filter_map(|c| sheet.number(c)).collect();
         sheet.rows.iter().map(row).filter(|r: &Vec<f64>| !r.is_empty()).collect()
     }
@@ -328,7 +328,7 @@ mod tests {
 
     #[test]
     fn a_header_is_known_by_its_place_and_its_words() {
-        let header = |text: &str| Sheet::read(text.as_bytes(), 2).unwrap().header.map(|h| h.join("/"));
+        let header = |text: &str| CellTable::read(text.as_bytes(), 2).unwrap().header.map(|h| h.join("/"));
         assert_eq!(header("x,y\n1,2\n").as_deref(), Some("x/y"));
         assert_eq!(header("Hexapod of May\n\nx;y\n1;2\n").as_deref(), Some("x/y"));
         assert_eq!(header("# x y\n1 2\n").as_deref(), Some("x/y"));
@@ -339,12 +339,12 @@ mod tests {
 
     #[test]
     fn what_is_guessed_is_said_and_what_is_no_table_is_refused() {
-        let sheet = Sheet::read("a;b\n1,5;2\n".as_bytes(), 2).unwrap();
+        let sheet = CellTable::read("a;b\n1,5;2\n".as_bytes(), 2).unwrap();
         assert_eq!(
             sheet.guesses,
             ["The columns are separated by semicolons.", "The comma marks the decimals: `1,5` is 1.5."]
         );
-        let why = |text: &str| Sheet::read(text.as_bytes(), 2).unwrap_err();
+        let why = |text: &str| CellTable::read(text.as_bytes(), 2).unwrap_err();
         assert_eq!(
             why("1,\"2\n3,4\n5,6\n").to_string(),
             "line 1: the quotation mark that opens a cell is not closed"
@@ -356,7 +356,7 @@ mod tests {
 
     #[test]
     fn lines_are_those_of_the_text() {
-        let sheet = Sheet::read("x,y\n\n1,2\n\"3\",4\n\n5,6".as_bytes(), 2).unwrap();
+        let sheet = CellTable::read("x,y\n\n1,2\n\"3\",4\n\n5,6".as_bytes(), 2).unwrap();
         assert_eq!(sheet.rows.iter().map(|r| r.line).collect::<Vec<_>>(), [3, 4, 6]);
     }
 }

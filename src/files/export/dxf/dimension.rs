@@ -10,20 +10,20 @@ const NEXT: f64 = 2.5;
 
 /// A direction that is measured along, with the side its dimension lines are on.
 #[derive(Debug, Clone, Copy)]
-struct Axis {
+struct DimensionAxis {
     along: Vector2<f64>,
     out: Vector2<f64>,
     /// Degrees from x.
     angle: f64,
 }
 
-const AXES: [Axis; 2] = [
-    Axis { along: Vector2::new(1.0, 0.0), out: Vector2::new(0.0, -1.0), angle: 0.0 },
-    Axis { along: Vector2::new(0.0, 1.0), out: Vector2::new(-1.0, 0.0), angle: 90.0 },
+const AXES: [DimensionAxis; 2] = [
+    DimensionAxis { along: Vector2::new(1.0, 0.0), out: Vector2::new(0.0, -1.0), angle: 0.0 },
+    DimensionAxis { along: Vector2::new(0.0, 1.0), out: Vector2::new(-1.0, 0.0), angle: 90.0 },
 ];
 
 /// What is between `from` and `to` along an axis, as a DIMENSION and the block that R12 readers draw; the dimension line is `level` out from the origin.
-fn dimension(page: &mut Page, number: usize, axis: &Axis, level: f64, [from, to]: [Point2<f64>; 2]) {
+fn dimension(page: &mut Page, number: usize, axis: &DimensionAxis, level: f64, [from, to]: [Point2<f64>; 2]) {
     let h = page.text_height;
     let foot = |p: &Point2<f64>| Point2::from(axis.along * axis.along.dot(&p.coords) + axis.out * level);
     let (start, end) = (foot(&from), foot(&to));

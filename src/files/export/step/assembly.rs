@@ -9,7 +9,7 @@ use platform::geom::Pose;
 
 /// A part: product definition, shape representation, and the frame it is given in.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct StepPart {
     definition: Id,
     shape: Id,
     frame: Id,
@@ -18,7 +18,7 @@ pub(super) struct Part {
 /// What is placed: the placed frame, the part, the name of the occurrence.
 #[derive(Debug)]
 struct Occurrence {
-    part: Part,
+    part: StepPart,
     frame: Id,
     name: String,
 }
@@ -105,7 +105,7 @@ impl StepAssembly {
         &mut self,
         (name, description): (&str, &str),
         solid: impl FnOnce(&mut Builder) -> Id,
-    ) -> Part {
+    ) -> StepPart {
         let definition = self.product(name, description);
         let (frame, solid) = (self.own_frame(), solid(&mut self.b));
         let shape = self.b.add(&format!(
@@ -115,11 +115,11 @@ impl StepAssembly {
             self.geometry
         ));
         self.has_shape(definition, shape);
-        Part { definition, shape, frame }
+        StepPart { definition, shape, frame }
     }
 
     /// Puts a part into a group at a frame in design units.
-    pub(super) fn place(&mut self, group: &mut Group, part: Part, name: &str, at: &Pose) {
+    pub(super) fn place(&mut self, group: &mut Group, part: StepPart, name: &str, at: &Pose) {
         let axes = at.rotation.matrix();
         let frame = self.b.frame(
             &Point3::from(at.position * self.mm),
@@ -130,7 +130,7 @@ impl StepAssembly {
     }
 
     /// A part made of those of a group.
-    pub(super) fn assembled(&mut self, name: &str, description: &str, group: &Group) -> Part {
+    pub(super) fn assembled(&mut self, name: &str, description: &str, group: &Group) -> StepPart {
         let definition = self.product(name, description);
         let own = self.own_frame();
         let mut frames = vec![own];
@@ -159,7 +159,7 @@ impl StepAssembly {
             ));
             b.add(&format!("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION({related},{property})"));
         }
-        Part { definition, shape, frame: own }
+        StepPart { definition, shape, frame: own }
     }
 
     /// The file, whose whole is made of the parts of a group.

@@ -8,7 +8,7 @@ mod solids;
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use self::assembly::{Group, Part, StepAssembly};
+use self::assembly::{Group, StepAssembly, StepPart};
 use super::telescope::{LegKind, Telescope, kind_suffix};
 use super::text::rounded;
 use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
@@ -57,7 +57,7 @@ fn plate_frame(plate: &Plate) -> Pose {
 }
 
 /// Plate, joints and posts of a body in its own frame.
-fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Part, Unsupported> {
+fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<StepPart, Unsupported> {
     let mm = export.unit.millimetres;
     let plate = body.plate()?;
     let frame = plate_frame(plate);
@@ -115,8 +115,8 @@ fn stroke(kind: &LegKind, t: &Telescope, mm: f64) -> String {
 /// Cylinders and rods, each shape once: legs that differ in length alone may have the same ones.
 #[derive(Default)]
 struct LegParts {
-    cylinder: Option<Part>,
-    rods: Vec<(f64, Part)>,
+    cylinder: Option<StepPart>,
+    rods: Vec<(f64, StepPart)>,
 }
 
 /// A leg of a kind from the origin along the third axis.
@@ -125,7 +125,7 @@ fn leg(
     export: &Export,
     (kind, t): (&LegKind, &Telescope),
     (parts, rod_name): (&mut LegParts, &str),
-) -> Part {
+) -> StepPart {
     let mm = export.unit.millimetres;
     let (thick, thin) = export.legs[kind.legs[0]].diameters;
     let mut group = Group::default();
@@ -165,7 +165,7 @@ fn assembly(export: &Export) -> Result<String, Unsupported> {
         let part = body(&mut a, export, of)?;
         a.place(&mut whole, part, of.body.name(), &placed);
     }
-    let mut legs: Vec<(usize, Part)> = Vec::new();
+    let mut legs: Vec<(usize, StepPart)> = Vec::new();
     let mut parts = LegParts::default();
     // parts of different shapes have names of their own: programs keep parts by their names
     let first = kinds[0].1.rod;

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex64;
 
-use super::roots::{Condition, zeros};
+use super::roots::{RootCondition, zeros};
 
 /// A polynomial `sum over -n..=n of b_m v^m`, `t = (v + 1/v) / 2`, `b_-m = b_m` real: a sum of Chebyshev polynomials `T_m(t)`.
 #[derive(Debug, Clone)]
@@ -101,7 +101,7 @@ impl Chebyshev {
 
 struct Series<'a>(&'a [f64]);
 
-impl Condition for Series<'_> {
+impl RootCondition for Series<'_> {
     type Evidence = ();
 
     fn rate(&mut self, t: Complex64) -> Option<(Complex64, ())> {

@@ -8,7 +8,7 @@ use num_complex::Complex64;
 
 use super::HiddenPoses;
 use super::chebyshev::{Chebyshev, around, nodes};
-use super::legs::{HiddenLeg, Roles, complex};
+use super::legs::{HiddenLeg, LegRoles, complex};
 use super::roots::closure_zeros;
 use platform::geom::ComplexPose;
 
@@ -40,12 +40,12 @@ impl GeneralRoles {
     }
 
     /// The ways to solve that platform.
-    fn roles(&self) -> [Roles; 4] {
+    fn roles(&self) -> [LegRoles; 4] {
         let pair = [self.joint, self.last];
         let rest: Vec<usize> = (0..6).filter(|k| !pair.contains(k)).collect();
         std::array::from_fn(|k| {
             let others = [1, 2, 3].map(|d| rest[(k + d) % 4]);
-            Roles { exchanged: false, pair, three: others, last: rest[k] }
+            LegRoles { exchanged: false, pair, three: others, last: rest[k] }
         })
     }
 }

@@ -19,12 +19,12 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 /// The squared distance of such a point from a third fixed point, a virtual leg, is `x0 + x1 w + x2 / w`: each value of it belongs to two points,
 /// one for each sign of the radical of a trilateration, and `w` takes the place of the length and the sign.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Circle {
+pub(super) struct HiddenCircle {
     centre: Vector3<Complex64>,
     across: [Vector3<Complex64>; 2],
 }
 
-impl Circle {
+impl HiddenCircle {
     /// `None` when the two fixed points coincide.
     pub(super) fn new(feet: [Vector3<f64>; 2], s: [Complex64; 2]) -> Option<Self> {
         let axis = feet[1] - feet[0];
@@ -88,7 +88,7 @@ pub(super) fn unscaled(pose: &ComplexPose, m: &Manipulator) -> ComplexPose {
 
 /// Which legs do what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Roles {
+pub(super) struct LegRoles {
     /// The joint is one of the base: the platform is taken for fixed.
     pub(super) exchanged: bool,
     /// Two legs that share it.
@@ -99,7 +99,7 @@ pub(super) struct Roles {
     pub(super) last: usize,
 }
 
-impl Roles {
+impl LegRoles {
     /// All ways, those with four rotations first. Empty unless each body has at most one shared joint, of two legs: two virtual legs.
     pub(super) fn of(pairs: &[(usize, usize); 6]) -> Vec<Self> {
         let base = shared(pairs.map(|p| p.0));
@@ -129,7 +129,7 @@ impl Roles {
         };
         let [i, j] = self.pair;
         let joint = ends(i).1;
-        let circle = Circle::new([ends(i).0, ends(j).0], [legs[i].s, legs[j].s])?;
+        let circle = HiddenCircle::new([ends(i).0, ends(j).0], [legs[i].s, legs[j].s])?;
         let arm = |k: usize| Arm { base: ends(k).0, b: ends(k).1 - joint, s: legs[k].s };
         Some(HiddenClosure { circle, three: Three::new(self.three.map(arm))?, last: arm(self.last) })
     }
@@ -139,7 +139,7 @@ impl Roles {
         &self,
         legs: &[HiddenLeg; 6],
         at: &Vector3<Complex64>,
-        placed: &Placed,
+        placed: &FiveLegPose,
     ) -> ComplexPose {
         let leg = &legs[self.pair[0]];
         let r = placed.rotation;
@@ -163,7 +163,7 @@ fn shared(joint: [usize; 6]) -> Vec<Vec<usize>> {
 /// Joint on a circle, three legs, and the leg left out.
 #[derive(Debug, Clone)]
 pub(super) struct HiddenClosure {
-    pub(super) circle: Circle,
+    pub(super) circle: HiddenCircle,
     pub(super) three: Three,
     pub(super) last: Arm,
 }
@@ -177,7 +177,7 @@ pub(super) struct Scratch {
 
 /// One pose without the last leg.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Placed {
+pub(super) struct FiveLegPose {
     pub(super) rotation: Matrix3<Complex64>,
     /// `s_m - s`.
     pub(super) gap: Complex64,
@@ -189,15 +189,15 @@ pub(super) struct Placed {
 
 /// The poses at one place of the joint.
 #[derive(Debug, Clone)]
-pub(super) struct Poses {
+pub(super) struct PosesOfJoint {
     /// The joint.
     pub(super) joint: Vector3<Complex64>,
-    pub(super) placed: Vec<Placed>,
+    pub(super) placed: Vec<FiveLegPose>,
     /// Derivative of the logarithm of the polynomial by the angle.
     pub(super) slope: Complex64,
 }
 
-impl Poses {
+impl PosesOfJoint {
     /// How far along the circle a pose is from closing, to first order.
     pub(super) fn step(&self, k: usize) -> f64 {
         (self.placed[k].gap / self.placed[k].slope).norm()
@@ -252,13 +252,13 @@ impl HiddenClosure {
     }
 
     /// The poses at `w`, with derivatives.
-    pub(super) fn poses(&self, w: Complex64, scratch: &mut Scratch) -> Option<Poses> {
+    pub(super) fn poses(&self, w: Complex64, scratch: &mut Scratch) -> Option<PosesOfJoint> {
         let (joint, setting) = self.setting(w, scratch)?;
         let tangent = self.circle.at(w).1;
         let u = self.three.arms().map(|arm| complex(&arm.base) - joint);
         let place =
             |angles: &ComplexAngles| self.place(self.three.rotation(&setting, *angles), &u, &joint, &tangent);
-        let placed = scratch.angles.iter().map(place).collect::<Option<Vec<Placed>>>()?;
+        let placed = scratch.angles.iter().map(place).collect::<Option<Vec<FiveLegPose>>>()?;
         let mut slope: Complex64 = placed.iter().map(|p| p.slope / p.gap).sum();
         for &(i, j) in self.pairs() {
             let n = u[i].cross(&u[j]);
@@ -268,7 +268,7 @@ impl HiddenClosure {
         if self.three.common() {
             slope += placed.iter().map(|p| p.lever * 0.5).sum::<Complex64>();
         }
-        Some(Poses { joint, placed, slope })
+        Some(PosesOfJoint { joint, placed, slope })
     }
 
     /// Gap and derivatives of one pose: the platform turns by `omega` such that the three legs keep their lengths while the joint moves.
@@ -278,7 +278,7 @@ impl HiddenClosure {
         u: &[Vector3<Complex64>; 3],
         joint: &Vector3<Complex64>,
         tangent: &Vector3<Complex64>,
-    ) -> Option<Placed> {
+    ) -> Option<FiveLegPose> {
         let arms = self.three.arms().map(|arm| rotation * complex(&arm.b));
         let rows = [0, 1, 2].map(|j| arms[j].cross(&u[j]));
         let rates = [0, 1, 2].map(|j| tangent.dot(&(arms[j] - u[j])));
@@ -289,7 +289,7 @@ impl HiddenClosure {
         let slope = d.dot(&(omega.cross(&arm) + tangent)) * 2.0;
         let n = u[0].cross(&arms[2]);
         let change = u[0].cross(&omega.cross(&arms[2])) - tangent.cross(&arms[2]);
-        Some(Placed { rotation, gap, slope, lever: n.dot(&change) * 2.0 / n.dot(&n) })
+        Some(FiveLegPose { rotation, gap, slope, lever: n.dot(&change) * 2.0 / n.dot(&n) })
     }
 }
 
@@ -311,7 +311,7 @@ mod tests {
         for n in catalogue() {
             let t = n.topology();
             for legs in [t.legs(), t.legs().map(|l| (l.1, l.0))] {
-                let ways = Roles::of(&legs);
+                let ways = LegRoles::of(&legs);
                 assert_eq!(ways.is_empty(), t.trilateration().virtual_legs.len() != 2, "{}", n.id());
                 let count = match n.id().as_str() {
                     "T02" | "T06" => 4,

@@ -13,7 +13,7 @@ mod roots;
 mod rotations;
 
 use self::general::{GeneralRoles, general_poses};
-use self::legs::{HiddenLeg, Roles, scaled, unscaled};
+use self::legs::{HiddenLeg, LegRoles, scaled, unscaled};
 use self::roots::closure_zeros;
 use platform::geom::ComplexPose;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
@@ -30,7 +30,7 @@ pub struct HiddenLengths<'a> {
 
 #[derive(Debug, Clone)]
 enum Ways {
-    Two(Vec<Roles>),
+    Two(Vec<LegRoles>),
     Three(Vec<GeneralRoles>),
 }
 
@@ -56,7 +56,7 @@ impl<'a> HiddenLengths<'a> {
         let pairs = m.pairs();
         let distinct = |ends: [usize; 6]| (0..6).all(|i| ends[..i].iter().all(|j| *j != ends[i]));
         let general = distinct(pairs.map(|p| p.0)) && distinct(pairs.map(|p| p.1));
-        let ways = if general { Ways::Three(GeneralRoles::all()) } else { Ways::Two(Roles::of(&pairs)) };
+        let ways = if general { Ways::Three(GeneralRoles::all()) } else { Ways::Two(LegRoles::of(&pairs)) };
         let hidden = Self { manipulator: m, ways };
         (hidden.ways() > 0).then_some(hidden)
     }
@@ -94,7 +94,7 @@ impl<'a> HiddenLengths<'a> {
     }
 }
 
-fn two(legs: &[HiddenLeg; 6], roles: &Roles) -> Option<HiddenPoses> {
+fn two(legs: &[HiddenLeg; 6], roles: &LegRoles) -> Option<HiddenPoses> {
     let zeros = closure_zeros(&roles.closure(legs)?)?;
     let mut poses = Vec::with_capacity(zeros.found.len());
     for zero in &zeros.found {

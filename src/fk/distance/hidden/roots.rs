@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use super::legs::{HiddenClosure, Poses, Scratch};
+use super::legs::{HiddenClosure, PosesOfJoint, Scratch};
 use num::poly::approximate_roots;
 
 /// Sweeps after which a zero that still moves is left where it is.
@@ -14,7 +14,7 @@ const SWEEPS: usize = 30;
 const SETTLED: f64 = 1e-6;
 
 /// A function with as many zeros as start values are given for: a polynomial, not necessarily by its coefficients.
-pub(super) trait Condition {
+pub(super) trait RootCondition {
     /// What else an evaluation finds.
     type Evidence;
 
@@ -35,7 +35,10 @@ pub(super) struct Zero<E> {
 }
 
 /// The zeros, and the number of evaluations.
-pub(super) fn zeros<C: Condition>(condition: &mut C, start: &[Complex64]) -> (Vec<Zero<C::Evidence>>, usize) {
+pub(super) fn zeros<C: RootCondition>(
+    condition: &mut C,
+    start: &[Complex64],
+) -> (Vec<Zero<C::Evidence>>, usize) {
     let new = |z: &Complex64| Zero { at: *z, evidence: None, settled: false };
     let mut zeros: Vec<Zero<C::Evidence>> = start.iter().map(new).collect();
     let mut evaluations = 0;
@@ -53,7 +56,7 @@ pub(super) fn zeros<C: Condition>(condition: &mut C, start: &[Complex64]) -> (Ve
     (zeros, evaluations)
 }
 
-fn step<C: Condition>(condition: &mut C, zeros: &mut [Zero<C::Evidence>], k: usize) {
+fn step<C: RootCondition>(condition: &mut C, zeros: &mut [Zero<C::Evidence>], k: usize) {
     let z = zeros[k].at;
     let size = z.norm().max(condition.floor());
     let Some((rate, evidence)) = condition.rate(z) else {
@@ -90,8 +93,8 @@ const PHASE: f64 = 0.1;
 
 /// Zeros and what they cost.
 #[derive(Debug, Clone)]
-pub(super) struct Zeros {
-    pub(super) found: Vec<Zero<Poses>>,
+pub(super) struct FoundZeros {
+    pub(super) found: Vec<Zero<PosesOfJoint>>,
     /// Evaluations of the condition.
     pub(super) evaluations: usize,
     /// Largest coefficient beyond the degree over the largest of all: rounding, unless a zero or pole is near the circle.
@@ -99,7 +102,7 @@ pub(super) struct Zeros {
 }
 
 /// As many zeros as the degree says, start values from the interpolated polynomial; `None` when it cannot be interpolated.
-pub(super) fn closure_zeros(closure: &HiddenClosure) -> Option<Zeros> {
+pub(super) fn closure_zeros(closure: &HiddenClosure) -> Option<FoundZeros> {
     let half = closure.degree() / 2;
     let mut scratch = Scratch::default();
     let mut on_circle = |radius: f64| Laurent::on_circle(closure, half, radius, &mut scratch);
@@ -118,7 +121,7 @@ pub(super) fn closure_zeros(closure: &HiddenClosure) -> Option<Zeros> {
     // neighbours on the circle have neighbouring poses
     start.sort_by(|a, b| a.arg().total_cmp(&b.arg()));
     let (found, evaluations) = zeros(&mut OnCircle { closure, half, scratch }, &start);
-    Some(Zeros { found, evaluations: evaluations + circles * points(half), excess })
+    Some(FoundZeros { found, evaluations: evaluations + circles * points(half), excess })
 }
 
 /// Points on a circle.
@@ -198,10 +201,10 @@ struct OnCircle<'a> {
     scratch: Scratch,
 }
 
-impl Condition for OnCircle<'_> {
-    type Evidence = Poses;
+impl RootCondition for OnCircle<'_> {
+    type Evidence = PosesOfJoint;
 
-    fn rate(&mut self, w: Complex64) -> Option<(Complex64, Poses)> {
+    fn rate(&mut self, w: Complex64) -> Option<(Complex64, PosesOfJoint)> {
         let poses = self.closure.poses(w, &mut self.scratch)?;
         // the angle is -i ln w
         Some(((poses.slope * -Complex64::I + self.half as f64) / w, poses))
@@ -219,7 +222,7 @@ mod tests {
     /// A polynomial by its zeros.
     struct Known(Vec<Complex64>);
 
-    impl Condition for Known {
+    impl RootCondition for Known {
         type Evidence = ();
         fn rate(&mut self, z: Complex64) -> Option<(Complex64, ())> {
             Some((self.0.iter().map(|r| (z - r).inv()).sum(), ()))

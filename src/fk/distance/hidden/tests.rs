@@ -2,7 +2,7 @@ use nalgebra::{Point3, Vector3};
 use num_complex::Complex64;
 
 use super::general::refined;
-use super::legs::{Roles, Scratch};
+use super::legs::{LegRoles, Scratch};
 use super::*;
 use num::Rng;
 use platform::geom::{Pose, random_rotation};
@@ -90,7 +90,7 @@ fn poles_are_where_triangles_degenerate() {
     let mut rng = Rng::new(8);
     for (legs, count) in CLASSES {
         let (m, s) = problem(legs, &mut rng);
-        let roles = Roles::of(&legs)[0];
+        let roles = LegRoles::of(&legs)[0];
         let closure = roles.closure(&scaled(&m, &s)).unwrap();
         let n = 96usize;
         let point = |k: usize| Complex64::from_polar(1.0, 0.1 + std::f64::consts::TAU * k as f64 / n as f64);
@@ -118,7 +118,7 @@ fn the_derivative_is_that_of_the_condition() {
     let mut rng = Rng::new(3);
     for (legs, _) in CLASSES {
         let (m, s) = problem(legs, &mut rng);
-        let closure = Roles::of(&legs)[0].closure(&scaled(&m, &s)).unwrap();
+        let closure = LegRoles::of(&legs)[0].closure(&scaled(&m, &s)).unwrap();
         let (w, h) = (Complex64::from_polar(1.2, 0.7), 1e-5);
         let mut scratch = Scratch::default();
         let mut at = |turn: f64| closure.value(w * Complex64::from_polar(1.0, turn), &mut scratch).unwrap();

@@ -5,7 +5,7 @@
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
-use super::number::{LaneNumber, Places, Vector, along, cross, dot, minus, squared_distance};
+use super::number::{LaneNumber, TrilateratedPlaces, Vector, along, cross, dot, minus, squared_distance};
 use crate::distance::plan::coordinates;
 use num::batch::{ComplexBatch, LANES};
 use num::vector_unit::on_vector_unit;
@@ -186,10 +186,10 @@ impl TrilaterationChain {
         step: &JointPlacement,
         at: &Positions<T>,
         lengths: &[Complex64],
-    ) -> Places<T> {
+    ) -> TrilateratedPlaces<T> {
         let ([x, y, z], [a, b, c]) = (step.from, step.distances);
         let constant = |d: Measured| T::constant(d.value(lengths));
-        Places::of([&at[x], &at[y], &at[z]], [constant(a), constant(b), constant(c)])
+        TrilateratedPlaces::of([&at[x], &at[y], &at[z]], [constant(a), constant(b), constant(c)])
     }
 
     /// Computed less known squared distance of the closure.
@@ -251,13 +251,13 @@ fn closure_of(
 
 /// A circle `centre + w u + z / u`; real points for `|u| = 1` when everything is real.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Circle {
+pub(super) struct ChainCircle {
     centre: Vector<Complex64>,
     forth: Vector<Complex64>,
     back: Vector<Complex64>,
 }
 
-impl Circle {
+impl ChainCircle {
     /// Points with squared distances `s` to two points; `None` when these are one or on an isotropic line.
     pub(super) fn of(p: [&Vector<Complex64>; 2], s: [Complex64; 2]) -> Option<Self> {
         let axis = minus(p[1], p[0]);
@@ -309,20 +309,20 @@ pub(super) struct ChainBranch<'a> {
     pub(super) chain: &'a TrilaterationChain,
     pub(super) lengths: &'a [Complex64],
     fixed: Positions<Complex64>,
-    circle: Circle,
+    circle: ChainCircle,
     place: usize,
 }
 
 /// Choices of orientations at eight points of the circle.
 #[derive(Debug, Clone, Copy)]
-struct Choice {
+struct SignChoice {
     defect: ComplexBatch,
     /// Signed heights of the steps after the turn.
     heights: [ComplexBatch; 2],
     at: Positions<ComplexBatch>,
 }
 
-impl Choice {
+impl SignChoice {
     /// Becomes the other where `which`.
     #[inline(always)]
     fn take(&mut self, other: &Self, which: [bool; LANES]) {
@@ -371,7 +371,7 @@ impl<'a> ChainBranch<'a> {
     ) -> Option<Self> {
         let turn = chain.turn?;
         let s = turn.distances.map(|d| d.value(lengths));
-        let circle = Circle::of(turn.axis.map(|k| &fixed[k]), s)?;
+        let circle = ChainCircle::of(turn.axis.map(|k| &fixed[k]), s)?;
         Some(Self { chain, lengths, fixed: *fixed, circle, place: turn.place })
     }
 
@@ -440,7 +440,7 @@ impl<'a> ChainBranch<'a> {
     pub(super) fn products(&self, points: &[Complex64], e: Exponents) -> Vec<Complex64> {
         let mut out = Vec::with_capacity(points.len());
         for chunk in points.chunks(LANES) {
-            let values = on_vector_unit(Product { branch: self, u: batch_of(chunk), e });
+            let values = on_vector_unit(ChainProduct { branch: self, u: batch_of(chunk), e });
             out.extend((0..chunk.len()).map(|k| values.lane(k)));
         }
         out
@@ -473,21 +473,22 @@ impl<'a> ChainBranch<'a> {
 
     /// Eight choices at `u`: `upper` says for which a step's height is taken as it is, for the others with the other sign.
     #[inline(always)]
-    fn choice(&self, u: ComplexBatch, upper: impl Fn(usize, ComplexBatch) -> [bool; LANES]) -> Choice {
+    fn choice(&self, u: ComplexBatch, upper: impl Fn(usize, ComplexBatch) -> [bool; LANES]) -> SignChoice {
         let mut at = self.start(u);
         let mut heights = [ComplexBatch::ZERO; 2];
         for (t, step) in self.chain.after.iter().enumerate() {
-            let places: Places<ComplexBatch> = TrilaterationChain::places(step, &at, self.lengths);
+            let places: TrilateratedPlaces<ComplexBatch> =
+                TrilaterationChain::places(step, &at, self.lengths);
             heights[t] = places.height.select(-places.height, upper(t, places.height));
             at[step.place] = places.at_height(heights[t]);
         }
         let one = ComplexBatch::real(1.0);
-        Choice { defect: self.chain.defect(&at, self.lengths).unwrap_or(one), heights, at }
+        SignChoice { defect: self.chain.defect(&at, self.lengths).unwrap_or(one), heights, at }
     }
 
     /// The choices at `u` that continue `near`.
     #[inline(always)]
-    fn following(&self, u: ComplexBatch, near: &Choice) -> Choice {
+    fn following(&self, u: ComplexBatch, near: &SignChoice) -> SignChoice {
         self.choice(u, |t, h| {
             let (same, other) = ((h - near.heights[t]).norm_sqr(), (h + near.heights[t]).norm_sqr());
             let mut upper = [false; LANES];
@@ -500,9 +501,9 @@ impl<'a> ChainBranch<'a> {
 
     /// The choices at `u` whose closure is least, and where there is one.
     #[inline(always)]
-    fn least(&self, u: ComplexBatch) -> (Choice, [bool; LANES]) {
+    fn least(&self, u: ComplexBatch) -> (SignChoice, [bool; LANES]) {
         let zero = ComplexBatch::ZERO;
-        let mut out = Choice { defect: zero, heights: [zero; 2], at: [[zero; 3]; SLOTS] };
+        let mut out = SignChoice { defect: zero, heights: [zero; 2], at: [[zero; 3]; SLOTS] };
         let mut least = [f64::INFINITY; LANES];
         for signs in 0..1 << self.chain.after.len() {
             let choice = self.choice(u, |t, _| [(signs >> t) & 1 == 0; LANES]);
@@ -581,13 +582,13 @@ impl pulp::WithSimd for Polishing<'_, '_> {
     }
 }
 
-struct Product<'a, 'b> {
+struct ChainProduct<'a, 'b> {
     branch: &'b ChainBranch<'a>,
     u: ComplexBatch,
     e: Exponents,
 }
 
-impl pulp::WithSimd for Product<'_, '_> {
+impl pulp::WithSimd for ChainProduct<'_, '_> {
     type Output = ComplexBatch;
 
     #[inline(always)]

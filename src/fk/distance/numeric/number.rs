@@ -103,7 +103,7 @@ pub(super) fn squared_distance<T: LaneNumber>(x: &Vector<T>, y: &Vector<T>) -> T
 }
 
 /// The two places of a point with squared distances `s` to three points, and `|u x v|^2 = A / 4` of their triangle.
-pub(super) struct Places<T> {
+pub(super) struct TrilateratedPlaces<T> {
     pub(super) gram: T,
     /// Foot on the plane of the triangle.
     foot: Vector<T>,
@@ -112,7 +112,7 @@ pub(super) struct Places<T> {
     pub(super) height: T,
 }
 
-impl<T: LaneNumber> Places<T> {
+impl<T: LaneNumber> TrilateratedPlaces<T> {
     /// Trilateration in matrix form with the coordinates of the triangle at hand.
     #[inline(always)]
     pub(super) fn of(p: [&Vector<T>; 3], s: [T; 3]) -> Self {
@@ -155,7 +155,7 @@ mod tests {
         for _ in 0..50 {
             let p: [Vector<Complex64>; 3] = std::array::from_fn(|_| std::array::from_fn(|_| number()));
             let s = [number(), number(), number()];
-            let places = Places::of([&p[0], &p[1], &p[2]], s);
+            let places = TrilateratedPlaces::of([&p[0], &p[1], &p[2]], s);
             for q in places.both() {
                 for k in 0..3 {
                     assert!(

@@ -9,7 +9,7 @@
 //! f_7 = g0 + w.h.
 //! ```
 
-use super::{NearSolver, Place};
+use super::{NearSolver, ScaledPose};
 
 type Vector = [f64; 3];
 type Matrix6 = [[f64; 6]; 6];
@@ -30,7 +30,7 @@ fn norm(a: &Vector) -> f64 {
 }
 
 /// The legs at a pose, and the defects `f_i` against target squares.
-pub(super) struct Local {
+pub(super) struct LegDefects {
     a: [Vector; 6],
     b: [Vector; 6],
     d: [Vector; 6],
@@ -38,9 +38,9 @@ pub(super) struct Local {
     squares: [f64; 6],
 }
 
-impl Local {
+impl LegDefects {
     #[inline]
-    pub(super) fn at(solver: &NearSolver, place: &Place, target: &[f64; 6]) -> Self {
+    pub(super) fn at(solver: &NearSolver, place: &ScaledPose, target: &[f64; 6]) -> Self {
         let r = &place.rotation;
         let mut out =
             Self { a: [[0.0; 3]; 6], b: [[0.0; 3]; 6], d: [[0.0; 3]; 6], f: [0.0; 6], squares: [0.0; 6] };
@@ -108,7 +108,7 @@ impl Newton {
 
     /// `R <- Cay(w) R`, `q <- q + (h + w x h + (w.h) w) / (1 + w.w)`: the dual quaternion `(1, w; -w.h, h)`.
     #[inline]
-    pub(super) fn applied_to(&self, place: &Place) -> Place {
+    pub(super) fn applied_to(&self, place: &ScaledPose) -> ScaledPose {
         let (h, w) = self.parts();
         let (ww, wh, turn) = (dot(&w, &w), dot(&w, &h), cross(&w, &h));
         let scale = 1.0 / (1.0 + ww);
@@ -146,7 +146,7 @@ fn reorthogonalised(r: &[Vector; 3]) -> [Vector; 3] {
 }
 
 /// The place with its matrix made a rotation; `None` for what is none by more than `1e-6`, mirror images included.
-pub(super) fn orthonormal(place: &Place) -> Option<Place> {
+pub(super) fn orthonormal(place: &ScaledPose) -> Option<ScaledPose> {
     let r = &place.rotation;
     let mut worst = 0.0_f64;
     for i in 0..3 {
@@ -158,11 +158,11 @@ pub(super) fn orthonormal(place: &Place) -> Option<Place> {
     let proper = dot(&cross(&r[0], &r[1]), &r[2]) > 0.0;
     let finite = place.position.iter().all(|x| x.is_finite());
     let valid = worst <= 1e-6 && proper && finite;
-    valid.then(|| Place { rotation: reorthogonalised(&reorthogonalised(r)), ..*place })
+    valid.then(|| ScaledPose { rotation: reorthogonalised(&reorthogonalised(r)), ..*place })
 }
 
 /// `max(|w|, |h|, |g0| / epsilon)` of the second place seen from the first; infinite for half a turn.
-pub(super) fn distance(from: &Place, to: &Place, epsilon: f64) -> f64 {
+pub(super) fn distance(from: &ScaledPose, to: &ScaledPose, epsilon: f64) -> f64 {
     let (r, t) = (&from.rotation, &to.rotation);
     let entry = |i: usize, j: usize| dot(&t[i], &r[j]); // of t r^T
     let trace = 1.0 + entry(0, 0) + entry(1, 1) + entry(2, 2);
@@ -183,7 +183,7 @@ pub(super) fn distance(from: &Place, to: &Place, epsilon: f64) -> f64 {
 }
 
 /// Angle and length of the motion from one place to another.
-pub(super) fn motion(from: &Place, to: &Place) -> (f64, f64) {
+pub(super) fn motion(from: &ScaledPose, to: &ScaledPose) -> (f64, f64) {
     let (r, t) = (&from.rotation, &to.rotation);
     // |t - r|_F = 2 sqrt 2 sin(angle / 2)
     let chord: f64 = (0..9).map(|k| (t[k / 3][k % 3] - r[k / 3][k % 3]).powi(2)).sum();
@@ -197,7 +197,7 @@ pub(super) fn motion(from: &Place, to: &Place) -> (f64, f64) {
 const UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 const U: f64 = f64::EPSILON / 2.0;
 
-/// How far the numbers of a [`Local`] may be from those of the exact problem, leg by leg, Euclidean norms.
+/// How far the numbers of a [`LegDefects`] may be from those of the exact problem, leg by leg, Euclidean norms.
 ///
 /// The exact problem has the joints of the design, any within their radii, moved by the doubles `origin` and `centre` and divided by the double `unit`, the rotation nearest to the matrix of the
 /// place, and target squares within `target_error` of the numbers given. With `u = 2^-53`, to first order, and constants rounded up:
@@ -214,7 +214,12 @@ pub(super) struct Blur {
 }
 
 impl Blur {
-    pub(super) fn of(solver: &NearSolver, place: &Place, here: &Local, target_error: &[f64; 6]) -> Self {
+    pub(super) fn of(
+        solver: &NearSolver,
+        place: &ScaledPose,
+        here: &LegDefects,
+        target_error: &[f64; 6],
+    ) -> Self {
         let r = &place.rotation;
         let mut square = 0.0;
         for j in 0..3 {
@@ -241,14 +246,14 @@ impl Blur {
 
     /// Of a row of the Jacobian: `d` in `D`, and in `2 B x D` the terms of the product's change with its own rounding; and seven roundings of a sum over six
     /// such rows.
-    fn row(&self, here: &Local, i: usize) -> f64 {
+    fn row(&self, here: &LegDefects, i: usize) -> f64 {
         let (b, d) = (norm(&here.b[i]), norm(&here.d[i]));
         let turned = 2.0 * (self.b[i] * d + b * self.d[i] + self.b[i] * self.d[i]);
         (self.d[i] + turned + 10.0 * U * b * d + 8.0 * U * (d + 2.0 * b * d)) * UP
     }
 
     /// Of the coefficients of `Q_i` without those of `g0 D.w`, and of the latter: `A + B`, and `W` with `|W| <= 6 |A| |B|`; and the roundings of their sums.
-    fn second_order(&self, here: &Local, i: usize) -> (f64, f64) {
+    fn second_order(&self, here: &LegDefects, i: usize) -> (f64, f64) {
         let (a, b) = (norm(&here.a[i]), norm(&here.b[i]));
         let own = 10.0 * U * (1.0 + a + b + 6.0 * a * b);
         let change = self.a[i] + self.b[i] + 6.0 * (self.a[i] * b + a * self.b[i] + self.a[i] * self.b[i]);
@@ -275,7 +280,7 @@ pub(super) struct SegmentStart {
 }
 
 impl SegmentStart {
-    pub(super) fn of(here: &Local, blur: &Blur) -> Option<Self> {
+    pub(super) fn of(here: &LegDefects, blur: &Blur) -> Option<Self> {
         let j = here.jacobian();
         let mut work = j;
         let mut y = [[0.0; 6]; 6];
@@ -311,7 +316,7 @@ impl SegmentStart {
 }
 
 /// `(beta, epsilon)`: rows of `Y Q` are combined over the legs first, then bounded, in blocks of three by the Euclidean norm.
-fn second_order(here: &Local, y: &Matrix6, blur: &Blur) -> (f64, f64) {
+fn second_order(here: &LegDefects, y: &Matrix6, blur: &Blur) -> (f64, f64) {
     // per leg: 1, D, A + B, and the upper triangle of W
     let mut terms = [[0.0; 13]; 6];
     for (t, (a, (b, d))) in terms.iter_mut().zip(here.a.iter().zip(here.b.iter().zip(&here.d))) {

@@ -3,7 +3,7 @@ use nalgebra::Point3;
 use num::Rng;
 use platform::manipulator::{Leg, Manipulator};
 
-fn problem(seed: u64) -> (NearSolver, Place, [f64; 6]) {
+fn problem(seed: u64) -> (NearSolver, ScaledPose, [f64; 6]) {
     let mut rng = Rng::new(seed);
     let legs = std::array::from_fn(|_| {
         let mut p = || Point3::new(rng.normal(), rng.normal(), rng.normal());
@@ -22,12 +22,12 @@ fn problem(seed: u64) -> (NearSolver, Place, [f64; 6]) {
 fn the_expansion_is_exact() {
     for seed in 0..20 {
         let (solver, place, target) = problem(seed);
-        let here = Local::at(&solver, &place, &target);
+        let here = LegDefects::at(&solver, &place, &target);
         let mut rng = Rng::new(seed + 100);
         let step: [f64; 6] = std::array::from_fn(|_| rng.uniform(-0.7, 0.7));
         let newton = Newton { step };
         let (h, w) = newton.parts();
-        let moved = Local::at(&solver, &newton.applied_to(&place), &target);
+        let moved = LegDefects::at(&solver, &newton.applied_to(&place), &target);
         let g0 = -dot(&w, &h);
         let j = here.jacobian();
         for i in 0..6 {
@@ -52,8 +52,8 @@ fn the_second_order_bound_holds_and_is_not_idle() {
     let mut sharpest = 0.0_f64;
     for seed in 0..20 {
         let (solver, place, _) = problem(seed);
-        let own = Local::at(&solver, &place, &[0.0; 6]).squares;
-        let here = Local::at(&solver, &place, &own);
+        let own = LegDefects::at(&solver, &place, &[0.0; 6]).squares;
+        let here = LegDefects::at(&solver, &place, &own);
         let start = SegmentStart::of(&here, &Blur::of(&solver, &place, &here, &[0.0; 6])).unwrap();
         let mut y = [[0.0; 6]; 6];
         (0..6).for_each(|i| y[i][i] = 1.0);
@@ -92,7 +92,7 @@ fn distance_is_that_of_the_step_and_infinite_for_half_a_turn() {
     assert!((distance(&place, &there, 0.5) - expected).abs() < 1e-13);
     let (angle, shift) = motion(&place, &there);
     assert!((angle - 2.0 * norm(&w).atan()).abs() < 1e-12 && shift > 0.0);
-    let half = Place {
+    let half = ScaledPose {
         rotation: [place.rotation[0], place.rotation[1].map(|x| -x), place.rotation[2].map(|x| -x)],
         ..place
     };
@@ -104,9 +104,9 @@ fn distance_is_that_of_the_step_and_infinite_for_half_a_turn() {
 fn what_is_no_rotation_is_refused() {
     let (_, place, _) = problem(4);
     assert!(orthonormal(&place).is_some());
-    let mirrored = Place { rotation: place.rotation.map(|r| r.map(|x| -x)), ..place };
+    let mirrored = ScaledPose { rotation: place.rotation.map(|r| r.map(|x| -x)), ..place };
     assert!(orthonormal(&mirrored).is_none());
-    let stretched = Place { rotation: place.rotation.map(|r| r.map(|x| 1.001 * x)), ..place };
+    let stretched = ScaledPose { rotation: place.rotation.map(|r| r.map(|x| 1.001 * x)), ..place };
     assert!(orthonormal(&stretched).is_none());
     let mut far = place;
     far.position[1] = f64::INFINITY;
@@ -148,13 +148,13 @@ fn the_exact_problem_is_within_the_blur() {
         ];
         let double = |x: &Exact| num_traits::ToPrimitive::to_f64(x).unwrap();
         let rotation = std::array::from_fn(|i| std::array::from_fn(|j| double(&turn[i][j])));
-        let place = Place { rotation, position: std::array::from_fn(|_| rng.normal()) };
+        let place = ScaledPose { rotation, position: std::array::from_fn(|_| rng.normal()) };
         let l =
             platform::manipulator::LegLengths::try_new(std::array::from_fn(|_| rng.uniform(1.0, 4.0) + far))
                 .unwrap();
         let s = l.squared();
         let (target, error) = solver.target(&s);
-        let here = Local::at(&solver, &place, &target);
+        let here = LegDefects::at(&solver, &place, &target);
         let blur = Blur::of(&solver, &place, &here, &error);
         let unit = exact(solver.unit);
         let within = |gap: [Exact; 3], bound: f64| {

@@ -260,7 +260,7 @@ fn second_order<S: Simd>(
 }
 
 /// Values, Jacobian (column `patch` holds the gradient by `g_3`) and bounds of their errors.
-struct Evaluated {
+struct EvaluatedLanes {
     f: [ComplexBatch; N],
     j: Rows,
     f_error: [Reals; N],
@@ -269,10 +269,10 @@ struct Evaluated {
 }
 
 #[inline(always)]
-fn evaluate(system: &LegSystem, x: &[ComplexBatch; 8], patch: &[usize; LANES]) -> Evaluated {
+fn evaluate(system: &LegSystem, x: &[ComplexBatch; 8], patch: &[usize; LANES]) -> EvaluatedLanes {
     let Magnitudes { e, g, p } = magnitudes(x);
     let zero = ComplexBatch::ZERO;
-    let mut out = Evaluated {
+    let mut out = EvaluatedLanes {
         f: [zero; N],
         j: [[zero; N]; N],
         f_error: [Reals::ZERO; N],
@@ -373,13 +373,13 @@ fn bounds<S: Simd>(
 fn bounds_of_lanes<S: Simd>(
     simd: S,
     system: &LegSystem,
-    evaluated: &Evaluated,
+    evaluated: &EvaluatedLanes,
     patch: &[usize; LANES],
     rest: &[f64; N],
     first: usize,
     out: &mut EightBounds,
 ) {
-    let Evaluated { f, j, f_error, width, j_error } = evaluated;
+    let EvaluatedLanes { f, j, f_error, width, j_error } = evaluated;
     let (zero, none) = (Register::real(simd, 0.0), simd.splat_f64s(0.0));
     let mut matrix = [[zero; N]; N];
     let (mut value, mut off) = ([zero; N], [none; 4]);

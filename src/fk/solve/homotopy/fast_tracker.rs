@@ -14,8 +14,8 @@ use super::lanes::{Lanes, MOST_LANES, Matrix8, PerLane, Vec8, load, norm_sqr, st
 use super::limits::{CORRECTION_RATIO, FastTrackerLimits, STEP_GROWTH, STEP_REDUCTION};
 use super::lu::{eliminate, substitute};
 use super::predictor::{choose_step, predicted};
-use super::quadrics::{Forms, Quadrics};
-use super::system::{Line, Series, blank_series, taylor, values};
+use super::quadrics::{QuadraticForms, Quadrics};
+use super::system::{SectionPath, Series, blank_series, taylor, values};
 use num::vector_unit::on_vector_unit;
 
 /// Ratio of corrections below which they are squared by every step, not shrunk by a constant factor: at a double root that is a half.
@@ -63,9 +63,9 @@ impl<L, const F: usize> FastTracker<'_, L, F> {
     }
 }
 
-impl<L: Line<F>, const F: usize> FastTracker<'_, L, F>
+impl<L: SectionPath<F>, const F: usize> FastTracker<'_, L, F>
 where
-    Forms<F>: Quadrics<F>,
+    QuadraticForms<F>: Quadrics<F>,
 {
     /// Runs on the widest vector unit of this machine.
     pub(super) fn run(self) -> Vec<FastPath> {
@@ -73,15 +73,15 @@ where
     }
 }
 
-impl<L: Line<F>, const F: usize> WithSimd for FastTracker<'_, L, F>
+impl<L: SectionPath<F>, const F: usize> WithSimd for FastTracker<'_, L, F>
 where
-    Forms<F>: Quadrics<F>,
+    QuadraticForms<F>: Quadrics<F>,
 {
     type Output = Vec<FastPath>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Vec<FastPath> {
-        let mut batch = PathBatch::new(simd, &self);
+        let mut batch = FastBatch::new(simd, &self);
         let mut matrix = [[Lanes::zero(simd); 8]; 8];
         let mut series = blank_series(simd);
         while batch.path_of_lane.iter().any(Option::is_some) {
@@ -94,7 +94,7 @@ where
 }
 
 /// The paths under way, one per lane, and the results of all.
-struct PathBatch<S: Simd> {
+struct FastBatch<S: Simd> {
     /// Present point, predicted and not yet corrected.
     x: Vec8<S>,
     t: Lanes<S>,
@@ -129,7 +129,7 @@ fn lane_of<S: Simd>(x: &Vec8<S>, l: usize) -> [Complex64; 8] {
     normalised(&out)
 }
 
-impl<S: Simd> PathBatch<S> {
+impl<S: Simd> FastBatch<S> {
     #[inline(always)]
     fn new<L, const F: usize>(simd: S, tracker: &FastTracker<'_, L, F>) -> Self {
         let zero = Lanes::zero(simd);
@@ -181,13 +181,13 @@ impl<S: Simd> PathBatch<S> {
 
     /// One correction of every lane, then a step from those that are accurate enough.
     #[inline(always)]
-    fn iterate<L: Line<F>, const F: usize>(
+    fn iterate<L: SectionPath<F>, const F: usize>(
         &mut self,
         tracker: &FastTracker<'_, L, F>,
         matrix: &mut Matrix8<S>,
         series: &mut Series<S>,
     ) where
-        Forms<F>: Quadrics<F>,
+        QuadraticForms<F>: Quadrics<F>,
     {
         let s = self.t.simd;
         let inverse_norm = s.div_f64s(s.splat_f64s(1.0), s.sqrt_f64s(norm_sqr(&self.x)));
@@ -216,7 +216,7 @@ impl<S: Simd> PathBatch<S> {
 
     /// Accepts, repeats or rejects every lane by its correction; which lanes go on.
     #[inline(always)]
-    fn accept_or_reject<L: Line<F>, const F: usize>(
+    fn accept_or_reject<L: SectionPath<F>, const F: usize>(
         &mut self,
         size: &PerLane,
         curvature: &PerLane,
@@ -330,14 +330,14 @@ fn next_correction(last: f64, this: f64) -> f64 {
 
 /// Newton's method at the target for all paths that arrived there, and a condition estimate.
 #[inline(always)]
-fn polish<S: Simd, L: Line<F>, const F: usize>(
+fn polish<S: Simd, L: SectionPath<F>, const F: usize>(
     simd: S,
     homotopy: &L,
     end: Complex64,
     enough: f64,
     paths: &mut [FastPath],
 ) where
-    Forms<F>: Quadrics<F>,
+    QuadraticForms<F>: Quadrics<F>,
 {
     let arrived: Vec<usize> = (0..paths.len()).filter(|&i| paths[i].remaining == Some(0.0)).collect();
     let end = Lanes::splat(simd, end);

@@ -16,8 +16,8 @@ use super::limits::{BRISK, CAREFUL, FastTrackerLimits, LENGTHS, VERY_CAREFUL};
 use super::monodromy::StartKind;
 use super::paths::{EndKind, HomotopyPath, SAME_END, SETTLED, settle, settle_arrived, suspects, unit};
 use super::polish::polish;
-use super::quadrics::{Forms, Quadrics};
-use super::system::{Coefficient, Line, SectionHomotopy, border};
+use super::quadrics::{QuadraticForms, Quadrics};
+use super::system::{Coefficient, SectionHomotopy, SectionPath, border};
 use crate::solve::planar::{PLANAR_FORMS, mirror, planar_row};
 use crate::solve::sections::{FORMS, NORM_FORMS, ScaledFrames, Sections};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
@@ -39,9 +39,9 @@ struct LengthHomotopy<const F: usize> {
     slope: [Complex64; 6],
 }
 
-impl<const F: usize> Line<F> for LengthHomotopy<F>
+impl<const F: usize> SectionPath<F> for LengthHomotopy<F>
 where
-    Forms<F>: Quadrics<F>,
+    QuadraticForms<F>: Quadrics<F>,
 {
     type Moved<S: Simd> = Lanes<S>;
 
@@ -53,7 +53,7 @@ where
             moved[k] = (x[k] * t).times(2.0);
         }
         for i in 0..6 {
-            j[i] = Forms::real_gradient(&self.target[i], x);
+            j[i] = QuadraticForms::real_gradient(&self.target[i], x);
             for k in 0..4 {
                 j[i][k] = self.slope[i].add_times(j[i][k], moved[k]);
             }
@@ -62,7 +62,7 @@ where
 
     #[inline(always)]
     fn moved<S: Simd>(forms: &[Lanes<S>; F]) -> Lanes<S> {
-        Forms::norm(forms)
+        QuadraticForms::norm(forms)
     }
 
     #[inline(always)]

@@ -10,7 +10,7 @@ use super::monodromy::StartKind;
 use super::polish::{PolishedRoot, polish};
 use super::start::{StartError, shipped};
 use super::system::SectionHomotopy;
-use super::tail::{Tail, TailEnd};
+use super::tail::{CornerTail, TailEnd};
 use super::tracker::Tracked;
 use crate::solve::octuple_sections::OctupleSections;
 use crate::solve::planar::mirror;
@@ -175,7 +175,7 @@ pub(crate) fn follow_finely(
     let real = SectionHomotopy::real(&aligned, &rounded).ok_or(StartError::NotReal)?;
     let first = SectionHomotopy::through(&real, Complex64::ONE).shortened(corner);
     let second = SectionHomotopy::through(&real, corner).shortened(TAIL_AT.into());
-    let tail = Tail::new(&aligned, target, corner);
+    let tail = CornerTail::new(&aligned, target, corner);
     let from: Vec<[Complex64; 8]> = which.iter().map(|i| start.solutions[*i]).collect();
     let at_corner = track_all(&first, &from, &CAREFUL, 0.0);
     let middle: Vec<[Complex64; 8]> = at_corner.iter().map(|p| p.x).collect();

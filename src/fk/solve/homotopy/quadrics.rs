@@ -8,7 +8,7 @@ use crate::solve::planar::PLANAR_FORMS;
 use crate::solve::sections::{FORMS, NORM_FORMS};
 
 /// A set of `F` quadratic forms in `x = (e, g)`; [`Quadrics`] says which.
-pub(super) struct Forms<const F: usize>;
+pub(super) struct QuadraticForms<const F: usize>;
 
 /// What the tracker needs of a set of forms.
 pub(super) trait Quadrics<const F: usize> {
@@ -26,7 +26,7 @@ pub(super) trait Quadrics<const F: usize> {
 }
 
 /// All 17 forms, in the order of [`FormRow`](crate::solve::sections::FormRow).
-impl Quadrics<FORMS> for Forms<FORMS> {
+impl Quadrics<FORMS> for QuadraticForms<FORMS> {
     #[inline(always)]
     fn polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> ([Lanes<S>; FORMS], Lanes<S>) {
         let zero = Lanes::zero(x[0].simd);
@@ -124,7 +124,7 @@ impl Quadrics<FORMS> for Forms<FORMS> {
 }
 
 /// The ten forms of doubly planar platforms, in the order of [`PlanarRow`](crate::solve::planar::PlanarRow).
-impl Quadrics<PLANAR_FORMS> for Forms<PLANAR_FORMS> {
+impl Quadrics<PLANAR_FORMS> for QuadraticForms<PLANAR_FORMS> {
     #[inline(always)]
     fn polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> ([Lanes<S>; PLANAR_FORMS], Lanes<S>) {
         let [a0, a1, a2, a3, b0, b1, b2, b3] = *x;

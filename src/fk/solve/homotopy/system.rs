@@ -8,7 +8,7 @@ use num_complex::Complex64;
 use pulp::Simd;
 
 use super::lanes::{Lanes, Matrix8, Vec8};
-use super::quadrics::{Forms, Quadrics};
+use super::quadrics::{QuadraticForms, Quadrics};
 use crate::solve::planar::{PLANAR_FORMS, planar_row};
 use crate::solve::sections::{FORMS, Sections};
 
@@ -51,7 +51,7 @@ impl Coefficient for Complex64 {
 }
 
 /// A path of six linear sections that is straight in a complex parameter, as the trackers need it.
-pub(super) trait Line<const F: usize> {
+pub(super) trait SectionPath<const F: usize> {
     /// Values of those forms whose coefficients change.
     type Moved<S: Simd>: Copy;
 
@@ -148,9 +148,9 @@ impl<K: Coefficient, const F: usize> SectionHomotopy<K, F> {
     }
 }
 
-impl<K: Coefficient, const F: usize> Line<F> for SectionHomotopy<K, F>
+impl<K: Coefficient, const F: usize> SectionPath<F> for SectionHomotopy<K, F>
 where
-    Forms<F>: Quadrics<F>,
+    QuadraticForms<F>: Quadrics<F>,
 {
     type Moved<S: Simd> = [Lanes<S>; F];
 
@@ -159,7 +159,7 @@ where
     fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>, j: &mut Matrix8<S>) {
         border(x, patch, j);
         for i in 0..6 {
-            j[i] = Forms::gradient(&self.row_at(i, t), x);
+            j[i] = QuadraticForms::gradient(&self.row_at(i, t), x);
         }
     }
 
@@ -170,7 +170,7 @@ where
 
     #[inline(always)]
     fn moved_polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> [Lanes<S>; F] {
-        Forms::polar(x, y).0
+        QuadraticForms::polar(x, y).0
     }
 
     #[inline(always)]
@@ -210,12 +210,12 @@ pub(super) fn derivative_matrix<S: Simd, const F: usize>(
     patch: &Vec8<S>,
 ) -> Matrix8<S>
 where
-    Forms<F>: Quadrics<F>,
+    QuadraticForms<F>: Quadrics<F>,
 {
     let mut j = [*patch; 8];
     border(x, patch, &mut j);
     for i in 0..6 {
-        j[i] = Forms::gradient(&rows[i], x);
+        j[i] = QuadraticForms::gradient(&rows[i], x);
     }
     j
 }
@@ -262,14 +262,14 @@ pub(super) fn blank_series<S: Simd>(simd: S) -> Series<S> {
 /// polar forms `F` (halved where `i = j`): one factorisation serves all orders. With `C(t) = C_0 + t C'` the
 /// right-hand side is `C_0 u_k + C' (t u_k + w_{k-1})`, products with constant matrices only.
 #[inline(always)]
-pub(super) fn taylor<S: Simd, L: Line<F>, const F: usize>(
+pub(super) fn taylor<S: Simd, L: SectionPath<F>, const F: usize>(
     homotopy: &L,
     t: Lanes<S>,
     x: &Vec8<S>,
     series: &mut Series<S>,
     solve: impl Fn(&mut Vec8<S>),
 ) where
-    Forms<F>: Quadrics<F>,
+    QuadraticForms<F>: Quadrics<F>,
 {
     let zero = Lanes::zero(t.simd);
     let half = Lanes::splat(t.simd, Complex64::new(-0.5, 0.0));
@@ -280,7 +280,7 @@ pub(super) fn taylor<S: Simd, L: Line<F>, const F: usize>(
     for k in 1..=ORDER {
         for i in 1..=k / 2 {
             let j = k - i;
-            let (f, s) = Forms::polar(&series[i - 1], &series[j - 1]);
+            let (f, s) = QuadraticForms::polar(&series[i - 1], &series[j - 1]);
             let part = |z: Lanes<S>| if i == j { z.times(0.5) } else { z };
             // the first of an order takes the place of the order before
             for n in 0..F {
@@ -345,7 +345,7 @@ mod tests {
             assert!((direct(x)[i] - f[i].lane(0)).norm() < 1e-12);
         }
         let sum: [Complex64; 8] = std::array::from_fn(|k| x[k] + y[k]);
-        let (polar, study) = Forms::<FORMS>::polar(&lanes(x), &lanes(y));
+        let (polar, study) = QuadraticForms::<FORMS>::polar(&lanes(x), &lanes(y));
         for k in 0..FORMS {
             let expected = forms(sum)[k] - forms(x)[k] - forms(y)[k];
             assert!((polar[k].lane(0) - expected).norm() < 1e-12, "form {k}");

@@ -47,7 +47,7 @@ const ZERO: f64 = 1e-40;
 const FALL: f64 = 0.02;
 
 /// `C(t) = C_0 + t slope`, `C_0` and `slope` real, `t` on the line from the corner to 0.
-pub(super) struct Tail {
+pub(super) struct CornerTail {
     target: [[Octuple; FORMS]; 6],
     slope: [[Octuple; FORMS]; 6],
     corner: ComplexOctuple,
@@ -180,7 +180,7 @@ fn gradient(row: &[ComplexOctuple; FORMS], x: &[ComplexOctuple; 8]) -> [ComplexO
     out
 }
 
-impl Tail {
+impl CornerTail {
     /// From `start`, as in doubles, to `target`; corner as of the homotopy in doubles.
     pub(super) fn new(start: &Sections, target: &OctupleSections, corner: Complex64) -> Self {
         let mut slope = target.rows;
@@ -512,7 +512,7 @@ mod tests {
         let sections = |rng: &mut Rng| Sections { rows: std::array::from_fn(|_| row(rng)) }.graded().unwrap();
         let (start, aim) = (sections(rng), sections(rng));
         let target = OctupleSections { rows: aim.rows.map(|r| r.map(|z| Octuple::from(z.re))) };
-        let tail = Tail::new(&start, &target, Complex64::new(0.5, 0.2));
+        let tail = CornerTail::new(&start, &target, Complex64::new(0.5, 0.2));
         let x: [ComplexOctuple; 8] =
             std::array::from_fn(|_| ComplexOctuple::from(Complex64::new(rng.normal(), rng.normal())));
         let at = Octuple::from(0.01);

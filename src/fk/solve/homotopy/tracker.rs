@@ -11,7 +11,7 @@ use super::lanes::{Lanes, MOST_LANES, PerLane, Vec8, load, norm_sqr, store};
 use super::limits::{CORRECTION_RATIO, STEP_GROWTH, STEP_REDUCTION, TrackerLimits};
 use super::lu::Lu;
 use super::predictor::{choose_step, predicted};
-use super::system::{Line, SectionHomotopy, blank_series, derivative_matrix, taylor, values};
+use super::system::{SectionHomotopy, SectionPath, blank_series, derivative_matrix, taylor, values};
 
 /// Paths under way, one per lane.
 #[derive(Debug, Clone)]

@@ -2,7 +2,7 @@
 
 use super::joints::EndResidues;
 use super::quadrics::{Cut, H, Linear, cut};
-use super::quotient::{Outcome, close};
+use super::quotient::{QuotientOutcome, close};
 use super::{DEGREE, leg_equation};
 use num::Rng;
 use num::modular::Field;
@@ -28,7 +28,7 @@ fn are_finite_by(field: Field, ends: &EndResidues, hyperplane: Linear) -> bool {
         // homogeneous equations have the solution zero
         Cut::Empty => false,
         Cut::Quadrics { unknowns, polynomials } => {
-            matches!(close(field, unknowns, polynomials, DEGREE), Outcome::Closed { .. })
+            matches!(close(field, unknowns, polynomials, DEGREE), QuotientOutcome::Closed { .. })
         }
     }
 }

@@ -14,7 +14,7 @@ use joints::{CountedJoints, DrawnPrime, EndResidues};
 use num::modular::Field;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 use quadrics::{COORDINATES, Cut, H, Linear, M, cut};
-use quotient::{Outcome, close};
+use quotient::{QuotientOutcome, close};
 
 /// Squared lengths, each the exact sum of two doubles.
 pub type ExactSquares = [[f64; 2]; 6];
@@ -354,7 +354,7 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
             }
             Cut::Quadrics { unknowns, polynomials } => (unknowns, polynomials),
         };
-        if let Outcome::Closed { by_degree, depth } = close(field, unknowns, polynomials, DEGREE) {
+        if let QuotientOutcome::Closed { by_degree, depth } = close(field, unknowns, polynomials, DEGREE) {
             deepest = deepest.max(depth);
             let count = by_degree.iter().sum();
             let set = if dimension == 0 || (count == 0 && dimension == relations) {

@@ -39,7 +39,7 @@ pub(super) type Polynomial = Vec<(Monomial, u64)>;
 
 /// What became of the spaces.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Outcome {
+pub(super) enum QuotientOutcome {
     /// The standard monomials are a basis of the algebra.
     Closed {
         /// How many there are of each degree, from 0 on; empty when the ideal holds 1.
@@ -56,7 +56,7 @@ pub(super) enum Outcome {
 
 /// `x_k` times a standard monomial.
 #[derive(Debug, Clone)]
-enum Product {
+enum MonomialProduct {
     /// A standard monomial, by index.
     Standard(usize),
     /// A combination of the standard monomials before.
@@ -78,7 +78,7 @@ struct Spaces {
     /// Index of the first standard monomial of each degree built, and one more for the end.
     first: Vec<usize>,
     /// Products of the standard monomials of all degrees built but the last.
-    products: Vec<Vec<Product>>,
+    products: Vec<Vec<MonomialProduct>>,
     /// Relations by degree.
     given: Vec<Vec<IdealRelation>>,
     /// Degree of the multiples used for each space.
@@ -86,7 +86,12 @@ struct Spaces {
 }
 
 /// Builds the spaces up to degree `limit`.
-pub(super) fn close(field: Field, unknowns: usize, polynomials: Vec<Polynomial>, limit: usize) -> Outcome {
+pub(super) fn close(
+    field: Field,
+    unknowns: usize,
+    polynomials: Vec<Polynomial>,
+    limit: usize,
+) -> QuotientOutcome {
     let mut given: Vec<Vec<IdealRelation>> = vec![Vec::new(); limit + 1];
     for polynomial in polynomials {
         let Some(d) = polynomial.iter().map(|t| degree(t.0)).max() else { continue };
@@ -106,7 +111,7 @@ pub(super) fn close(field: Field, unknowns: usize, polynomials: Vec<Polynomial>,
         // built spaces: W_0 .. W_built
         let next = built + 1;
         if next > limit {
-            return Outcome::Open { by_degree: s.by_degree() };
+            return QuotientOutcome::Open { by_degree: s.by_degree() };
         }
         match s.build(next) {
             Ok(()) => {
@@ -116,10 +121,10 @@ pub(super) fn close(field: Field, unknowns: usize, polynomials: Vec<Polynomial>,
                     while by_degree.last() == Some(&0) {
                         by_degree.pop();
                     }
-                    return Outcome::Closed { by_degree, depth: s.depth[built] };
+                    return QuotientOutcome::Closed { by_degree, depth: s.depth[built] };
                 }
             }
-            Err(0) => return Outcome::Closed { by_degree: Vec::new(), depth: s.depth[next] },
+            Err(0) => return QuotientOutcome::Closed { by_degree: Vec::new(), depth: s.depth[next] },
             Err(e) => {
                 s.truncate(e - 1);
                 built = e - 1;
@@ -178,7 +183,7 @@ impl Spaces {
                 for k in 0..j {
                     if matches!(
                         (&self.products[u][j], &self.products[u][k]),
-                        (Product::Standard(_), Product::Standard(_))
+                        (MonomialProduct::Standard(_), MonomialProduct::Standard(_))
                     ) {
                         continue;
                     }
@@ -223,11 +228,11 @@ impl Spaces {
                 let c = columns.place[&(self.standard[i] + variable(k))];
                 let Some(row) = echelon.leading_in(c) else {
                     let at = free.iter().position(|f| *f == c).unwrap_or(0);
-                    return Product::Standard(before + at);
+                    return MonomialProduct::Standard(before + at);
                 };
                 let old = (0..before).map(|i| row[columns.of_standard(i)]);
                 let sum = old.chain(free.iter().map(|f| row[*f]));
-                Product::Sum(sum.map(|x| self.field.sub(0, x)).collect())
+                MonomialProduct::Sum(sum.map(|x| self.field.sub(0, x)).collect())
             });
             let products = products.collect();
             self.products.push(products);
@@ -239,8 +244,8 @@ impl Spaces {
     /// Adds `factor x_j (x_k u)` to a row.
     fn add_product(&self, row: &mut [u64], columns: &Columns<'_>, u: usize, k: usize, j: usize, factor: u64) {
         match &self.products[u][k] {
-            Product::Standard(i) => self.add_multiple(row, columns, *i, j, factor),
-            Product::Sum(sum) => {
+            MonomialProduct::Standard(i) => self.add_multiple(row, columns, *i, j, factor),
+            MonomialProduct::Sum(sum) => {
                 for (i, x) in sum.iter().enumerate().filter(|t| *t.1 != 0) {
                     self.add_multiple(row, columns, i, j, self.field.mul(*x, factor));
                 }
@@ -254,8 +259,8 @@ impl Spaces {
         let add = |x: &mut u64, y: u64| *x = field.add(*x, y);
         match self.products.get(i).map(|p| &p[j]) {
             None => add(&mut row[columns.place[&(self.standard[i] + variable(j))]], factor),
-            Some(Product::Standard(k)) => add(&mut row[columns.of_standard(*k)], factor),
-            Some(Product::Sum(sum)) => {
+            Some(MonomialProduct::Standard(k)) => add(&mut row[columns.of_standard(*k)], factor),
+            Some(MonomialProduct::Sum(sum)) => {
                 for (k, x) in sum.iter().enumerate().filter(|t| *t.1 != 0) {
                     add(&mut row[columns.of_standard(k)], field.mul(*x, factor));
                 }
@@ -276,8 +281,8 @@ impl Spaces {
             let mut product = vec![0; columns.before];
             for (i, x) in sum.iter().enumerate().filter(|t| *t.1 != 0) {
                 match &self.products[i][k] {
-                    Product::Standard(at) => product[*at] = self.field.add(product[*at], *x),
-                    Product::Sum(terms) => {
+                    MonomialProduct::Standard(at) => product[*at] = self.field.add(product[*at], *x),
+                    MonomialProduct::Sum(terms) => {
                         for (p, y) in product.iter_mut().zip(terms) {
                             *p = self.field.add(*p, self.field.mul(*x, *y));
                         }

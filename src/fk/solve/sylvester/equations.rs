@@ -18,7 +18,7 @@ type Triple = [Bivariate; 3];
 
 /// `(q, p) = (u_q, u_p) + lambda (n_q, n_p)`: all solutions of the five leg equations linear in `(q, p)`.
 #[derive(Debug, Clone)]
-pub(super) struct Equations {
+pub(super) struct ReducedEquations {
     /// `N u`, six quadratic forms in `(1, c_1, c_2, c_3)`.
     particular: [[Number; 10]; 6],
     null: [Number; 6],
@@ -45,7 +45,7 @@ fn double(x: f64) -> Number {
     Number::from(Complex64::new(x, 0.0))
 }
 
-impl Equations {
+impl ReducedEquations {
     /// Solves `b_i^T q - a_i^T p = a_i^T R b_i - (|a_i|^2 + |b_i|^2 - L_i + L_1) / 2`, `i = 2..6`, exactly rounded
     /// to double-double, for `N q, N p` as forms in the quaternion `(1, c)` (Lee, Shim, eqs. 8 and 14).
     pub(super) fn of(problem: &GenericProblem) -> Result<Self, SylvesterError> {

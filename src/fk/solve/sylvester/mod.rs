@@ -23,7 +23,7 @@ use thiserror::Error;
 
 use super::generic_frame::GenericProblem;
 use elimination::Triangularised;
-use equations::Equations;
+use equations::ReducedEquations;
 use num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
 use platform::geom::ComplexPose;
 
@@ -66,7 +66,7 @@ pub enum SylvesterError {
 /// The degree-40 polynomial in `c_3` of a problem.
 #[derive(Debug, Clone)]
 pub struct Eliminant {
-    equations: Equations,
+    equations: ReducedEquations,
     coefficients: Vec<DoubleDouble>,
     /// Largest interpolated coefficient above degree 40 relative to the largest of all: the noise.
     pub excess: f64,
@@ -78,12 +78,12 @@ impl Eliminant {
     /// # Errors
     /// [`SylvesterError`] when the elimination degenerates.
     pub fn of(problem: &GenericProblem) -> Result<Self, SylvesterError> {
-        Self::with(Equations::of(problem)?, |_, _| {})
+        Self::with(ReducedEquations::of(problem)?, |_, _| {})
     }
 
     /// The eliminant of the matrices after a change `touch(c_3, matrix)`, which only tests make.
     fn with(
-        equations: Equations,
+        equations: ReducedEquations,
         touch: impl Fn(Number, &mut [Vec<Number>]),
     ) -> Result<Self, SylvesterError> {
         let values: Result<Vec<Number>, SylvesterError> = (0..=POINTS / 2)
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn a_determinant_of_another_degree_is_noticed() {
-        let equations = Equations::of(&problem().2).unwrap();
+        let equations = ReducedEquations::of(&problem().2).unwrap();
         let wrong = Eliminant::with(equations, |c3, rows| rows[4].iter_mut().for_each(|z| *z = *z * c3));
         assert!(matches!(wrong, Err(SylvesterError::NotDegree40 { excess }) if excess > 1e-10));
     }

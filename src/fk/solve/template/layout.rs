@@ -39,7 +39,7 @@ pub(super) struct Fill {
 
 /// A basic monomial divided by `w`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Quotient {
+pub(super) enum DividedMonomial {
     /// Basic monomial of this index.
     Basic(usize),
     /// Reducible monomial of this index.
@@ -54,7 +54,7 @@ pub struct TemplateLayout {
     pub(super) reducible: usize,
     pub(super) basic: usize,
     pub(super) fills: Vec<Fill>,
-    pub(super) quotients: Vec<Quotient>,
+    pub(super) quotients: Vec<DividedMonomial>,
     /// Places of `w, uw, vw, w^2, xw, yw, zw` among the basic monomials.
     pub(super) coordinates: [usize; 7],
 }
@@ -153,10 +153,10 @@ impl TemplateLayout {
         let quotient = |b: &Monomial| {
             let mut q = *b;
             q[2] = q[2].checked_sub(1)?;
-            let reducible = || reducible.iter().position(|r| *r == q).map(Quotient::Reducible);
-            place(&q).map(Quotient::Basic).or_else(reducible)
+            let reducible = || reducible.iter().position(|r| *r == q).map(DividedMonomial::Reducible);
+            place(&q).map(DividedMonomial::Basic).or_else(reducible)
         };
-        let quotients: Option<Vec<Quotient>> = basic.iter().map(quotient).collect();
+        let quotients: Option<Vec<DividedMonomial>> = basic.iter().map(quotient).collect();
         let named = [0, 1, 2, 3, 4, 5, 6].map(|k| {
             let mut m: Monomial = [0, 0, 1, 0, 0, 0];
             if k > 0 {
@@ -210,7 +210,7 @@ mod tests {
     fn the_shipped_template_has_the_published_sizes() {
         let l = TemplateLayout::shipped().unwrap();
         assert_eq!((l.rows, l.excessive, l.reducible, l.basic), (293, 255, 38, 69));
-        let reducible = l.quotients.iter().filter(|q| matches!(q, Quotient::Reducible(_))).count();
+        let reducible = l.quotients.iter().filter(|q| matches!(q, DividedMonomial::Reducible(_))).count();
         assert_eq!(reducible, 38);
         assert_eq!(l.coordinates, [68, 62, 63, 64, 65, 66, 67], "the last seven, in the published order");
         let entries: BTreeSet<(u16, u16)> = l.fills.iter().map(|f| (f.row, f.column)).collect();

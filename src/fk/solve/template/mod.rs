@@ -21,7 +21,7 @@ pub use layout::{LayoutError, TemplateLayout};
 use nalgebra::Vector3;
 
 use super::generic_frame::{GenericProblem, norm_form, rotation_forms};
-use layout::Quotient;
+use layout::DividedMonomial;
 use num::dense::{GeneralizedEigenpair, generalized_eigenpairs, upper_factor};
 use num::linalg::LinalgError;
 use platform::geom::ComplexPose;
@@ -98,13 +98,13 @@ impl Eliminated<'_> {
         let (mut t0, mut t1) = (vec![vec![0.0; l.basic]; l.basic], vec![vec![0.0; l.basic]; l.basic]);
         let mut equations = self.rows.iter();
         for (i, quotient) in l.quotients.iter().enumerate() {
-            if let Quotient::Basic(j) = quotient {
+            if let DividedMonomial::Basic(j) = quotient {
                 t0[i][*j] = 1.0;
                 t1[i][i] = 1.0;
             } else if let Some(equation) = equations.next() {
                 let size = equation.iter().map(|x| x * x).sum::<f64>().sqrt();
                 for (k, q) in l.quotients.iter().enumerate() {
-                    if let Quotient::Reducible(r) = q {
+                    if let DividedMonomial::Reducible(r) = q {
                         t1[i][k] = equation[*r] / size;
                     }
                     t0[i][k] = -equation[l.reducible + k] / size;

@@ -2,7 +2,9 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::grid::{BodyGrid, GridHole, POOL, Pool, Triangle, Wanted, length, pool, three_fold_pool};
+use super::grid::{
+    BodyGrid, GridHole, GridTriangle, POOL, TrianglePool, Wanted, length, pool, three_fold_pool,
+};
 use super::{
     Grid, Judgement, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge,
     objective_above, on_cells, place, plate_of, sample_plan,
@@ -18,7 +20,7 @@ use verify::{Verification, VerifyError, verify};
 
 /// The triangles of base and platform.
 #[derive(Debug, Clone)]
-pub(super) struct Roles {
+pub(super) struct TrianglesOfBodies {
     /// Corners by body.
     pub(super) corners: [[Joint; 3]; 2],
     /// Joints on the sides by body: `inner[b][k]` on the side from corner `k` to corner `k + 1`. Absent for the octahedral platform.
@@ -27,7 +29,7 @@ pub(super) struct Roles {
     pub(super) found: Option<GriffisDuffy>,
 }
 
-impl Roles {
+impl TrianglesOfBodies {
     /// `None` for a design that is neither octahedral nor has six joints on each body, one on each side of two triangles.
     pub(super) fn of(m: &Manipulator) -> Option<Self> {
         let of = |body| move |index| Joint { body, index };
@@ -113,21 +115,21 @@ pub struct ExactRounding {
 /// The search state: a pair of triangles with its worth.
 #[derive(Debug, Clone, Copy)]
 struct TrianglePair {
-    triangles: [Triangle; 2],
+    triangles: [GridTriangle; 2],
     objective: f64,
 }
 
-struct Search<'a> {
+struct ExactRoundingSearch<'a> {
     problem: &'a RoundingProblem<'a>,
     plates: [PlateHoles; 2],
-    roles: &'a Roles,
+    roles: &'a TrianglesOfBodies,
     list: Vec<Joint>,
     /// Combinations that do not reach it are passed over.
     least: Keeping,
     hint: usize,
 }
 
-fn cells(roles: &Roles, list: &[Joint], triangles: &[Triangle; 2]) -> Vec<GridHole> {
+fn cells(roles: &TrianglesOfBodies, list: &[Joint], triangles: &[GridTriangle; 2]) -> Vec<GridHole> {
     let cell = |joint: &Joint| {
         let body = joint.body.index();
         let corner = roles.corners[body].iter().position(|j| j == joint);
@@ -141,8 +143,8 @@ fn cells(roles: &Roles, list: &[Joint], triangles: &[Triangle; 2]) -> Vec<GridHo
     list.iter().map(cell).collect()
 }
 
-impl Search<'_> {
-    fn build(&self, triangles: &[Triangle; 2]) -> Option<Manipulator> {
+impl ExactRoundingSearch<'_> {
+    fn build(&self, triangles: &[GridTriangle; 2]) -> Option<Manipulator> {
         if self.roles.inner.is_some() && determinant_numerator(triangles) == Some(0) {
             return None;
         }
@@ -150,7 +152,7 @@ impl Search<'_> {
     }
 
     /// The pair when its objective is above `floor` and, what it keeps of the requirements is enough.
-    fn better(&mut self, triangles: [Triangle; 2], floor: f64) -> Option<TrianglePair> {
+    fn better(&mut self, triangles: [GridTriangle; 2], floor: f64) -> Option<TrianglePair> {
         let m = self.build(&triangles)?;
         let mut hint = self.hint;
         let objective = objective_above(&m, self.problem, floor, &mut hint);
@@ -163,7 +165,7 @@ impl Search<'_> {
 
     /// The best combination of the first `count` triangles of each body, then replacements of one of them by any of its pool until none is
     /// better.
-    fn run(&mut self, pools: &[Pool; 2], count: usize) -> Option<(TrianglePair, usize)> {
+    fn run(&mut self, pools: &[TrianglePool; 2], count: usize) -> Option<(TrianglePair, usize)> {
         let floor = |best: &Option<TrianglePair>| best.map_or(0.0, |b| b.objective);
         let mut best: Option<TrianglePair> = None;
         for a in pools[0].triangles.iter().take(count) {
@@ -202,7 +204,7 @@ impl Search<'_> {
 }
 
 /// `det A` times the product of the parts, exactly; `None` on overflow.
-fn determinant_numerator(triangles: &[Triangle; 2]) -> Option<i128> {
+fn determinant_numerator(triangles: &[GridTriangle; 2]) -> Option<i128> {
     let sides = || triangles.iter().flat_map(|t| t.parts.into_iter().zip(t.inner));
     let product = |factor: fn((i64, i64)) -> i64| {
         sides().map(factor).try_fold(1i128, |p, x| p.checked_mul(i128::from(x)))
@@ -237,7 +239,7 @@ pub(super) fn proved(
 }
 
 /// Where the roles are wanted on a grid.
-pub(super) fn wanted(m: &Manipulator, roles: &Roles, grid: &BodyGrid, body: usize) -> Wanted {
+pub(super) fn wanted(m: &Manipulator, roles: &TrianglesOfBodies, grid: &BodyGrid, body: usize) -> Wanted {
     let at = |j: Joint| grid.coordinates(&place(m, j));
     Wanted {
         corners: roles.corners[body].map(at),
@@ -263,7 +265,7 @@ enum TriangleRole {
 }
 
 impl TriangleRole {
-    fn cell(self, t: &Triangle) -> GridHole {
+    fn cell(self, t: &GridTriangle) -> GridHole {
         match self {
             Self::Corner(k) => t.corners[k],
             Self::OnSide(k) => t.joint(k),
@@ -274,7 +276,7 @@ impl TriangleRole {
 /// The joints of a body that stay, with the holes that they are on.
 fn held(
     problem: &RoundingProblem<'_>,
-    roles: &Roles,
+    roles: &TrianglesOfBodies,
     plate: &PlateHoles,
     body: usize,
 ) -> Vec<(TriangleRole, Option<GridHole>)> {
@@ -290,7 +292,7 @@ fn held(
 struct BestTriangles {
     laying: Laying,
     pitches: [f64; 2],
-    pools: [Pool; 2],
+    pools: [TrianglePool; 2],
     best: TrianglePair,
     replacements: usize,
     three_fold: bool,
@@ -301,7 +303,7 @@ struct BestTriangles {
 fn search(
     problem: &RoundingProblem<'_>,
     laying: &Laying,
-    roles: &Roles,
+    roles: &TrianglesOfBodies,
 ) -> Result<BestTriangles, NoRounding> {
     let m = problem.manipulator;
     let count = problem.candidates.max(1);
@@ -325,8 +327,14 @@ fn search(
             return Err(NoRounding::NoTriangleNear(body));
         }
     }
-    let mut search =
-        Search { problem, plates: laying.bodies, roles, list: joints(m), least: Keeping::Reserve, hint: 0 };
+    let mut search = ExactRoundingSearch {
+        problem,
+        plates: laying.bodies,
+        roles,
+        list: joints(m),
+        least: Keeping::Reserve,
+        hint: 0,
+    };
     let mut found = None;
     let wanted = if problem.requirements.reserves.is_empty() { &Keeping::ALL[1..] } else { &Keeping::ALL };
     for least in wanted {
@@ -352,7 +360,7 @@ fn search(
 pub(super) fn round(
     problem: &RoundingProblem<'_>,
     layings: &[Laying],
-    roles: &Roles,
+    roles: &TrianglesOfBodies,
 ) -> Result<ExactRounding, NoRounding> {
     let better =
         |a: &BestTriangles, b: &BestTriangles| (a.keeping, a.best.objective) > (b.keeping, b.best.objective);
@@ -362,7 +370,7 @@ pub(super) fn round(
 
 fn finish(
     problem: &RoundingProblem<'_>,
-    roles: &Roles,
+    roles: &TrianglesOfBodies,
     found: &BestTriangles,
 ) -> Result<ExactRounding, NoRounding> {
     let (m, best, plates, pools) = (problem.manipulator, &found.best, &found.laying.bodies, &found.pools);
@@ -397,7 +405,7 @@ fn finish(
 fn rounded_joints(
     m: &Manipulator,
     rounded: &Manipulator,
-    roles: &Roles,
+    roles: &TrianglesOfBodies,
     plates: &[PlateHoles; 2],
     cells: &[GridHole],
 ) -> Vec<RoundedJoint> {

@@ -51,14 +51,14 @@ fn normal(points: &[Point3<f64>], size: f64) -> Option<Vector3<f64>> {
 
 /// The plane of the joints of a body, with the axes x and y of its frame projected on it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Plane {
+pub(super) struct JointPlane {
     /// The projection of the origin of the frame.
     foot: Point3<f64>,
     x: Vector3<f64>,
     y: Vector3<f64>,
 }
 
-impl Plane {
+impl JointPlane {
     /// `None` when the joints do not lie in a plane.
     pub(super) fn of(points: &[Point3<f64>], size: f64) -> Option<Self> {
         let n = normal(points, size)?;
@@ -86,7 +86,7 @@ impl Plane {
 impl BodyGrid {
     /// `None` when the joints do not lie in a plane, and where the pattern has no axes.
     pub(super) fn new(points: &[Point3<f64>], grid: &Grid, size: f64) -> Option<Self> {
-        let Plane { foot, x, y } = Plane::of(points, size)?;
+        let JointPlane { foot, x, y } = JointPlane::of(points, size)?;
         let origin = foot + x * grid.origin[0] + y * grid.origin[1];
         let (s, c) = grid.angle_deg.to_radians().sin_cos();
         let (first, across) = (x * c + y * s, y * c - x * s);
@@ -142,7 +142,7 @@ pub(super) struct Wanted {
 
 /// A triangle on the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Triangle {
+pub(super) struct GridTriangle {
     /// Largest distance of a joint from where it is wanted, pitches.
     deviation: f64,
     pub(super) corners: [GridHole; 3],
@@ -151,7 +151,7 @@ pub(super) struct Triangle {
     pub(super) inner: [i64; 3],
 }
 
-impl Triangle {
+impl GridTriangle {
     /// The joint on a side.
     pub(super) fn joint(&self, k: usize) -> GridHole {
         let (from, to) = (self.corners[k], self.corners[(k + 1) % 3]);
@@ -161,9 +161,9 @@ impl Triangle {
 
 /// The triangles within a reach.
 #[derive(Debug, Clone)]
-pub(super) struct Pool {
+pub(super) struct TrianglePool {
     /// Nearest first.
-    pub(super) triangles: Vec<Triangle>,
+    pub(super) triangles: Vec<GridTriangle>,
     /// All triangles whose joints are within this many pitches of their places are among them.
     pub(super) complete_to: f64,
 }
@@ -229,7 +229,7 @@ fn sides(
 }
 
 /// All triangles whose corners and joints are within `reach` of their places.
-fn within(wanted: &Wanted, reach: f64) -> Vec<Triangle> {
+fn within(wanted: &Wanted, reach: f64) -> Vec<GridTriangle> {
     let skew = wanted.skew;
     let cells = wanted.corners.map(|c| cells_within(c, reach, skew));
     // sides of each kind by the number of their first cell
@@ -260,7 +260,7 @@ fn within(wanted: &Wanted, reach: f64) -> Vec<Triangle> {
                 for z in third[y.to][from..].iter().take_while(|z| z.to == i) {
                     let corners = [*a, b, c];
                     let off = (0..3).map(|k| distance(corners[k], wanted.corners[k], skew));
-                    out.push(Triangle {
+                    out.push(GridTriangle {
                         deviation: off.chain([x.off, y.off, z.off]).fold(0.0, f64::max),
                         corners,
                         parts: [x.parts, y.parts, z.parts],
@@ -274,7 +274,7 @@ fn within(wanted: &Wanted, reach: f64) -> Vec<Triangle> {
 }
 
 /// The nearest triangles: the reach grows until there are `enough` or it passes `limit` (pitches).
-pub(super) fn pool(wanted: &Wanted, enough: usize, limit: f64) -> Pool {
+pub(super) fn pool(wanted: &Wanted, enough: usize, limit: f64) -> TrianglePool {
     let mut reach = FIRST_REACH.min(limit);
     let mut triangles = within(wanted, reach);
     while triangles.len() < enough && reach * GROWTH <= limit {
@@ -285,15 +285,15 @@ pub(super) fn pool(wanted: &Wanted, enough: usize, limit: f64) -> Pool {
 }
 
 /// The nearest of the triangles within a reach.
-fn nearest_first(mut triangles: Vec<Triangle>, reach: f64) -> Pool {
-    let key = |t: &Triangle| (t.corners, t.inner);
+fn nearest_first(mut triangles: Vec<GridTriangle>, reach: f64) -> TrianglePool {
+    let key = |t: &GridTriangle| (t.corners, t.inner);
     triangles.sort_by(|a, b| a.deviation.total_cmp(&b.deviation).then_with(|| key(a).cmp(&key(b))));
     let mut complete_to = reach;
     if let Some(first_left_out) = triangles.get(POOL) {
         complete_to = first_left_out.deviation;
         triangles.retain(|t| t.deviation < complete_to);
     }
-    Pool { triangles, complete_to }
+    TrianglePool { triangles, complete_to }
 }
 
 /// Corners and joints count as turned into one another within this many pitches.
@@ -306,7 +306,7 @@ fn turned<T: Copy + std::ops::Neg<Output = T> + std::ops::Sub<Output = T>>([i, j
 
 /// The triangles within `limit` (pitches) that turns by 120 degrees about the middle of the wanted one take to themselves with their joints, nearest first; `None` where
 /// the wanted triangle is not of that kind, or the grid does not turn about its middle.
-pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<Pool> {
+pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<TrianglePool> {
     if HolePattern::Triangular.skew() != Some(wanted.skew) {
         return None;
     }
@@ -336,7 +336,7 @@ pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<Pool> {
         let mut out = Vec::new();
         sides(first, (0, second), wanted.inner.map(|w| w[0]), (limit, wanted.skew), &mut out);
         let off = distance(first, wanted.corners[0], wanted.skew);
-        triangles.extend(out.into_iter().map(|side| Triangle {
+        triangles.extend(out.into_iter().map(|side| GridTriangle {
             deviation: off.max(side.off),
             corners: [first, second, turn(second)],
             parts: [side.parts; 3],

@@ -14,7 +14,7 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 pub use self::exact::ExactRounding;
-use self::exact::Roles;
+use self::exact::TrianglesOfBodies;
 use self::grid::GridHole;
 pub use self::nearest::NearestRounding;
 use self::plate::PlateHoles;
@@ -186,7 +186,7 @@ pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRoundi
         bodies[body.index()] = laid;
     }
     let given = Laying { grids: problem.grids, bodies };
-    let roles = Roles::of(m);
+    let roles = TrianglesOfBodies::of(m);
     let det = roles.as_ref().map(|r| r.determinant(m));
     let free = |roles| if problem.free { layings(problem, &given, roles) } else { vec![given] };
     let without_lines = Body::BOTH.into_iter().find(|body| bodies[body.index()].lattice().is_none());
@@ -213,7 +213,7 @@ type LaidPlate = (Option<Grid>, PlateHoles);
 
 /// The grids as given, and those of the same pitches whose holes come nearest to the joints: to triangles that keep the roles, with the best of each body, or
 /// without roles to the joints as they are, with the best ones of both in every combination.
-fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Roles>) -> Vec<Laying> {
+fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&TrianglesOfBodies>) -> Vec<Laying> {
     let m = problem.manipulator;
     let found = Body::BOTH.map(|body| {
         let k = body.index();

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::exact::Roles;
+use super::exact::TrianglesOfBodies;
 use super::grid::GridHole;
 use super::plate::ThreeFold;
 use super::{
@@ -44,14 +44,14 @@ pub struct NearestRounding {
 }
 
 /// The errors of the joints and of the poses they cause.
-struct State<'a> {
+struct RoundingErrors<'a> {
     sensitivities: &'a [Sensitivity],
     length: f64,
     cells: Vec<GridHole>,
     moved: Vec<Vector3<f64>>,
 }
 
-impl State<'_> {
+impl RoundingErrors<'_> {
     /// Greatest error of the tool point and of the orientation (radians).
     fn errors(&self) -> (f64, f64) {
         let norms = self.sensitivities.iter().map(|s| s.error(&self.moved));
@@ -184,7 +184,7 @@ fn search(
     }
     let start = (0..list.len()).map(|k| moved(k, cells[k])).collect();
     let length = problem.characteristic_length;
-    let mut state = State { sensitivities, length, cells, moved: start };
+    let mut state = RoundingErrors { sensitivities, length, cells, moved: start };
     let nearest_errors = state.errors();
     // one joint or orbit at a time, until none can do better
     loop {
@@ -235,7 +235,7 @@ fn search(
 pub(super) fn round(
     problem: &RoundingProblem<'_>,
     layings: &[Laying],
-    roles: Option<&Roles>,
+    roles: Option<&TrianglesOfBodies>,
 ) -> Result<NearestRounding, NoRounding> {
     let m = problem.manipulator;
     let sensitivities: Option<Vec<Sensitivity>> =

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::grid::{BodyGrid, GridHole, Plane, length};
+use super::grid::{BodyGrid, GridHole, JointPlane, length};
 use crate::requirements::{Grid, HolePattern};
 
 /// Circles farther out than this are not counted.
@@ -14,7 +14,7 @@ const ON_HOLE: f64 = 1e-6;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BodyCircles {
     grid: Grid,
-    plane: Plane,
+    plane: JointPlane,
 }
 
 impl BodyCircles {
@@ -91,7 +91,7 @@ impl PlateHoles {
         if grid.pattern.skew().is_some() {
             return BodyGrid::new(points, grid, size).map(Self::Lattice);
         }
-        Some(Self::Circles(BodyCircles { grid: *grid, plane: Plane::of(points, size)? }))
+        Some(Self::Circles(BodyCircles { grid: *grid, plane: JointPlane::of(points, size)? }))
     }
 
     /// The holes on two axes, where they are.
@@ -199,7 +199,7 @@ impl ThreeFold {
         if count == 0 || !count.is_multiple_of(3) {
             return None;
         }
-        let axis = nalgebra::Unit::new_normalize(Plane::of(points, size)?.normal());
+        let axis = nalgebra::Unit::new_normalize(JointPlane::of(points, size)?.normal());
         let turn = nalgebra::Rotation3::from_axis_angle(&axis, std::f64::consts::TAU / 3.0);
         let centre = Point3::from(points.iter().map(|p| p.coords).sum::<Vector3<f64>>() / count as f64);
         let all = Self { next: Vec::new(), centre, turn };

@@ -82,7 +82,7 @@ fn no_other_triangle_of_one_body_is_better() {
         };
         assert!((value(&found.manipulator) - found.judgement.objective).abs() < 1e-15);
         let m = problem.manipulator;
-        let roles = Roles::of(m).unwrap();
+        let roles = TrianglesOfBodies::of(m).unwrap();
         let list = joints(m);
         let mut tried = 0;
         for body in 0..2 {

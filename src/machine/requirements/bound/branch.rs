@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 use super::CellJudge;
 use super::cone::Sector;
-use super::function::Function;
+use super::function::BoundedFunction;
 use super::verdict::{MarginBound, verdict};
 use crate::requirements::TermKind;
 use crate::requirements::assess::Margin;
@@ -14,7 +14,7 @@ use num::{Purpose, Rng};
 use platform::geom::{Chart, ChartCell, Covered};
 
 /// A cell that waits.
-struct Open {
+struct WaitingCell {
     below: f64,
     /// Order of arrival, which makes the order of equal bounds certain.
     number: usize,
@@ -30,21 +30,21 @@ struct Open {
 /// In place of a coordinate: the sector is halved.
 const SECTOR: usize = 6;
 
-impl PartialEq for Open {
+impl PartialEq for WaitingCell {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Open {}
+impl Eq for WaitingCell {}
 
-impl PartialOrd for Open {
+impl PartialOrd for WaitingCell {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Open {
+impl Ord for WaitingCell {
     /// The least bound is the greatest, for the heap.
     fn cmp(&self, other: &Self) -> Ordering {
         other.below.total_cmp(&self.below).then(other.number.cmp(&self.number))
@@ -69,8 +69,8 @@ const BATCH: usize = 16;
 type Place = (usize, usize);
 
 /// Progress of one kind.
-struct State {
-    heap: BinaryHeap<Open>,
+struct BranchProgress {
+    heap: BinaryHeap<WaitingCell>,
     cells: usize,
     upper: f64,
     /// Chart and point of the upper bound.
@@ -83,7 +83,7 @@ struct State {
     searched: u64,
 }
 
-impl State {
+impl BranchProgress {
     /// Learns of a point with an upper bound.
     fn see(&mut self, place: Place, z: [f64; 6], upper: f64) {
         if upper < self.upper {
@@ -97,7 +97,7 @@ impl State {
 }
 
 /// A cell that is to be bounded.
-struct Job {
+struct CellJob {
     place: Place,
     cell: ChartCell,
     sector: Sector,
@@ -106,7 +106,7 @@ struct Job {
 }
 
 /// What became of it.
-struct Done {
+struct BoundedCell {
     cells: usize,
     /// The point with the least upper bound.
     worst: ([f64; 6], f64),
@@ -124,7 +124,7 @@ struct CellSearch {
 
 impl CellJudge<'_> {
     /// The least margin of a function of a kind in doubles.
-    fn plain(&self, kind: TermKind, function: Function, chart: usize, x: &[f64; 6]) -> f64 {
+    fn plain(&self, kind: TermKind, function: BoundedFunction, chart: usize, x: &[f64; 6]) -> f64 {
         let pose = self.charts[chart].pose(x);
         let all = self.terms.of_kind(&pose, kind);
         all.filter(|(t, _)| function.has(t)).map(|(_, v)| v).fold(f64::INFINITY, f64::min)
@@ -138,11 +138,12 @@ impl CellJudge<'_> {
         let pose =
             found.pose.map(|p| CellJudge { charts: vec![Chart::of_pose(&p)], axes: self.axes, ..*self });
         let upper = pose.map_or(f64::INFINITY, |judge| {
-            let point =
-                |f: &Function| judge.evaluate(*f, 0, &ChartCell::point([0.0; 6]), &Sector::ALL, None).upper;
+            let point = |f: &BoundedFunction| {
+                judge.evaluate(*f, 0, &ChartCell::point([0.0; 6]), &Sector::ALL, None).upper
+            };
             functions.iter().map(point).fold(f64::INFINITY, f64::min)
         });
-        let mut state = State {
+        let mut state = BranchProgress {
             heap: BinaryHeap::new(),
             cells: 0,
             upper,
@@ -152,7 +153,7 @@ impl CellJudge<'_> {
             searched: 0,
         };
         self.look_at(&mut state, &functions, self.roots(&functions));
-        let rounding = |s: &State| {
+        let rounding = |s: &BranchProgress| {
             let pose = s.worst.map(|(c, z)| self.charts[c].pose(&z)).or(found.pose);
             self.terms.rounding(kind, pose.as_ref())
         };
@@ -196,12 +197,12 @@ impl CellJudge<'_> {
     }
 
     /// The whole charts, for every function.
-    fn roots(&self, functions: &[Function]) -> Vec<Job> {
+    fn roots(&self, functions: &[BoundedFunction]) -> Vec<CellJob> {
         let mut out = Vec::new();
         for (chart, own) in self.charts.iter().enumerate() {
             for (f, function) in functions.iter().enumerate() {
                 let job =
-                    |sector| Job { place: (f, chart), cell: own.root, sector, below: f64::NEG_INFINITY };
+                    |sector| CellJob { place: (f, chart), cell: own.root, sector, below: f64::NEG_INFINITY };
                 out.extend(self.sectors(*function, own).into_iter().map(job));
             }
         }
@@ -209,7 +210,7 @@ impl CellJudge<'_> {
     }
 
     /// Bounds cells, and keeps those that can hold a least margin.
-    fn look_at(&self, state: &mut State, functions: &[Function], jobs: Vec<Job>) {
+    fn look_at(&self, state: &mut BranchProgress, functions: &[BoundedFunction], jobs: Vec<CellJob>) {
         let known = &state.points;
         let bounded = |k: usize| {
             let job = &jobs[k];
@@ -224,16 +225,29 @@ impl CellJudge<'_> {
             if let Some((cell, axis)) = done.rest {
                 let (function, chart) = job.place;
                 let (below, number) = (done.below, state.cells);
-                state.heap.push(Open { below, number, function, chart, cell, sector: job.sector, axis });
+                state.heap.push(WaitingCell {
+                    below,
+                    number,
+                    function,
+                    chart,
+                    cell,
+                    sector: job.sector,
+                    axis,
+                });
             }
         }
     }
 
     /// Bounds a cell, and what is left of it as long as that gets smaller; `known` is the worst point known of the function with its upper bound.
-    fn bounded(&self, function: Function, job: &Job, known: Option<([f64; 6], f64)>) -> Done {
+    fn bounded(
+        &self,
+        function: BoundedFunction,
+        job: &CellJob,
+        known: Option<([f64; 6], f64)>,
+    ) -> BoundedCell {
         let chart = job.place.1;
         let mut worst = known.unwrap_or(([0.0; 6], f64::INFINITY));
-        let mut done = Done { cells: 0, worst, below: job.below, rest: None };
+        let mut done = BoundedCell { cells: 0, worst, below: job.below, rest: None };
         if self.charts[chart].covers(&job.cell, 1.0) == Covered::Outside {
             return done;
         }
@@ -267,8 +281,8 @@ impl CellJudge<'_> {
     /// Local searches from the worst points known of some functions, where these are worse than those of the last ones.
     fn search(
         &self,
-        state: &mut State,
-        (kind, functions): (TermKind, &[Function]),
+        state: &mut BranchProgress,
+        (kind, functions): (TermKind, &[BoundedFunction]),
         places: &[Place],
         seed: u64,
     ) {
@@ -301,7 +315,13 @@ impl CellJudge<'_> {
     }
 
     /// Where a local search ends.
-    fn searched(&self, kind: TermKind, function: Function, search: &CellSearch, rng: &mut Rng) -> [f64; 6] {
+    fn searched(
+        &self,
+        kind: TermKind,
+        function: BoundedFunction,
+        search: &CellSearch,
+        rng: &mut Rng,
+    ) -> [f64; 6] {
         let (c, mut x) = (search.place.1, search.from);
         let chart = &self.charts[c];
         let value = |x: &[f64; 6]| self.plain(kind, function, c, x);
@@ -334,9 +354,9 @@ impl CellJudge<'_> {
 }
 
 /// The halves of a cell; `None` where it cannot be halved.
-fn halves_of(open: &Open) -> Option<Vec<Job>> {
+fn halves_of(open: &WaitingCell) -> Option<Vec<CellJob>> {
     let place = (open.function, open.chart);
-    let job = |cell, sector| Job { place, cell, sector, below: open.below };
+    let job = |cell, sector| CellJob { place, cell, sector, below: open.below };
     if open.axis == SECTOR {
         return Some(open.sector.halves().into_iter().map(|sector| job(open.cell, sector)).collect());
     }

@@ -2,7 +2,7 @@
 
 use super::cone::Sector;
 use super::frame::CellFrame;
-use super::function::Function;
+use super::function::BoundedFunction;
 use super::local::{self, Bounded};
 use super::stiffness::SoftestMotion;
 use super::{CellJudge, force, gap};
@@ -13,7 +13,7 @@ use platform::geom::{Chart, ChartCell};
 use platform::manipulator::Body;
 
 /// What is known of a cell.
-pub(super) struct Evaluated {
+pub(super) struct CellBounds {
     pub(super) bounded: Bounded,
     /// Proved upper bound of the margin at `z`, which is a pose of the workspace.
     pub(super) upper: f64,
@@ -52,12 +52,12 @@ const STEPS: usize = 6;
 impl CellJudge<'_> {
     pub(super) fn evaluate(
         &self,
-        function: Function,
+        function: BoundedFunction,
         c: usize,
         cell: &ChartCell,
         sector: &Sector,
         known: Option<[f64; 6]>,
-    ) -> Evaluated {
+    ) -> CellBounds {
         let chart = &self.charts[c];
         let held = |x: [f64; 6]| -> [f64; 6] { std::array::from_fn(|k| x[k].clamp(cell.lo[k], cell.hi[k])) };
         // where to expand: near the middle, and as near as possible to the worst point known where that is not far
@@ -71,11 +71,11 @@ impl CellJudge<'_> {
         }
         // of joints that are not ideal the rates have first derivatives only
         let second = match function {
-            Function::Load(_) | Function::Platform(_) => self.joints.is_none(),
+            BoundedFunction::Load(_) | BoundedFunction::Platform(_) => self.joints.is_none(),
             _ => true,
         };
         let over = CellFrame::over(chart, cell, second).with_joints(self.joints);
-        let mut out = Evaluated {
+        let mut out = CellBounds {
             bounded: Bounded { below: f64::NEG_INFINITY, ..Bounded::nothing(cell) },
             upper: f64::INFINITY,
             z: points[0],
@@ -94,7 +94,7 @@ impl CellJudge<'_> {
             if chart.scale_of(&z) <= 1.0 && found.upper < out.upper {
                 (out.upper, out.z) = (found.upper, z);
             }
-            if let (Some(slope), Function::Leg(kind, i), 0) = (found.slope, function, number) {
+            if let (Some(slope), BoundedFunction::Leg(kind, i), 0) = (found.slope, function, number) {
                 self.follow((kind, i), chart, slope, &mut out);
             }
         }
@@ -103,7 +103,7 @@ impl CellJudge<'_> {
 
     /// Goes to the pose of the workspace where a function with the slopes of this point is least, and on from there as long as margins fall: for functions with
     /// their least values on the boundary, as lengths and angles have them, this ends at a local one after a few steps.
-    fn follow(&self, (kind, i): (TermKind, usize), chart: &Chart, mut slope: [f64; 6], out: &mut Evaluated) {
+    fn follow(&self, (kind, i): (TermKind, usize), chart: &Chart, mut slope: [f64; 6], out: &mut CellBounds) {
         for _ in 0..STEPS {
             let y = farthest(chart, &slope);
             let there = CellFrame::over(chart, &ChartCell::point(y), false).with_joints(self.joints);
@@ -118,15 +118,15 @@ impl CellJudge<'_> {
     }
 
     /// An upper bound of the margin at a point, for the functions of one leg.
-    fn upper(&self, function: Function, at: &CellFrame<'_>) -> f64 {
-        let Function::Leg(kind, i) = function else { return f64::INFINITY };
+    fn upper(&self, function: BoundedFunction, at: &CellFrame<'_>) -> f64 {
+        let BoundedFunction::Leg(kind, i) = function else { return f64::INFINITY };
         self.leg_value(kind, i, at).map_or(f64::INFINITY, |x| self.margin((kind, i), x.value).hi())
     }
 
     /// A lower bound over the cell, an upper one at `z`, and what is left of the cell.
     fn at_point(
         &self,
-        function: Function,
+        function: BoundedFunction,
         chart: &Chart,
         cell: &ChartCell,
         sector: &Sector,
@@ -138,7 +138,7 @@ impl CellJudge<'_> {
             return nothing;
         }
         match function {
-            Function::Leg(kind, i) => {
+            BoundedFunction::Leg(kind, i) => {
                 let slopes = |at: &Jet| Some(std::array::from_fn(|k| at.slope(k).centre_and_radius().0));
                 if let Some(hinge) = self.hinge(kind, i).filter(|h| chart.coordinates() > 1 && h.has_sides())
                 {
@@ -170,7 +170,7 @@ impl CellJudge<'_> {
                 let (upper, rest) = (self.margin((kind, i), at.value).hi(), shrunk(chart, cell, &over));
                 AtPoint { bounded, upper, rest, slope: slopes(&at), ..nothing }
             }
-            Function::Joint { leg, end, side } => {
+            BoundedFunction::Joint { leg, end, side } => {
                 let value = |frame: &CellFrame<'_>| self.joint_value(leg, end, side, frame);
                 let (Some(at), Some(over)) = (value(frames.0), value(frames.1)) else { return nothing };
                 let mut bounded = local::below(chart, cell, z, &at, &over);
@@ -179,7 +179,7 @@ impl CellJudge<'_> {
                 let slope = std::array::from_fn(|k| at.slope(k).centre_and_radius().0);
                 AtPoint { bounded, upper, slope: Some(slope), ..nothing }
             }
-            Function::Load(k) => {
+            BoundedFunction::Load(k) => {
                 let of_cranks = self.required.cranks.as_ref().map(|cranks| cranks.max_torque);
                 if of_cranks.is_some() && self.cranks.is_none() {
                     return nothing;
@@ -189,33 +189,33 @@ impl CellJudge<'_> {
                 let (bounded, upper) = force::force(chart, cell, z, frames, drives, &self.required.loads[k]);
                 AtPoint { bounded, upper, ..nothing }
             }
-            Function::Platform(kind) => {
+            BoundedFunction::Platform(kind) => {
                 let Some(softest) = SoftestMotion::new(self.m, self.required, self.terms, kind) else {
                     return nothing;
                 };
                 let (bounded, upper) = softest.bounds(chart, cell, z, frames);
                 AtPoint { bounded, upper, ..nothing }
             }
-            Function::Pair(i, j) => {
+            BoundedFunction::Pair(i, j) => {
                 let parts = |frame: &CellFrame<'_>, i: usize| self.parts(frame, i);
                 let (ours, theirs) =
                     ((parts(frames.0, i), parts(frames.1, i)), (parts(frames.0, j), parts(frames.1, j)));
                 self.gaps(chart, cell, z, (&ours.0, &ours.1), (&theirs.0, &theirs.1))
             }
-            Function::Body(i, k) => {
+            BoundedFunction::Body(i, k) => {
                 let body = &self.required.keep_outs[k];
                 let ours = (self.parts(frames.0, i), self.parts(frames.1, i));
                 let theirs = (vec![gap::body_part(frames.0, body)], vec![gap::body_part(frames.1, body)]);
                 self.gaps(chart, cell, z, (&ours.0, &ours.1), (&theirs.0, &theirs.1))
             }
-            Function::Payload(i) => {
+            BoundedFunction::Payload(i) => {
                 let Some(shape) = &self.required.payload_shape else { return nothing };
                 let ours = (self.parts(frames.0, i), self.parts(frames.1, i));
                 let payload = |frame: &CellFrame<'_>| vec![gap::shape_part(frame, shape, Body::Platform)];
                 let theirs = (payload(frames.0), payload(frames.1));
                 self.gaps(chart, cell, z, (&ours.0, &ours.1), (&theirs.0, &theirs.1))
             }
-            Function::Plate(i, body) => {
+            BoundedFunction::Plate(i, body) => {
                 let Some(plate) = self.terms.plate(body) else { return nothing };
                 self.plate_gap(chart, cell, z, frames, (i, body, plate))
             }

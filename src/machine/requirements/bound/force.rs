@@ -201,7 +201,7 @@ impl ForceSolver {
     }
 
     /// What the forces solve, with slopes, for all that a system encloses.
-    fn solution(&self, system: &System, variables: usize) -> Option<Solution> {
+    fn solution(&self, system: &System, variables: usize) -> Option<SolvedForces> {
         let value = self.solve(&std::array::from_fn(|r| system.right[r].value))?;
         let mut slopes = Vec::with_capacity(variables);
         for k in 0..variables {
@@ -210,11 +210,11 @@ impl ForceSolver {
                 std::array::from_fn(|r| (0..6).fold(system.right[r].slope(k), |s, i| s - a[r][i] * value[i]));
             slopes.push(self.solve(&right)?);
         }
-        Some(Solution { value, slopes })
+        Some(SolvedForces { value, slopes })
     }
 
     /// How far the solution over a cell may be from its tangent at `z`, `here` the solution there.
-    fn bend(&self, here: &Solution, over: &System, cell: &ChartCell, z: &[f64; 6]) -> Option<Bend> {
+    fn bend(&self, here: &SolvedForces, over: &System, cell: &ChartCell, z: &[f64; 6]) -> Option<Bend> {
         let n = here.slopes.len();
         let steps: Vec<Interval> = (0..n).map(|k| cell.side(k) - Interval::from(z[k])).collect();
         let tangent: [Interval; 6] = std::array::from_fn(|i| {
@@ -246,12 +246,12 @@ impl ForceSolver {
 }
 
 /// `G` and its slopes, by variable: at a point, or over a cell.
-struct Solution {
+struct SolvedForces {
     value: [Interval; 6],
     slopes: Vec<[Interval; 6]>,
 }
 
-impl Solution {
+impl SolvedForces {
     /// The forces, with slopes.
     fn forces(&self, system: &System) -> Option<[Jet; 6]> {
         let n = self.slopes.len();
@@ -278,7 +278,7 @@ struct Bend {
 
 impl Bend {
     /// `F = G s` in the same way, `s` the factor of a force at `z` and over the cell: values and form of second order over the cell, and how far `F` may be from its tangent with that form.
-    fn force(&self, i: usize, here: &Solution, at: &Jet, over: &Jet) -> (Jet, f64) {
+    fn force(&self, i: usize, here: &SolvedForces, at: &Jet, over: &Jet) -> (Jet, f64) {
         let n = here.slopes.len();
         let mut out = over.alike(self.value[i] * over.value);
         let mut curves = self.curves.iter();

@@ -7,7 +7,7 @@ use platform::manipulator::Body;
 
 /// What is bounded: one requirement, or those that are computed together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Function {
+pub(super) enum BoundedFunction {
     /// Length, swing or speed of a leg.
     Leg(TermKind, usize),
     /// Two legs.
@@ -37,7 +37,7 @@ pub(super) enum Side {
     Greatest(usize),
 }
 
-impl Function {
+impl BoundedFunction {
     pub(super) fn has(self, term: &Term) -> bool {
         match self {
             Self::Leg(kind, i) => term.kind == kind && term.first == i,
@@ -59,24 +59,24 @@ impl Function {
 }
 
 impl CellJudge<'_> {
-    pub(super) fn functions(&self, kind: TermKind) -> Vec<Function> {
+    pub(super) fn functions(&self, kind: TermKind) -> Vec<BoundedFunction> {
         let pairs = self.m.pairs();
         match kind {
             TermKind::LegClearance => (0..6)
                 .flat_map(|i| (i + 1..6).map(move |j| (i, j)))
                 .filter(|(i, j)| pairs[*i].0 != pairs[*j].0 && pairs[*i].1 != pairs[*j].1)
-                .map(|(i, j)| Function::Pair(i, j))
+                .map(|(i, j)| BoundedFunction::Pair(i, j))
                 .collect(),
             TermKind::KeepOut => (0..6)
-                .flat_map(|i| (0..self.required.keep_outs.len()).map(move |k| Function::Body(i, k)))
+                .flat_map(|i| (0..self.required.keep_outs.len()).map(move |k| BoundedFunction::Body(i, k)))
                 .collect(),
             TermKind::PlateClearance => {
                 let stated = Body::BOTH.into_iter().filter(|body| self.terms.plate(*body).is_some());
-                stated.flat_map(|body| (0..6).map(move |i| Function::Plate(i, body))).collect()
+                stated.flat_map(|body| (0..6).map(move |i| BoundedFunction::Plate(i, body))).collect()
             }
-            TermKind::PayloadClearance => (0..6).map(Function::Payload).collect(),
+            TermKind::PayloadClearance => (0..6).map(BoundedFunction::Payload).collect(),
             TermKind::LegForce | TermKind::CrankTorque => {
-                (0..self.required.loads.len()).map(Function::Load).collect()
+                (0..self.required.loads.len()).map(BoundedFunction::Load).collect()
             }
             TermKind::MachineEnvelope => {
                 let sides: Vec<Side> = match self.required.envelopes.machine {
@@ -88,17 +88,17 @@ impl CellJudge<'_> {
                 };
                 let ends = (0..6).flat_map(|leg| [(leg, 0), (leg, 1)]);
                 ends.flat_map(|(leg, end)| {
-                    sides.iter().map(move |side| Function::Joint { leg, end, side: *side })
+                    sides.iter().map(move |side| BoundedFunction::Joint { leg, end, side: *side })
                 })
                 .collect()
             }
-            kind if kind.is_of_platform() => vec![Function::Platform(kind)],
+            kind if kind.is_of_platform() => vec![BoundedFunction::Platform(kind)],
             // joints of other kinds have no such angle
             kind if kind.hinge().is_some() => {
                 let has_limit = |i: &usize| self.required.hardware.angle_limit_deg(kind, *i).is_some();
-                (0..6).filter(has_limit).map(|i| Function::Leg(kind, i)).collect()
+                (0..6).filter(has_limit).map(|i| BoundedFunction::Leg(kind, i)).collect()
             }
-            _ => (0..6).map(|i| Function::Leg(kind, i)).collect(),
+            _ => (0..6).map(|i| BoundedFunction::Leg(kind, i)).collect(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::CellJudge;
 use super::cone::{Sector, SwingCone};
 use super::frame::CellFrame;
-use super::function::{Function, Side};
+use super::function::{BoundedFunction, Side};
 use super::hinge::{HingeFrame, HingeLimit};
 use super::joint_offsets::JointOffsets;
 use crate::requirements::envelope::{self, Envelope};
@@ -27,8 +27,8 @@ impl CellJudge<'_> {
     }
 
     /// What a function is bounded over one by one: the directions in which a leg leans, the sides of an angle.
-    pub(super) fn sectors(&self, function: Function, chart: &Chart) -> Vec<Sector> {
-        if let Function::Leg(kind, leg) = function
+    pub(super) fn sectors(&self, function: BoundedFunction, chart: &Chart) -> Vec<Sector> {
+        if let BoundedFunction::Leg(kind, leg) = function
             && self.hinge(kind, leg).is_some_and(|h| chart.coordinates() > 1 && h.has_sides())
         {
             return Sector::sides();
@@ -37,8 +37,8 @@ impl CellJudge<'_> {
     }
 
     /// The cone in which a leg may lean, for limits below 90 degrees and regions; on single poses and steps the cosine is as good.
-    pub(super) fn cone(&self, function: Function, chart: &Chart) -> Option<SwingCone<'_>> {
-        let Function::Leg(kind, leg) = function else { return None };
+    pub(super) fn cone(&self, function: BoundedFunction, chart: &Chart) -> Option<SwingCone<'_>> {
+        let BoundedFunction::Leg(kind, leg) = function else { return None };
         if chart.coordinates() < 2 {
             return None;
         }

@@ -53,7 +53,7 @@ pub(super) struct SoftestMotion<'a> {
 type Basis = [(Vector3<f64>, Vector3<f64>); 6];
 
 /// `K` and `B` in a basis.
-struct Forms {
+struct StiffnessForms {
     k: Vec<Jet>,
     b: Vec<Jet>,
 }
@@ -138,7 +138,7 @@ impl<'a> SoftestMotion<'a> {
     }
 
     /// `K` and `B` in a basis over the poses of a frame; `None` where a leg may have no length.
-    fn forms(&self, frame: &CellFrame<'_>, basis: &Basis) -> Option<Forms> {
+    fn forms(&self, frame: &CellFrame<'_>, basis: &Basis) -> Option<StiffnessForms> {
         let zero = frame.constant(Interval::ZERO);
         // second derivatives cost more than all else, and only those of the softest motion count
         let kept = |p: usize, q: usize, x: Jet| if (p, q) == (5, 5) { x } else { x.first_order() };
@@ -185,7 +185,7 @@ impl<'a> SoftestMotion<'a> {
                 }
             }
         }
-        Some(Forms { k, b })
+        Some(StiffnessForms { k, b })
     }
 
     /// What of `B` no pose changes.
@@ -281,14 +281,14 @@ struct CellMatrix<'a> {
     chart: &'a Chart,
     cell: &'a ChartCell,
     z: &'a [f64; 6],
-    here: Forms,
-    over: Forms,
+    here: StiffnessForms,
+    over: StiffnessForms,
 }
 
 impl CellMatrix<'_> {
     fn entry(&self, s: f64, i: usize, j: usize) -> (Jet, Jet) {
         let (at, s) = (place(i, j), Interval::from(s));
-        let of = |forms: &Forms| forms.k[at] - forms.b[at].times(s);
+        let of = |forms: &StiffnessForms| forms.k[at] - forms.b[at].times(s);
         (of(&self.here), of(&self.over))
     }
 

@@ -170,7 +170,7 @@ fn holes_and_plates_are_those_of_the_margins() {
         let least = |x: &[f64]| {
             let ends = model.shape.ends(x);
             let mut least = std::collections::BTreeMap::new();
-            let mut keep = |item: super::terms::Item<()>| {
+            let mut keep = |item: super::terms::PoseTerm<()>| {
                 let known = least.entry(item.id.0).or_insert(f64::INFINITY);
                 *known = f64::min(*known, item.value);
             };
@@ -307,7 +307,7 @@ fn stiffness_and_frequency_are_those_of_the_margins() {
     let (at, ends) = (tilted(&p, true), model.shape.ends(&x));
     let mut least = std::collections::BTreeMap::new();
     let l = super::leg_lines::LegLines::new(&ends, &at);
-    model.terms.visit(&l, &ends, &x, &mut |item: super::terms::Item<()>| {
+    model.terms.visit(&l, &ends, &x, &mut |item: super::terms::PoseTerm<()>| {
         let known = least.entry(item.id.0).or_insert(f64::INFINITY);
         *known = f64::min(*known, item.value);
     });
@@ -616,7 +616,7 @@ fn housings_of_single_joints_are_those_of_the_margins() {
         let x: Vec<f64> = model.shape.start.iter().map(|x| x + rng.uniform(-0.3, 0.4)).collect();
         let (at, ends) = (tilted(&p, true), model.shape.ends(&x));
         let mut least = std::collections::BTreeMap::new();
-        let mut keep = |item: super::terms::Item<()>| {
+        let mut keep = |item: super::terms::PoseTerm<()>| {
             let known = least.entry(item.id.0).or_insert(f64::INFINITY);
             *known = f64::min(*known, item.value);
         };
@@ -655,7 +655,7 @@ fn angles_of_universal_joints_are_those_of_the_margins() {
         let (at, ends) = (tilted(&p, true), model.shape.ends(&x));
         let l = super::leg_lines::LegLines::new(&ends, &at);
         let margins = Terms::new(&p.manipulator, &p.requirements, &p.space.home).at(&at.pose);
-        model.terms.visit(&l, &ends, &x, &mut |item: super::terms::Item<()>| {
+        model.terms.visit(&l, &ends, &x, &mut |item: super::terms::PoseTerm<()>| {
             let (kind, leg) = (item.id.0, item.id.1);
             if kind.hinge().is_none() {
                 return;
@@ -685,11 +685,13 @@ fn one_requirement_has_the_value_it_has_among_all() {
         let ends = model.shape.ends(&x);
         let l = super::leg_lines::LegLines::new(&ends, &tilted(&p, true));
         let mut all = Vec::new();
-        model.terms.visit(&l, &ends, &x, &mut |item: super::terms::Item<()>| all.push((item.id, item.value)));
+        model
+            .terms
+            .visit(&l, &ends, &x, &mut |item: super::terms::PoseTerm<()>| all.push((item.id, item.value)));
         for (id, value) in &all {
             let mut found = Vec::new();
             let wanted = (id.0, id.1, id.2);
-            model.terms.visit_some(&l, (&ends, &x), wanted, &mut |item: super::terms::Item<()>| {
+            model.terms.visit_some(&l, (&ends, &x), wanted, &mut |item: super::terms::PoseTerm<()>| {
                 if item.id == *id {
                     found.push(item.value);
                 }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::super::conflict::attempt;
-use super::super::search::{Watch, expects_no_other, refine};
+use super::super::search::{ProgressReport, expects_no_other, refine};
 use super::super::*;
 use super::{ConstraintGroup, Model, everything, problem, quick};
 use crate::climb::Task;
@@ -185,7 +185,7 @@ fn what_other_starts_can_meet_is_no_conflict() {
     let stuck = refine(&model, &task, &middle, model.first_poses(), 1);
     assert!(!stuck.run.is_feasible());
     let mut silent = |_| ControlFlow::Continue(());
-    let mut watch = Watch::new(&model, &mut silent);
+    let mut watch = ProgressReport::new(&model, &mut silent);
     let met = attempt(&model, &task, &[stuck], &quick(), 0, &mut watch);
     assert!(met.is_ok_and(|r| r.run.is_feasible() && r.complete));
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();

@@ -14,7 +14,7 @@ use nalgebra::Matrix6;
 
 use self::corners::{AtCorners, at_corners};
 use self::multipliers::{SAMPLES, Sampled, multipliers};
-use self::rows::{LegRow, Quotient, greatest};
+use self::rows::{LegRow, QuadraticQuotient, greatest};
 use super::conditioning::{PoseLegs, worst_case_above};
 use super::limits::{OffsetLimits, OffsetRanges, point};
 use super::problem::{OffsetModel, OffsetProblem};
@@ -377,10 +377,10 @@ fn excluded(
 fn proved(poses: &[EnclosedPose], terms: &[(f64, &Function<'_>)], bounds: &OffsetRanges, limit: f64) -> bool {
     let limit = point(limit).square();
     let greatest_of = |i: usize| -> f64 {
-        let quotient = |(mu, f): &(f64, &Function<'_>)| -> Option<(f64, Quotient)> {
+        let quotient = |(mu, f): &(f64, &Function<'_>)| -> Option<(f64, QuadraticQuotient)> {
             Some((*mu, poses[f.pose].rows[i].excess(f.low, f.high, limit)?))
         };
-        let all: Option<Vec<(f64, Quotient)>> = terms.iter().map(quotient).collect();
+        let all: Option<Vec<(f64, QuadraticQuotient)>> = terms.iter().map(quotient).collect();
         all.map_or(f64::INFINITY, |all| greatest(&all, bounds[i]))
     };
     // each partial sum is rounded upwards

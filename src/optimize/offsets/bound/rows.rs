@@ -106,18 +106,18 @@ impl LegRow {
     }
 
     /// `(row . v)^2 / |v|^2 - limit (row . w)^2 / |w|^2` as a function of `t`; `None` when `v` or `w` is zero.
-    pub(super) fn excess(&self, v: &[f64; 6], w: &[f64; 6], limit: Interval) -> Option<Quotient> {
+    pub(super) fn excess(&self, v: &[f64; 6], w: &[f64; 6], limit: Interval) -> Option<QuadraticQuotient> {
         let norm = |v: &[f64; 6]| v.iter().map(|x| point(*x).square()).fold(Interval::ZERO, |s, x| s + x);
         let one = point(1.0);
         let low = self.square_of(v, one.checked_div(norm(v))?);
         let high = self.square_of(w, limit.checked_div(norm(w))?);
-        Some(Quotient { numerator: [0, 1, 2].map(|k| low[k] - high[k]), square: self.square })
+        Some(QuadraticQuotient { numerator: [0, 1, 2].map(|k| low[k] - high[k]), square: self.square })
     }
 }
 
 /// `(n0 + n1 t + n2 t^2) / (q0 + q1 t + q2 t^2)`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Quotient {
+pub(super) struct QuadraticQuotient {
     numerator: [Interval; 3],
     square: [Interval; 3],
 }
@@ -130,7 +130,7 @@ fn slope(c: &[Interval; 3], t: Interval) -> Interval {
     c[1] + point(2.0) * t * c[2]
 }
 
-impl Quotient {
+impl QuadraticQuotient {
     /// Its values; `None` where the leg may have length zero.
     pub(super) fn value(&self, t: Interval) -> Option<Interval> {
         quadratic(&self.numerator, t).checked_div(quadratic(&self.square, t))
@@ -148,7 +148,7 @@ const PARTS: u32 = 8;
 
 /// An upper bound of `sum mu f(t)` over `low <= t <= high`: on each part the value in the middle plus the derivative over the
 /// part times half its width (mean value form), in intervals.
-pub(super) fn greatest(terms: &[(f64, Quotient)], (low, high): (f64, f64)) -> f64 {
+pub(super) fn greatest(terms: &[(f64, QuadraticQuotient)], (low, high): (f64, f64)) -> f64 {
     let cut = |k: u32| if k == PARTS { high } else { low + (high - low) * (f64::from(k) / f64::from(PARTS)) };
     let part = |k: u32| -> Option<f64> {
         let range = Interval::new(cut(k), cut(k + 1))?;

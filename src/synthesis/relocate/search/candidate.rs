@@ -4,7 +4,7 @@
 
 use nalgebra::Matrix6;
 
-use super::pool::{JointPattern, Pool, shared};
+use super::pool::{JointPattern, LegPool, shared};
 use super::wishes::{Wish, WishMargin, Wishes};
 use crate::components::Components;
 use crate::leg_map::{LegMapOutcome, LegMapTolerances, leg_map_to_legs};
@@ -16,7 +16,7 @@ use platform::manipulator::{Leg, LegIndex, Manipulator, inverse_condition, jacob
 
 /// Margins of the platforms of one pattern.
 pub(super) struct Scorer<'a> {
-    pub(super) pool: &'a Pool<'a>,
+    pub(super) pool: &'a LegPool<'a>,
     pub(super) found: &'a Components,
     pub(super) m: &'a Manipulator,
     pub(super) wishes: &'a Wishes,

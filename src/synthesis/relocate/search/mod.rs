@@ -27,7 +27,7 @@ use super::super::components::{Components, PartKind, Reading, SingularKind};
 use num::Rng;
 use num::linalg::LinalgError;
 use platform::manipulator::Manipulator;
-use pool::Pool;
+use pool::LegPool;
 
 /// How long to search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -160,7 +160,7 @@ pub fn search(
         return Ok(outcome);
     }
     let mut rng = Rng::stream(options.seed, 0x5ea);
-    let pool = Pool::new(m, found, wishes, &outcome.holes, &mut rng)?;
+    let pool = LegPool::new(m, found, wishes, &outcome.holes, &mut rng)?;
     if let Some(k) = pool.not_by_those_legs(&wishes.holes) {
         if outcome.holes[k].exactly_by_others {
             outcome.verdict = SearchVerdict::Impossible(Impossibility::NotByThoseLegs(k));
@@ -196,7 +196,7 @@ pub fn search(
 
 /// Samples every pattern, climbs from the best samples, and ranks what comes out.
 fn climb_all(
-    pool: &Pool,
+    pool: &LegPool,
     found: &Components,
     m: &Manipulator,
     wishes: &Wishes,

@@ -10,7 +10,7 @@ use platform::manipulator::{Body, Leg, LegIndex, Manipulator};
 
 /// A place, with generic legs from it.
 #[derive(Debug)]
-pub(super) struct Place {
+pub(super) struct LegOrigin {
     pub(super) source: LegSource,
     pub(super) formulas: Parametrisation,
     /// Holes its legs have an end in.
@@ -23,8 +23,8 @@ pub(super) struct Place {
 
 /// All of them: the six legs, the largest families, the legs through holes.
 #[derive(Debug)]
-pub(super) struct Pool<'a> {
-    pub(super) places: Vec<Place>,
+pub(super) struct LegPool<'a> {
+    pub(super) places: Vec<LegOrigin>,
     /// Whether generic legs of every family were had.
     pub(super) drawn: bool,
     found: &'a Components,
@@ -39,7 +39,7 @@ fn fixed(leg: &Leg) -> Parametrisation {
     }
 }
 
-impl Place {
+impl LegOrigin {
     /// Whether the base (or platform) end of all its legs is one joint of the platform, exactly.
     fn holds_joint(&self, platform_end: bool) -> bool {
         let constant = match &self.formulas {
@@ -53,7 +53,7 @@ impl Place {
     }
 }
 
-impl<'a> Pool<'a> {
+impl<'a> LegPool<'a> {
     pub(super) fn new(
         m: &Manipulator,
         found: &'a Components,
@@ -110,7 +110,7 @@ impl<'a> Pool<'a> {
             }
             LegSource::Hole(_) | LegSource::Holes(..) => None,
         };
-        let mut place = Place { source, formulas, fills, support, generic: Vec::new() };
+        let mut place = LegOrigin { source, formulas, fills, support, generic: Vec::new() };
         for _ in 0..copies {
             let x = self.draw_place(&place, rng)?;
             if let Some(leg) = place.formulas.leg_at(&x)? {
@@ -126,7 +126,7 @@ impl<'a> Pool<'a> {
 
     /// The first hole of which no leg can replace one of those that are named for it.
     pub(super) fn not_by_those_legs(&self, holes: &[Hole]) -> Option<usize> {
-        let replaces = |place: &Place, hole: &Hole| {
+        let replaces = |place: &LegOrigin, hole: &Hole| {
             let generic = place.generic.iter();
             hole.legs.is_empty()
                 || generic.flat_map(|(_, c)| hole.legs.iter().map(|l| c[l.get()])).any(|c| c.abs() > 1e-9)
@@ -141,7 +141,7 @@ impl<'a> Pool<'a> {
         }
     }
 
-    fn draw_place(&self, place: &Place, rng: &mut Rng) -> Result<Vec<f64>, LinalgError> {
+    fn draw_place(&self, place: &LegOrigin, rng: &mut Rng) -> Result<Vec<f64>, LinalgError> {
         if let Some(family) = self.family(place.source) {
             return Ok(family.sample(&self.found.span, rng)?.map_or(Vec::new(), |s| s.parameters));
         }
@@ -212,14 +212,14 @@ pub(super) struct Patterns {
 }
 
 struct Growing<'a> {
-    pool: &'a Pool<'a>,
+    pool: &'a LegPool<'a>,
     list: Vec<JointPattern>,
     size: f64,
     exhaustive: bool,
 }
 
 /// All patterns that fill every hole.
-pub(super) fn patterns(pool: &Pool, wishes: &Wishes, size: f64) -> Patterns {
+pub(super) fn patterns(pool: &LegPool, wishes: &Wishes, size: f64) -> Patterns {
     let mut growing = Growing { pool, list: Vec::new(), size, exhaustive: true };
     growing.grow(0, &mut Vec::new(), &mut Vec::new());
     let all = wishes.holes.len();

@@ -116,20 +116,20 @@ pub fn motion_at(m: &Manipulator, pose: &Pose, seed: u64) -> AtPose {
 
 /// The same, with the motions found.
 pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<Departure>) {
-    let local = Local::new(m, pose);
+    let local = LegsAtPose::new(m, pose);
     let undecided = |values: [f64; 6], tangent_dimension: usize| AtPose {
         tangent_dimension,
         singular_values: values,
         verdict: PoseVerdict::Undecided,
     };
-    let Some(split) = Split::of(&local.lines()) else { return (undecided([0.0; 6], 6), Vec::new()) };
+    let Some(split) = LineVectors::of(&local.lines()) else { return (undecided([0.0; 6], 6), Vec::new()) };
     let k = split.corank();
     let mut at = undecided(split.values, k);
     if let Some(verdict) = isolated(&local, &split, k) {
         at.verdict = verdict;
         return (at, Vec::new());
     }
-    let search = Search::new(&local);
+    let search = MotionSearch::new(&local);
     let arcs = search.arcs(&split, k.max(1), &mut Rng::new(seed));
     let sampled = arcs.iter().map(|arc| search.dimension(arc, &mut Rng::new(seed))).max().unwrap_or(0);
     // no motion has more freedoms than there are of first order at the pose
@@ -152,7 +152,7 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
 ///
 /// No pose has a greater rank than almost all poses have, and the rank does not fall near a pose. The rank at the pose is proved for all joints between their bounds, that of almost all
 /// poses about the exact joints.
-fn has_generic_rank(m: &Manipulator, local: &Local, split: &Split) -> bool {
+fn has_generic_rank(m: &Manipulator, local: &LegsAtPose, split: &LineVectors) -> bool {
     let k = split.corank();
     if k == 0 || Inverted::of(&local.rows(), split, k).is_none() {
         return false;
@@ -172,7 +172,7 @@ struct LocalLeg {
 }
 
 /// The legs at a pose.
-struct Local {
+struct LegsAtPose {
     legs: [LocalLeg; 6],
     pose: Pose,
     origin: Vector3<f64>,
@@ -196,7 +196,7 @@ fn middle(x: Interval) -> f64 {
 
 type Rows = [[Interval; 6]; 6];
 
-impl Local {
+impl LegsAtPose {
     fn new(m: &Manipulator, pose: &Pose) -> Self {
         let origin = m.mean_leg_ends()[0];
         let unit = m.size();
@@ -279,13 +279,13 @@ impl Local {
 }
 
 /// Singular vectors of the leg lines.
-struct Split {
+struct LineVectors {
     values: [f64; 6],
     left: Matrix6<f64>,
     right: Matrix6<f64>,
 }
 
-impl Split {
+impl LineVectors {
     fn of(lines: &Matrix6<f64>) -> Option<Self> {
         let d = bounded_svd(lines)?;
         let (left, right) = (d.u?, d.v_t?.transpose());
@@ -304,7 +304,7 @@ impl Split {
 /// of `N` give `|b| <= tau |a|`. The rows along the others, `W`, give `c |a|^2 <= rest |a|^2 + error |a|`, where `c`
 /// is the least
 /// norm of the forms `W Q(K a)` for `|a| = 1`.
-fn isolated(local: &Local, split: &Split, k: usize) -> Option<PoseVerdict> {
+fn isolated(local: &LegsAtPose, split: &LineVectors, k: usize) -> Option<PoseVerdict> {
     let rank = 6 - k;
     let (u, w) = (columns(&split.left, 0, rank), columns(&split.left, rank, 6));
     let (n, kernel) = (columns(&split.right, 0, rank), columns(&split.right, rank, 6));
@@ -331,7 +331,7 @@ fn isolated(local: &Local, split: &Split, k: usize) -> Option<PoseVerdict> {
     let second = norm([part(&w, &n), part(&w, &kernel)].concat());
     let quadratic = norm(forms.iter().flatten().flatten().copied());
     let reach = norm(local.legs.iter().flat_map(|leg| leg.along));
-    let c = if k == 0 { 0.0 } else { Forms::new(&forms, &w, &kernel).least()? };
+    let c = if k == 0 { 0.0 } else { SecondOrderForms::new(&forms, &w, &kernel).least()? };
     let mut radius = 0.25;
     for _ in 0..40 {
         // |m k + m^2 / 2| <= (|d| / 2 + r / 8) r |x|^2 for |x| <= r
@@ -373,7 +373,7 @@ struct Inverted {
 }
 
 impl Inverted {
-    fn of(rows: &Rows, split: &Split, k: usize) -> Option<Self> {
+    fn of(rows: &Rows, split: &LineVectors, k: usize) -> Option<Self> {
         let rank = 6 - k;
         if rank == 0 {
             return Some(Self { norm: 0.0 });
@@ -406,12 +406,12 @@ fn bilinear(m: &Rows, left: &[f64], right: &[f64]) -> Interval {
 }
 
 /// The quadratic forms `W Q(K a)` in `k` unknowns, by symmetric matrices.
-struct Forms {
+struct SecondOrderForms {
     k: usize,
     matrices: Vec<Vec<Interval>>,
 }
 
-impl Forms {
+impl SecondOrderForms {
     fn new(forms: &[Rows; 6], w: &[Vec<f64>], kernel: &[Vec<f64>]) -> Self {
         let k = kernel.len();
         let mut restricted: Vec<Vec<Interval>> = Vec::new();
@@ -515,15 +515,15 @@ impl Arc {
 }
 
 /// Looks for motions in doubles.
-struct Search<'a> {
-    local: &'a Local,
+struct MotionSearch<'a> {
+    local: &'a LegsAtPose,
     along: [Vector3<f64>; 6],
     sum: [Vector3<f64>; 6],
     tolerance: f64,
 }
 
-impl<'a> Search<'a> {
-    fn new(local: &'a Local) -> Self {
+impl<'a> MotionSearch<'a> {
+    fn new(local: &'a LegsAtPose) -> Self {
         let vector = |x: &Vector| Vector3::from(x.map(middle));
         let along = local.legs.each_ref().map(|leg| vector(&leg.along));
         let sum = local.legs.each_ref().map(|leg| vector(&leg.sum));
@@ -597,7 +597,7 @@ impl<'a> Search<'a> {
     }
 
     /// Motions that leave the pose, one for each direction found.
-    fn arcs(&self, split: &Split, k: usize, rng: &mut Rng) -> Vec<Arc> {
+    fn arcs(&self, split: &LineVectors, k: usize, rng: &mut Rng) -> Vec<Arc> {
         let mut arcs: Vec<Arc> = Vec::new();
         for direction in self.directions(split, k, rng) {
             let Some(first) = self.corrected(&(direction * FIRST), Some((&direction, FIRST))) else {
@@ -628,7 +628,7 @@ impl<'a> Search<'a> {
     }
 
     /// Directions of first order to try: zeros of the forms of second order, and random ones.
-    fn directions(&self, split: &Split, k: usize, rng: &mut Rng) -> Vec<Vector6<f64>> {
+    fn directions(&self, split: &LineVectors, k: usize, rng: &mut Rng) -> Vec<Vector6<f64>> {
         let kernel = columns(&split.right, 6 - k, 6);
         let in_space = |a: &[f64]| -> Vector6<f64> {
             kernel
@@ -640,7 +640,7 @@ impl<'a> Search<'a> {
         if k == 1 {
             return vec![in_space(&[1.0]), in_space(&[-1.0])];
         }
-        let forms = Forms::new(&self.local.forms(), &columns(&split.left, 6 - k, 6), &kernel);
+        let forms = SecondOrderForms::new(&self.local.forms(), &columns(&split.left, 6 - k, 6), &kernel);
         let mut out = Vec::new();
         for _ in 0..12 * k {
             let mut a: Vec<f64> = (0..k).map(|_| rng.normal()).collect();
@@ -677,7 +677,7 @@ impl<'a> Search<'a> {
     }
 }
 
-impl Forms {
+impl SecondOrderForms {
     /// Goes from `a` to a zero of the forms on the unit sphere, by Gauss-Newton steps; where there is none, to a small
     /// value.
     fn towards_zero(&self, a: &mut [f64]) {

@@ -14,8 +14,8 @@ use nalgebra::{Matrix4, Vector4};
 
 use super::pose as real_pose;
 use super::slices::{
-    Condition, CurveDegree, LegEquations, Plane, SliceSweep, Slicer, System, Z, draw, gather, is_regular,
-    same,
+    CurveDegree, Plane, SliceCondition, SliceEquations, SliceSweep, Slicer, System, Z, draw, gather,
+    is_regular, same,
 };
 use num::{Purpose, Rng};
 use platform::geom::{ComplexPose, Pose};
@@ -75,7 +75,7 @@ pub fn critical_poses(
     seed: u64,
 ) -> CriticalPoses {
     let mut rng = Purpose::CRITICAL_POINTS.rng(seed);
-    let equations = LegEquations::new(m, s);
+    let equations = SliceEquations::new(m, s);
     let slicer = Slicer::new(&equations, &mut rng);
     let forms: [Plane; FORMS] = std::array::from_fn(|_| draw(&mut rng));
     let mut out = CriticalPoses {
@@ -210,7 +210,7 @@ impl Critical {
     }
 }
 
-impl Condition for Critical {
+impl SliceCondition for Critical {
     fn at(&self, t: f64, y: &Plane) -> (Z, Plane, Z) {
         let values = self.forms.map(|l| l.dot(y));
         let product: Z = values.iter().product();

@@ -17,7 +17,7 @@ mod trace;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use self::slices::{LegEquations, Point};
+use self::slices::{Point, SliceEquations};
 use num::Rng;
 use platform::geom::Pose;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
@@ -142,7 +142,7 @@ pub fn self_motion(
     poses: &[Pose],
     options: &MotionOptions,
 ) -> SelfMotion {
-    let equations = LegEquations::new(m, s);
+    let equations = SliceEquations::new(m, s);
     let tracer = || Tracer::new(&equations, options, &mut Rng::new(options.seed));
     let regular = tracer();
     let starts: Vec<Point<f64>> = poses.iter().map(|p| point(p, m.size())).collect();

@@ -34,11 +34,11 @@ struct LegForm {
 
 /// `F_i = (|g + e b - a e|^2 - s e.e) / 2`, `F_7 = e.g`.
 #[derive(Debug, Clone)]
-pub(super) struct LegEquations {
+pub(super) struct SliceEquations {
     legs: [LegForm; 6],
 }
 
-impl LegEquations {
+impl SliceEquations {
     pub(super) fn new(m: &Manipulator, s: &SquaredLegLengths) -> Self {
         let unit = m.size();
         let (legs, squares) = (m.legs(), s.get());
@@ -117,7 +117,7 @@ pub(super) type System = SMatrix<Z, 8, 8>;
 const SMALLEST: f64 = 1e-9;
 
 /// A condition on points of the curve that depends on a parameter from 0 to 1.
-pub(super) trait Condition {
+pub(super) trait SliceCondition {
     /// Value, gradient, and derivative by the parameter.
     fn at(&self, t: f64, y: &Plane) -> (Z, Plane, Z);
 }
@@ -134,7 +134,7 @@ impl SliceSweep {
     }
 }
 
-impl Condition for SliceSweep {
+impl SliceCondition for SliceSweep {
     fn at(&self, t: f64, y: &Plane) -> (Z, Plane, Z) {
         let plane = self.from + self.change * Z::from(t);
         (plane.dot(y), plane, self.change.dot(y))
@@ -150,14 +150,14 @@ pub(super) struct Lost {
 
 /// The curve in the chart `chart.y = 1`, cut by conditions.
 pub(super) struct Slicer<'a> {
-    equations: &'a LegEquations,
+    equations: &'a SliceEquations,
     /// Six combinations of the seven equations, which have rank six on the curve.
     mix: SMatrix<Z, 6, EQUATIONS>,
     pub(super) chart: Plane,
 }
 
 impl<'a> Slicer<'a> {
-    pub(super) fn new(equations: &'a LegEquations, rng: &mut Rng) -> Self {
+    pub(super) fn new(equations: &'a SliceEquations, rng: &mut Rng) -> Self {
         let mut normal = || Z::new(rng.normal(), rng.normal());
         let mix = SMatrix::from_fn(|_, _| normal());
         Self { equations, mix, chart: Plane::from_fn(|_, _| normal()) }
@@ -177,7 +177,7 @@ impl<'a> Slicer<'a> {
     }
 
     /// Newton's method; `None` unless it settles in a few steps.
-    pub(super) fn newton(&self, start: Plane, condition: &impl Condition, t: f64) -> Option<Plane> {
+    pub(super) fn newton(&self, start: Plane, condition: &impl SliceCondition, t: f64) -> Option<Plane> {
         let mut y = start;
         let mut last = f64::INFINITY;
         for _ in 0..6 {
@@ -204,7 +204,7 @@ impl<'a> Slicer<'a> {
     }
 
     /// The point for the parameter 1 that belongs to `start` for the parameter 0.
-    pub(super) fn carry(&self, start: Plane, condition: &impl Condition) -> Result<Plane, Box<Lost>> {
+    pub(super) fn carry(&self, start: Plane, condition: &impl SliceCondition) -> Result<Plane, Box<Lost>> {
         let (mut y, mut t, mut step) = (start, 0.0, 0.02);
         while t < 1.0 {
             let lost = Lost { t, y };
@@ -283,7 +283,7 @@ pub struct CurveDegree {
 #[must_use]
 pub fn curve_degree(m: &Manipulator, s: &SquaredLegLengths, pose: &Pose, seed: u64) -> Option<CurveDegree> {
     let mut rng = Rng::new(seed);
-    let equations = LegEquations::new(m, s);
+    let equations = SliceEquations::new(m, s);
     let start: Plane = point(pose, m.size()).map(Z::from);
     if !is_regular(&equations, &start) {
         return None;
@@ -297,7 +297,7 @@ pub fn curve_degree(m: &Manipulator, s: &SquaredLegLengths, pose: &Pose, seed: u
 }
 
 /// Whether the point is on one curve of poses: rank six.
-pub(super) fn is_regular(equations: &LegEquations, y: &Plane) -> bool {
+pub(super) fn is_regular(equations: &SliceEquations, y: &Plane) -> bool {
     let jacobian = equations.jacobian(&(y / Z::from(y.norm())));
     singular_values(&jacobian)
         .is_some_and(|values| values[6] < ON_CURVE * values[0] && values[5] >= OFF_CROSSING * values[0])

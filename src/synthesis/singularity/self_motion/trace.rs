@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, SMatrix, SVector, SymmetricEigen};
 
-use super::slices::{EQUATIONS, LegEquations, Point};
+use super::slices::{EQUATIONS, Point, SliceEquations};
 use super::{CurveEnd, MotionOptions};
 use num::Rng;
 use num::small::bounded_svd;
@@ -62,7 +62,7 @@ pub(super) struct TracedCurve {
 /// Equations and what following them needs.
 #[derive(Debug)]
 pub(super) struct Tracer<'a> {
-    equations: &'a LegEquations,
+    equations: &'a SliceEquations,
     /// Seven random combinations of the eight equations.
     mix: SMatrix<f64, 7, 8>,
     turn: f64,
@@ -72,7 +72,7 @@ pub(super) struct Tracer<'a> {
 }
 
 impl<'a> Tracer<'a> {
-    pub(super) fn new(equations: &'a LegEquations, options: &MotionOptions, rng: &mut Rng) -> Self {
+    pub(super) fn new(equations: &'a SliceEquations, options: &MotionOptions, rng: &mut Rng) -> Self {
         let mix = SMatrix::from_fn(|_, _| rng.normal());
         Self { equations, mix, turn: options.turn, multiple: false }
     }

@@ -16,7 +16,7 @@ use records::{BenchAnswer, BenchClassRecord};
 
 /// Arguments of `bench`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct BenchArgs {
     /// 6-6, 6-5, 6P-6, 6P-6P, tilted-planes, octahedral, griffis-duffy, hexapod, similar, affine, congruent, collinear,
     /// close-pair, spread, double-root, hexapod-home, or all of these; T01 to T34 (also T04-planar-base, -planar-platform,
     /// -both-planar), or topologies for the 34; several with commas between
@@ -32,8 +32,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
     threads: u64,
     /// Method of solution; auto takes the best one for the design
-    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
-    method: MethodArg,
+    #[arg(long, value_enum, default_value_t = BenchMethodArg::Auto)]
+    method: BenchMethodArg,
     /// Squared lengths uniform in [0.5, 3], or those of a random real pose; the former where the class allows it when absent
     #[arg(long, value_enum, value_name = "SOURCE")]
     lengths_from: Option<Source>,
@@ -53,7 +53,7 @@ pub(crate) struct Args {
 
 /// `--method`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum MethodArg {
+enum BenchMethodArg {
     Auto,
     Octic,
     Homotopy,
@@ -69,14 +69,14 @@ enum Source {
 }
 
 /// Runs the harness on one class or all.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &BenchArgs, context: &mut Context) -> Result<Answer, Failure> {
     let classes = classes(&args.class)?;
     let method = match args.method {
-        MethodArg::Auto => None,
-        MethodArg::Octic => Some(Method::Octic),
-        MethodArg::Homotopy => Some(Method::Homotopy),
-        MethodArg::Template => Some(Method::Template),
-        MethodArg::Trilateration => Some(Method::Trilateration),
+        BenchMethodArg::Auto => None,
+        BenchMethodArg::Octic => Some(Method::Octic),
+        BenchMethodArg::Homotopy => Some(Method::Homotopy),
+        BenchMethodArg::Template => Some(Method::Template),
+        BenchMethodArg::Trilateration => Some(Method::Trilateration),
     };
     let solver = fk::solver(method);
     if args.noise {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 
-use super::Args;
+use super::BenchArgs;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
@@ -18,7 +18,7 @@ const PUBLISHED: (f64, f64) = (1e-4, 8e-4);
 
 /// Runs the classes, writes the picture.
 pub(super) fn run(
-    args: &Args,
+    args: &BenchArgs,
     classes: &[Class],
     solver: &dyn ForwardKinematics,
     seed: u64,

@@ -12,16 +12,16 @@ use crate::app::cli::output::Answer;
 
 /// Commands about building a design.
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum BuildCommand {
     /// Find the cheapest drive of a table with which the design meets its requirements
-    Drives(drives::Args),
+    Drives(drives::BuildDrivesArgs),
     /// Put the joints on a grid of holes, exactly equivalent or as near as the grid allows
-    Round(round::Args),
+    Round(round::BuildRoundArgs),
     /// Compute how far joints may be off while the error of the pose stays within a bound
-    Tolerances(tolerances::Args),
+    Tolerances(tolerances::BuildTolerancesArgs),
 }
 
-impl Command {
+impl BuildCommand {
     /// Runs the command.
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {

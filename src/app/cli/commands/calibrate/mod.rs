@@ -27,7 +27,7 @@ use records::{
 
 /// Arguments of `calibrate`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct CalibrateArgs {
     /// Design file (.toml or .json) of the machine as it was meant
     design: PathBuf,
     /// A table with a measured pose and six measured lengths a line (`-` for standard input); without it, poses to measure are planned
@@ -114,7 +114,7 @@ enum StartArg {
 
 const BAD_MEASUREMENTS: &str = "calibrate::bad_measurements";
 
-impl Args {
+impl CalibrateArgs {
     fn options(&self) -> CalibrateOptions {
         CalibrateOptions {
             noise: self.sigma_length.map(|length| MeasurementNoise {
@@ -160,7 +160,7 @@ impl Args {
 }
 
 /// Exit 0 where the machine is calibrated, 1 where it is not identifiable or the model is refuted, 3 where that is open.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &CalibrateArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     args.refuse_without_effect(context)?;
     let options = args.options();
@@ -285,7 +285,11 @@ fn measurement(text: &str) -> Result<Measurement, String> {
 }
 
 /// The motions to the frames of the design, where they are asked for.
-fn frames(args: &Args, design: &Design, found: &Calibration) -> Result<Option<CarriedFrames>, Failure> {
+fn frames(
+    args: &CalibrateArgs,
+    design: &Design,
+    found: &Calibration,
+) -> Result<Option<CarriedFrames>, Failure> {
     if args.frames == FramesArg::Measured {
         return Ok(None);
     }
@@ -297,7 +301,12 @@ fn frames(args: &Args, design: &Design, found: &Calibration) -> Result<Option<Ca
 }
 
 /// Where to measure next: poses as the design and as the measurements have them.
-fn next(args: &Args, found: &Calibration, candidates: &[Pose], measured: &[Pose]) -> Vec<NextPoseRecord> {
+fn next(
+    args: &CalibrateArgs,
+    found: &Calibration,
+    candidates: &[Pose],
+    measured: &[Pose],
+) -> Vec<NextPoseRecord> {
     let chosen = next_poses(
         &found.model,
         &found.unknowns,
@@ -320,7 +329,7 @@ fn next_record(pose: &Pose, next: &NextPose) -> NextPoseRecord {
 
 /// The poses to begin with.
 fn plan(
-    args: &Args,
+    args: &CalibrateArgs,
     design: &Design,
     options: &CalibrateOptions,
     context: &Context,

@@ -12,7 +12,7 @@ use records::ConvertAnswer;
 
 /// Arguments of `design convert`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct DesignConvertArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
     /// File to write; .json gives JSON, .toml and `-` (standard output) give TOML
@@ -27,7 +27,7 @@ pub(crate) struct Args {
 }
 
 /// Reads, checks and writes the design. Comments of the input are not kept.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &DesignConvertArgs, context: &mut Context) -> Result<Answer, Failure> {
     let extension = args.output.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let format = match extension.as_deref() {
         // a sheet is none of both, and its name is what its reader wants

@@ -12,16 +12,16 @@ use crate::app::cli::output::Answer;
 
 /// Commands about design files.
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum DesignCommand {
     /// Write a design in the other notation, TOML or JSON
-    Convert(convert::Args),
+    Convert(convert::DesignConvertArgs),
     /// List designs of real hardware with their sources, or write one of them
-    Presets(presets::Args),
+    Presets(presets::DesignPresetsArgs),
     /// Print the JSON Schema of design files, or of the answers with --json
-    Schema(schema::Args),
+    Schema(schema::DesignSchemaArgs),
 }
 
-impl Command {
+impl DesignCommand {
     /// Runs the command.
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {

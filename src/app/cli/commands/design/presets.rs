@@ -15,7 +15,7 @@ use records::{PresetAnswer, PresetFile, PresetRecord, PresetsAnswer};
 
 /// Arguments of `design presets`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct DesignPresetsArgs {
     /// Name of a preset; all are listed when absent
     name: Option<String>,
     /// Write the design file in TOML, with the sources in its comments
@@ -24,7 +24,7 @@ pub(crate) struct Args {
 }
 
 /// Lists the presets, or gives one.
-pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &DesignPresetsArgs) -> Result<Answer, Failure> {
     let Some(name) = &args.name else { return list() };
     let names = PRESETS.map(|p| p.name).join(", ");
     let preset = PRESETS.iter().find(|p| p.name == name).ok_or_else(|| {

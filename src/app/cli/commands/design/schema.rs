@@ -11,7 +11,7 @@ use records::{self, SchemaAnswer};
 
 /// Arguments of `design schema`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct DesignSchemaArgs {
     /// `design` for design files, `error` for refusals, `help` for --help, or a command for its answer with --json
     #[arg(value_name = "ANSWER", default_value = "design", value_parser = PossibleValuesParser::new(names()))]
     of: String,
@@ -22,7 +22,7 @@ fn names() -> Vec<&'static str> {
 }
 
 /// The schema on standard output.
-pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &DesignSchemaArgs) -> Result<Answer, Failure> {
     let schema = match records::schema(&args.of) {
         Some(schema) => schema,
         None => serde_json::from_str(&SCHEMA)

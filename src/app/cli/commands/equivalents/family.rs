@@ -18,7 +18,7 @@ use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct EquivalentsFamilyArgs {
     /// Design (.toml or .json) that is octahedral, or made from an octahedral platform by offsets along the sides of its triangles
     design: PathBuf,
     /// Write the graph of topologies for Graphviz
@@ -45,7 +45,7 @@ pub(crate) struct Args {
 }
 
 /// Lists the class, or one pattern of it.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &EquivalentsFamilyArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let original = original(&design)?;
     let family = Family::octahedral();
@@ -130,7 +130,7 @@ fn parse_pattern(text: &str) -> Result<Pattern, Failure> {
 
 /// Builds the platform and writes it where asked, unless it is singular.
 fn realise(
-    args: &Args,
+    args: &EquivalentsFamilyArgs,
     pattern: &Pattern,
     design: &Design,
     original: &Original,

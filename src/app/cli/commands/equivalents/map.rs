@@ -12,7 +12,7 @@ use synthesis::{LegCorrespondence, Relation};
 
 /// Arguments of `equivalents map`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct EquivalentsMapArgs {
     /// Design file (.toml or .json) whose squared lengths are given
     from: PathBuf,
     /// Design file whose squared lengths are wanted, in the same units and, without --align, in the same two frames
@@ -22,7 +22,7 @@ pub(crate) struct Args {
 }
 
 /// Decides whether s(TO) = A s(FROM) + c holds at every pose.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &EquivalentsMapArgs, context: &mut Context) -> Result<Answer, Failure> {
     let (from, to) = (context.load(&args.from)?, context.load(&args.to)?);
     same_units(&from, &to, "map::different_units")?;
     let second = args.frames.apply(&from, &to, context)?;

@@ -15,22 +15,22 @@ use crate::app::cli::output::Answer;
 
 /// Commands about equivalent designs.
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum EquivalentsCommand {
     /// List every platform equivalent to an octahedral design, or write one of them
-    Family(family::Args),
+    Family(family::EquivalentsFamilyArgs),
     /// List the families of legs that can be moved without changing the platform
-    Components(components::Args),
+    Components(components::EquivalentsComponentsArgs),
     /// List the ways to share joints that can hold a platform, or name that of a design
-    Topologies(topologies::Args),
+    Topologies(topologies::EquivalentsTopologiesArgs),
     /// Move legs along their families, or search for an equivalent platform with given properties
-    Move(r#move::Args),
+    Move(r#move::EquivalentsMoveArgs),
     /// Find the octahedral platform nearest to a design, with the error it would make
-    Nearest(nearest::Args),
+    Nearest(nearest::EquivalentsNearestArgs),
     /// Compute the affine map between the squared leg lengths of two designs
-    Map(map::Args),
+    Map(map::EquivalentsMapArgs),
 }
 
-impl Command {
+impl EquivalentsCommand {
     /// Runs the command.
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {

@@ -20,7 +20,7 @@ pub(in crate::app::cli::commands) const EXTENSION: f64 = 1.0;
 
 /// Arguments of `equivalents nearest`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct EquivalentsNearestArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// How far a joint may lie outside its side, on its extension, in lengths of the side
@@ -40,7 +40,7 @@ pub(in crate::app::cli::commands) fn options(design: &Design, extension: f64) ->
 }
 
 /// Finds it, and writes the designs asked for.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &EquivalentsNearestArgs, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     let options = options(&design, args.extension);

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::Poses;
-use super::search::Search;
+use super::ExplorePoses;
+use super::search::ExploreSearch;
 use ask::Design;
 use files::plot::{ModesFigure, OffsetPlane, PlaneAxis, PlanePoint, assembly_modes, determinant_plane};
 use fk::Reality;
@@ -31,7 +31,11 @@ fn common(edges: [f64; 3]) -> Option<f64> {
 /// `det A` over the offsets, in the design's unit where all edges of a body are equal, else in fractions.
 ///
 /// `None` for a platform with other triangles, or with other variables than offsets.
-pub(super) fn determinant(design: &Design, octahedral: &Octahedral, search: &Search) -> Option<String> {
+pub(super) fn determinant(
+    design: &Design,
+    octahedral: &Octahedral,
+    search: &ExploreSearch,
+) -> Option<String> {
     let has_plane = search.keeps_class() && (search.optimised().is_none() || search.offsets().is_some());
     if !has_plane {
         return None;
@@ -64,7 +68,7 @@ pub(super) fn determinant(design: &Design, octahedral: &Octahedral, search: &Sea
 }
 
 /// The chosen offsets, a base and a platform offset at a time; equal pairs are one mark.
-fn points(octahedral: &Octahedral, search: &Search) -> (Vec<PlanePoint>, String) {
+fn points(octahedral: &Octahedral, search: &ExploreSearch) -> (Vec<PlanePoint>, String) {
     let Some((t, det)) = search.offsets() else {
         return (Vec::new(), "no offsets were found that keep the limits".to_owned());
     };
@@ -95,7 +99,7 @@ fn points(octahedral: &Octahedral, search: &Search) -> (Vec<PlanePoint>, String)
 }
 
 /// The real poses.
-pub(super) fn modes(design: &Design, poses: &Poses) -> String {
+pub(super) fn modes(design: &Design, poses: &ExplorePoses) -> String {
     let s = &poses.solutions;
     let real = s.roots.iter().enumerate().filter(|(_, r)| r.reality == Reality::Real);
     let undecided = s.roots.iter().filter(|r| r.reality == Reality::Undecided).count();

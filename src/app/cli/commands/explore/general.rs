@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::folder::{self, Folder};
-use super::{Args, Verified, fk_record, original, solve, text, verification};
-use crate::app::cli::commands::equivalents::r#move::found::{Found, platforms};
+use super::{ExploreArgs, Verified, fk_record, original, solve, text, verification};
+use crate::app::cli::commands::equivalents::r#move::found::{FoundMoves, platforms};
 use crate::app::cli::commands::equivalents::r#move::wishes::WishArgs;
 use crate::app::cli::commands::equivalents::nearest;
 use crate::app::cli::commands::report::page;
@@ -26,7 +26,7 @@ use records::{
 use synthesis::components::{ComponentOptions, Components, components};
 
 /// What is worked with in all stages.
-struct Run<'a> {
+struct ExploreRun<'a> {
     design: &'a Design,
     folder: Folder,
     provenance: ProvenanceRecord,
@@ -34,17 +34,17 @@ struct Run<'a> {
     stages: Vec<StageRecord>,
 }
 
-impl Run<'_> {
+impl ExploreRun<'_> {
     fn done(&mut self, stage: StageWord, explanation: impl Into<String>) {
         self.stages.push(StageRecord { stage, explanation: explanation.into() });
     }
 }
 
 /// Runs all stages; each file is written when its stage is finished.
-pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Answer, Failure> {
+pub(super) fn run(args: &ExploreArgs, design: &Design, context: &Context) -> Result<Answer, Failure> {
     let mut progress = ProgressLine::new(context.quiet());
     let seed = context.seed();
-    let mut run = Run {
+    let mut run = ExploreRun {
         design,
         folder: Folder::prepare(&args.output)?,
         provenance: context.provenance(),
@@ -82,7 +82,7 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
 
     progress.stage(7, "report");
     let (verdict, explanation, exit) = judged(&families, moves.as_ref(), verified.as_ref());
-    let Run { mut folder, stages, .. } = run;
+    let ExploreRun { mut folder, stages, .. } = run;
     let mut answer = ExploreGeneralAnswer {
         verdict,
         explanation,
@@ -115,7 +115,7 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
 }
 
 /// The families of replaceable legs.
-fn replaceable(run: &mut Run<'_>) -> Result<Components, Failure> {
+fn replaceable(run: &mut ExploreRun<'_>) -> Result<Components, Failure> {
     let options = ComponentOptions { seed: run.seed, ..ComponentOptions::default() };
     let found =
         components(run.design.manipulator(), options).map_err(|e| Failure::internal(e.to_string()))?;
@@ -136,7 +136,7 @@ fn replaceable(run: &mut Run<'_>) -> Result<Components, Failure> {
 
 /// A search with the platform that is written.
 struct Moves {
-    found: Found,
+    found: FoundMoves,
     /// Index of the first platform that fulfils every wish and has a leg that the design has not.
     chosen: Option<usize>,
 }
@@ -156,7 +156,7 @@ impl Moves {
 }
 
 /// Equivalent platforms without shared joints; `None` where there is nothing to search.
-fn moves(run: &mut Run<'_>, families: &Components) -> Result<Option<Moves>, Failure> {
+fn moves(run: &mut ExploreRun<'_>, families: &Components) -> Result<Option<Moves>, Failure> {
     if families.leg_rank.value < 6 {
         run.done(
             StageWord::Moves,
@@ -192,7 +192,7 @@ fn moves(run: &mut Run<'_>, families: &Components) -> Result<Option<Moves>, Fail
 
 /// The nearest octahedral platform with its error.
 fn nearest_platform(
-    run: &mut Run<'_>,
+    run: &mut ExploreRun<'_>,
     extension: f64,
 ) -> Result<Option<(NearestDesigns, NearestErrorRecord)>, Failure> {
     let options = nearest::options(run.design, extension);
@@ -208,7 +208,7 @@ fn nearest_platform(
 }
 
 /// Whether the equivalent of the nearest octahedral platform meets the requirements of the design.
-fn requirements(run: &mut Run<'_>, near: Option<&NearestDesigns>) -> Result<Option<bool>, Failure> {
+fn requirements(run: &mut ExploreRun<'_>, near: Option<&NearestDesigns>) -> Result<Option<bool>, Failure> {
     let Some(near) = near else { return Ok(None) };
     let Some(answer) = AssessAnswer::of(&near.beside, run.seed) else {
         run.done(StageWord::Assess, "the design has no requirements");
@@ -224,7 +224,7 @@ fn requirements(run: &mut Run<'_>, near: Option<&NearestDesigns>) -> Result<Opti
 
 /// The design compared with the equivalent found, else the nearest octahedral platform with its equivalent.
 fn compared(
-    run: &mut Run<'_>,
+    run: &mut ExploreRun<'_>,
     samples: usize,
     options: &FkOptions,
     moves: Option<&Moves>,

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use self::folder::Folder;
-use self::search::Search;
+use self::search::ExploreSearch;
 use super::build::drives;
 use super::build::round::render::RoundReport;
 use super::equivalents::r#move as relocation;
@@ -47,7 +47,7 @@ use verify::{Verification, verify};
 
 /// Arguments of `explore`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct ExploreArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Folder for the results; it is made where it does not exist, the results of an earlier run are replaced, and a file of yours that a result would replace is refused
@@ -78,7 +78,7 @@ struct Verified {
 
 /// Poses for one set of leg lengths.
 #[derive(Debug)]
-struct Poses {
+struct ExplorePoses {
     lengths: LegLengths,
     from: LengthsOrigin,
     solutions: FkSolutions,
@@ -91,7 +91,7 @@ struct Results {
     /// What became of the default reserve; `None` where the design states one.
     reserve: Option<DefaultReserve>,
     family: Family,
-    search: Search,
+    search: ExploreSearch,
     /// The answer of `optimize`.
     answer: OptimizeAnswer,
     /// The platform on the holes that the design states; `None` where it states none, or no platform was found.
@@ -99,10 +99,10 @@ struct Results {
     /// What `assess` says of the platform found, on its holes where the design states them.
     assessment: Option<AssessAnswer>,
     /// Parts and files for other programs, where the design states holes.
-    machine: Option<Machine>,
+    machine: Option<MachineFiles>,
     /// Absent when no platform was found, or one with other triangles.
     verified: Option<Verified>,
-    poses: Poses,
+    poses: ExplorePoses,
     options: FkOptions,
     extension: f64,
 }
@@ -124,48 +124,48 @@ impl Results {
     }
 
     /// What the platform found is judged by: its requirements first, then the comparison.
-    fn judgement(&self) -> Judged<'_> {
+    fn judgement(&self) -> JudgedBy<'_> {
         match &self.holes {
-            Some(Err(why)) => return Judged::NoHoles(why.to_string()),
+            Some(Err(why)) => return JudgedBy::NoHoles(why.to_string()),
             Some(Ok(on)) => {
-                let Some((_, design)) = &on.found else { return Judged::NoHoles(why_none(on)) };
+                let Some((_, design)) = &on.found else { return JudgedBy::NoHoles(why_none(on)) };
                 return match on.met() {
-                    Some(true) => Judged::OnHoles,
-                    Some(false) => Judged::Violated(design),
-                    None => Judged::Unproved(design),
+                    Some(true) => JudgedBy::OnHoles,
+                    Some(false) => JudgedBy::Violated(design),
+                    None => JudgedBy::Unproved(design),
                 };
             }
             None => (),
         }
         match (self.search.optimised(), self.search.met(), &self.verified) {
-            (None, ..) if self.search.exit() == Exit::No => Judged::Infeasible,
-            (None, ..) => Judged::NotFound,
-            (Some(design), Some(false), _) => Judged::Violated(design),
-            (Some(design), None, _) => Judged::Unproved(design),
-            (Some(_), Some(true), Some(v)) => Judged::Compared(v),
-            (Some(_), Some(true), None) => Judged::New,
+            (None, ..) if self.search.exit() == Exit::No => JudgedBy::Infeasible,
+            (None, ..) => JudgedBy::NotFound,
+            (Some(design), Some(false), _) => JudgedBy::Violated(design),
+            (Some(design), None, _) => JudgedBy::Unproved(design),
+            (Some(_), Some(true), Some(v)) => JudgedBy::Compared(v),
+            (Some(_), Some(true), None) => JudgedBy::New,
         }
     }
 
     /// The word for the whole run.
     fn verdict(&self) -> ExploreVerdict {
         match self.judgement() {
-            Judged::Infeasible => ExploreVerdict::Infeasible,
-            Judged::Violated(_) | Judged::NoHoles(_) => ExploreVerdict::Violated,
-            Judged::OnHoles => ExploreVerdict::OnHoles,
-            Judged::New => ExploreVerdict::NewKinematics,
-            Judged::Compared(v) => ExploreVerdict::Compared((&v.found.verdict).into()),
-            Judged::NotFound | Judged::Unproved(_) => ExploreVerdict::Compared(VerdictWord::Inconclusive),
+            JudgedBy::Infeasible => ExploreVerdict::Infeasible,
+            JudgedBy::Violated(_) | JudgedBy::NoHoles(_) => ExploreVerdict::Violated,
+            JudgedBy::OnHoles => ExploreVerdict::OnHoles,
+            JudgedBy::New => ExploreVerdict::NewKinematics,
+            JudgedBy::Compared(v) => ExploreVerdict::Compared((&v.found.verdict).into()),
+            JudgedBy::NotFound | JudgedBy::Unproved(_) => ExploreVerdict::Compared(VerdictWord::Inconclusive),
         }
     }
 
     fn exit(&self) -> Exit {
         match self.judgement() {
-            Judged::Infeasible | Judged::Violated(_) | Judged::NoHoles(_) => Exit::No,
-            Judged::OnHoles => Exit::Yes,
-            Judged::NotFound | Judged::Unproved(_) => Exit::Inconclusive,
-            Judged::Compared(v) => verify_command::exit_of(&v.found.verdict),
-            Judged::New => self.search.exit(),
+            JudgedBy::Infeasible | JudgedBy::Violated(_) | JudgedBy::NoHoles(_) => Exit::No,
+            JudgedBy::OnHoles => Exit::Yes,
+            JudgedBy::NotFound | JudgedBy::Unproved(_) => Exit::Inconclusive,
+            JudgedBy::Compared(v) => verify_command::exit_of(&v.found.verdict),
+            JudgedBy::New => self.search.exit(),
         }
     }
 
@@ -187,34 +187,34 @@ impl Results {
         };
         let of_offsets = matches!(self.search.found.evidence, OptimizeEvidence::Offsets(_));
         match (self.judgement(), of_offsets) {
-            (Judged::Infeasible, true) => {
+            (JudgedBy::Infeasible, true) => {
                 "every branch of offsets is proved to violate the limits".into()
             }
-            (Judged::Infeasible, false) => {
+            (JudgedBy::Infeasible, false) => {
                 format!(
                     "no start met the requirements together; the conflict stands in optimize.json{}",
                     self.what_resolves_it()
                 )
             }
-            (Judged::NotFound, true) => {
+            (JudgedBy::NotFound, true) => {
                 "no offsets were found that keep the limits, but some branches are not proved empty".into()
             }
-            (Judged::NotFound, false) => {
+            (JudgedBy::NotFound, false) => {
                 format!(
                     "no platform that meets the requirements was found, and no conflict{}",
                     self.what_resolves_it()
                 )
             }
-            (Judged::Violated(design) | Judged::Unproved(design), _) => judged(design),
-            (Judged::OnHoles, _) => match (self.built(), &self.assessment) {
+            (JudgedBy::Violated(design) | JudgedBy::Unproved(design), _) => judged(design),
+            (JudgedBy::OnHoles, _) => match (self.built(), &self.assessment) {
                 (Some(_), Some(a)) => {
                     format!("{}; its joints are on the holes", sheet::answers::sentence(a))
                 }
                 _ => "all joints are on the holes; nothing is required besides".into(),
             },
-            (Judged::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
-            (Judged::Compared(v), _) => v.record.explanation.clone(),
-            (Judged::New, _) => {
+            (JudgedBy::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
+            (JudgedBy::Compared(v), _) => v.record.explanation.clone(),
+            (JudgedBy::New, _) => {
                 "the platform meets its requirements; its triangles were chosen too, so that its kinematics are new".into()
             }
         }
@@ -222,7 +222,7 @@ impl Results {
 }
 
 /// What decides about the platform found.
-enum Judged<'a> {
+enum JudgedBy<'a> {
     /// There is none, and that is known.
     Infeasible,
     /// None was found.
@@ -250,14 +250,14 @@ fn why_none(on: &DesignOnHoles) -> String {
 
 /// The machine in files for other programs.
 #[derive(Debug)]
-struct Machine {
+struct MachineFiles {
     parts: Vec<PartLine>,
     /// Formats that cannot hold it, and why.
     refused: Vec<(&'static str, String)>,
 }
 
 /// Writes every format that can hold the platform into the folder.
-fn machine(design: &Design, folder: &mut Folder) -> Result<Machine, Failure> {
+fn machine(design: &Design, folder: &mut Folder) -> Result<MachineFiles, Failure> {
     let export = export::plain(design)?.with_octahedral(octahedral_of_controllers(design));
     let mut refused = Vec::new();
     for format in ExportFormat::ALL {
@@ -266,7 +266,7 @@ fn machine(design: &Design, folder: &mut Folder) -> Result<Machine, Failure> {
             Err(why) => refused.push((format.name(), why.to_string())),
         }
     }
-    Ok(Machine { parts: export.parts(), refused })
+    Ok(MachineFiles { parts: export.parts(), refused })
 }
 
 /// The answer of `build round` about the platform on its holes.
@@ -284,7 +284,7 @@ fn round_record(on: &DesignOnHoles, assessment: Option<AssessAnswer>) -> RoundAn
 }
 
 /// Runs all stages; each file is written when its stage is finished.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, Failure> {
     args.extension.map_or(Ok(()), optimize::check_extension)?;
     let design = context.load(&args.design)?;
     let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
@@ -342,7 +342,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     progress.stage(2, "the best platform");
     let interrupt = Interrupt::watch_for(args.time_limit);
     let careful = with_default_reserve(&design);
-    let asked = Asked {
+    let asked = ExploreQuestion {
         design: &design,
         drives: table.as_ref(),
         extension,
@@ -428,7 +428,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 
 /// What is searched for, and how.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Asked<'a> {
+pub(super) struct ExploreQuestion<'a> {
     design: &'a Design,
     /// The drives to choose from, where a table was given.
     drives: Option<&'a DriveTable>,
@@ -450,14 +450,14 @@ pub(super) enum DefaultReserve {
 
 /// A search with what became of the default reserve.
 struct Careful {
-    found: Search,
+    found: ExploreSearch,
     holes: OnHoles,
     reserve: Option<DefaultReserve>,
 }
 
 /// The search with the default reserve first, where the design states none, and without it where that leads to no platform.
 fn searched_carefully(
-    asked: &Asked<'_>,
+    asked: &ExploreQuestion<'_>,
     careful: Option<&Design>,
     progress: &mut ProgressLine,
 ) -> Result<Careful, Failure> {
@@ -465,7 +465,7 @@ fn searched_carefully(
         let (found, holes) = searched(asked, progress)?;
         return Ok(Careful { found, holes, reserve: None });
     };
-    let (found, holes) = searched(&Asked { design: careful, explains: false, ..*asked }, progress)?;
+    let (found, holes) = searched(&ExploreQuestion { design: careful, explains: false, ..*asked }, progress)?;
     let keeps = match &holes {
         None => found.optimised().is_some() && found.met() == Some(true),
         Some(_) => is_met(&holes),
@@ -482,7 +482,10 @@ type OnHoles = Option<Result<DesignOnHoles, NoRounding>>;
 
 /// The best platform, and the same on the holes that the design states. Where a symmetry that nobody asked for leads to a platform on the holes that is not proved to meet its
 /// requirements, the search without it is the answer if it leads to one that is.
-fn searched(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<(Search, OnHoles), Failure> {
+fn searched(
+    asked: &ExploreQuestion<'_>,
+    progress: &mut ProgressLine,
+) -> Result<(ExploreSearch, OnHoles), Failure> {
     let found = search::search(asked, progress)?;
     let holes = found.on_holes(asked, progress)?;
     let is_last = holes.is_none() || is_met(&holes) || asked.interrupt.flow().is_break();
@@ -491,7 +494,7 @@ fn searched(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<(Search, O
     }
     let mut free = asked.design.clone();
     free.search.symmetry = Some(KeptSymmetry::None);
-    let free = Asked { design: &free, ..*asked };
+    let free = ExploreQuestion { design: &free, ..*asked };
     let other = search::search(&free, progress)?;
     let on_holes = other.on_holes(&free, progress)?;
     Ok(if is_met(&on_holes) { (other.without_symmetry_of_start(), on_holes) } else { (found, holes) })
@@ -533,7 +536,7 @@ fn notes(a: &ExploreOctahedralAnswer) -> String {
 /// The design as it was read, with the table of drives that it names beside it in the folder.
 fn with_table_beside(
     design: &Design,
-    args: &Args,
+    args: &ExploreArgs,
     folder: &mut Folder,
     seed: u64,
 ) -> Result<Design, Failure> {
@@ -574,7 +577,7 @@ fn verification(
 }
 
 /// The poses at the design's own lengths, or at those of its home pose.
-fn solve(design: &Design, options: &FkOptions) -> Result<Poses, Failure> {
+fn solve(design: &Design, options: &FkOptions) -> Result<ExplorePoses, Failure> {
     let m = design.manipulator();
     let home = || poses::home(design).lengths(m);
     let (lengths, from) = if let Some(lengths) = design.lengths {
@@ -585,7 +588,7 @@ fn solve(design: &Design, options: &FkOptions) -> Result<Poses, Failure> {
     };
     let solutions =
         fk::solver(None).solve(m, &lengths.squared(), options).map_err(|e| fk_command::failure_of(&e))?;
-    Ok(Poses { lengths, from, solutions })
+    Ok(ExplorePoses { lengths, from, solutions })
 }
 
 /// The real poses of a design at its own lengths, or at those of its home pose.
@@ -593,7 +596,7 @@ pub(super) fn modes_picture(design: &Design, options: &FkOptions) -> Result<Stri
     Ok(figures::modes(design, &solve(design, options)?))
 }
 
-fn fk_record(poses: &Poses) -> FkRunRecord {
+fn fk_record(poses: &ExplorePoses) -> FkRunRecord {
     FkRunRecord { lengths: poses.lengths.get(), lengths_from: poses.from, solved: (&poses.solutions).into() }
 }
 

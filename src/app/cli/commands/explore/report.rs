@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Machine, Results, Verified, folder};
+use super::{MachineFiles, Results, Verified, folder};
 use ask::OptimizeEvidence;
 use ask::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
 use files::export::{PART_COLUMNS, PartLine};
@@ -78,7 +78,7 @@ fn requirements(out: &mut String, found: &AssessAnswer) {
 }
 
 /// The bill of materials and the files of the machine.
-fn parts(out: &mut String, machine: &Machine) {
+fn parts(out: &mut String, machine: &MachineFiles) {
     let rows = machine.parts.iter().map(PartLine::fields);
     let table = Table::new(PART_COLUMNS.map(|title| left(title, 0))).with_rows(rows);
     let _ = writeln!(

@@ -1,6 +1,6 @@
 //! The best platform for the design, as `optimize` finds it, and what the other stages need of it.
 
-use super::Asked;
+use super::ExploreQuestion;
 use super::folder::Folder;
 use crate::app::cli::commands::optimize;
 use crate::app::cli::context::Context;
@@ -20,7 +20,7 @@ use verify::Verdict;
 
 /// The report of the search, and what the stages of `explore` ask of it.
 #[derive(Debug)]
-pub(super) struct Search {
+pub(super) struct ExploreSearch {
     pub(super) found: OptimizeReport,
 }
 
@@ -50,12 +50,15 @@ pub(super) fn refuse_options(design: &Design, with_drives: bool, context: &Conte
 }
 
 /// Searches as `optimize` does; whether freedoms are opened is decided later.
-pub(super) fn search(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<Search, Failure> {
+pub(super) fn search(
+    asked: &ExploreQuestion<'_>,
+    progress: &mut ProgressLine,
+) -> Result<ExploreSearch, Failure> {
     let found = asked.design.optimize_with(options(asked, progress).freedoms(false));
-    Ok(Search { found: found.map_err(optimize::failed)? })
+    Ok(ExploreSearch { found: found.map_err(optimize::failed)? })
 }
 
-fn options<'a>(asked: &'a Asked<'_>, progress: &'a mut ProgressLine) -> OptimizeOptions<'a> {
+fn options<'a>(asked: &'a ExploreQuestion<'_>, progress: &'a mut ProgressLine) -> OptimizeOptions<'a> {
     let options = OptimizeOptions::new()
         .seed(asked.context.seed())
         .extension(asked.extension)
@@ -100,11 +103,11 @@ fn part(progress: &mut ProgressLine, p: &Progress) {
     progress.part(what, p.done, p.total);
 }
 
-impl Search {
+impl ExploreSearch {
     /// The answer of `optimize`. Where nothing was found the search is made with one more freedom each, whose platforms are kept in the folder.
     pub(super) fn answer(
         &mut self,
-        asked: &Asked<'_>,
+        asked: &ExploreQuestion<'_>,
         progress: &mut ProgressLine,
         folder: &mut Folder,
     ) -> Result<OptimizeAnswer, Failure> {
@@ -168,10 +171,10 @@ impl Search {
     /// The closest platform with its joints on the holes that the design states; `None` without such a platform or holes.
     pub(super) fn on_holes(
         &self,
-        asked: &Asked<'_>,
+        asked: &ExploreQuestion<'_>,
         progress: &mut ProgressLine,
     ) -> Result<Option<Result<DesignOnHoles, NoRounding>>, Failure> {
-        let Asked { design, interrupt, .. } = *asked;
+        let ExploreQuestion { design, interrupt, .. } = *asked;
         let Some((grids, wanted)) = design.holes.zip(self.closest()) else { return Ok(None) };
         let first = match &self.found.evidence {
             OptimizeEvidence::Dimensions(found) => {

@@ -5,8 +5,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::near::{self, Machine};
-use super::{Args, Table, exit_of, failure_of, render, threads};
+use super::near::{self, TrackedMachine};
+use super::{FkArgs, PoseTable, exit_of, failure_of, render, threads};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -52,7 +52,7 @@ fn given(option: Option<&str>, context: &Context) -> Result<TimeSeries<AnglesDeg
 
 /// Poses for the angles of the options.
 pub(super) fn run(
-    args: &Args,
+    args: &FkArgs,
     (design, platform): (&Design, &RotaryPlatform),
     context: &Context,
 ) -> Result<Answer, Failure> {
@@ -61,7 +61,7 @@ pub(super) fn run(
         "the rods of a design with cranks have one length; poses are asked for by --angles",
     )?;
     let series = given(args.angles.as_deref(), context)?;
-    let table = Table { wanted: args.csv, all: args.all, time_name: series.time_name.clone() };
+    let table = PoseTable { wanted: args.csv, all: args.all, time_name: series.time_name.clone() };
     // a line of the command has no number, those of a table count from 1
     let one = series.rows.len() == 1 && series.rows[0].line == 0;
     let machine = CrankMachine { design, platform, home: poses::home(design), seed: context.seed() };
@@ -190,7 +190,7 @@ impl CrankMachine<'_> {
             let found = tracker.step(&angles);
             let outcome = found.map_err(|why| Failure::refused(BAD_ANGLES, why.to_string()))?;
             let tips = self.tips(&angles)?;
-            let machine = Machine {
+            let machine = TrackedMachine {
                 m: &tips,
                 home: self.home,
                 characteristic_length: self.design.characteristic_length(),

@@ -9,7 +9,7 @@ const BESIDE_COMPLETENESS: usize = 14;
 
 /// What `--csv` asks for.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Table {
+pub(super) struct PoseTable {
     /// Whether it was asked for.
     pub(super) wanted: bool,
     /// Complex poses too.
@@ -18,7 +18,7 @@ pub(super) struct Table {
     pub(super) time_name: Option<String>,
 }
 
-impl Table {
+impl PoseTable {
     /// The table, where it was asked for.
     pub(super) fn text(&self, design: &Design, answer: &FkAnswer) -> Option<String> {
         if !self.wanted {

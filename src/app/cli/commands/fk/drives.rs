@@ -1,8 +1,8 @@
 //! `fk --near` where joints are not ideal: the pose for lengths of drives.
 
-use super::Table;
-use super::lengths::{Given, ShownLengths};
-use super::near::{self, Followed, Machine, Proof};
+use super::PoseTable;
+use super::lengths::{GivenLengths, ShownLengths};
+use super::near::{self, Proof, TrackedMachine, TrackedRow};
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers::listed;
@@ -29,12 +29,12 @@ pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {
 pub(super) fn run(
     design: &Design,
     legs: CoupledLegs,
-    given: &Given,
+    given: &GivenLengths,
     start: Pose,
     seed: u64,
-    table: &Table,
+    table: &PoseTable,
 ) -> Answer {
-    let machine = Machine::of(design);
+    let machine = TrackedMachine::of(design);
     let mut tracker = CoupledTracker::new(legs, start);
     near::followed(design, given, table, "line  position, and what is proved of it", |drives, number| {
         one(&machine, &mut tracker, drives, number, seed)
@@ -42,12 +42,12 @@ pub(super) fn run(
 }
 
 fn one(
-    machine: &Machine<'_>,
+    machine: &TrackedMachine<'_>,
     tracker: &mut CoupledTracker,
     given: &ShownLengths,
     number: usize,
     seed: u64,
-) -> Followed {
+) -> TrackedRow {
     let from = tracker.pose();
     let drives = given.distances;
     let found = tracker.step(&drives.get());
@@ -68,7 +68,7 @@ fn one(
     let sentence = sentence(&found, &solution);
     record.drives = Some(solution);
     let exit = if matches!(found.status, CoupledStatus::Proved(_)) { Exit::Yes } else { Exit::Inconclusive };
-    Followed { exit, record, line: format!("{number:>4}  {sentence}"), sentence: sentence + "\n" }
+    TrackedRow { exit, record, line: format!("{number:>4}  {sentence}"), sentence: sentence + "\n" }
 }
 
 fn sentence(found: &CoupledOutcome, solution: &DriveSolutionRecord) -> String {

@@ -21,7 +21,7 @@ pub(in crate::app::cli::commands) type Row = SeriesRow<ShownLengths>;
 
 /// One problem or many.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::app::cli::commands) enum Given {
+pub(in crate::app::cli::commands) enum GivenLengths {
     One(ShownLengths),
     Rows(TimeSeries<ShownLengths>),
 }
@@ -31,7 +31,7 @@ pub(in crate::app::cli::commands) fn given(
     option: Option<&str>,
     design: &Design,
     context: &Context,
-) -> Result<Given, Failure> {
+) -> Result<GivenLengths, Failure> {
     let offsets = design.leg_offsets();
     let Some(text) = option else {
         let own = design.lengths.ok_or_else(|| {
@@ -40,15 +40,15 @@ pub(in crate::app::cli::commands) fn given(
         })?;
         // those of the file are distances of joints, for every command
         let shown = std::array::from_fn(|i| own.get()[i] + offsets[i]);
-        return Ok(Given::One(ShownLengths { shown, distances: own }));
+        return Ok(GivenLengths::One(ShownLengths { shown, distances: own }));
     };
     if text.contains(',') || text.parse::<f64>().is_ok() {
-        return six(text, &offsets).map(Given::One).map_err(|message| {
+        return six(text, &offsets).map(GivenLengths::One).map_err(|message| {
             Failure::refused("fk::bad_lengths", format!("--lengths: {message}"))
                 .with_help("give six lengths separated by commas, or a CSV file")
         });
     }
-    rows(Path::new(text), &offsets, context).map(Given::Rows)
+    rows(Path::new(text), &offsets, context).map(GivenLengths::Rows)
 }
 
 impl ShownLengths {
@@ -114,7 +114,7 @@ mod tests {
         design.lengths = Some(LegLengths::try_new([1.0; 6]).unwrap());
         let given = |option| given(option, &design, &context);
         let own = ShownLengths::new([1.0; 6], &[0.0; 6]).unwrap();
-        assert_eq!(given(None).unwrap(), Given::One(own));
+        assert_eq!(given(None).unwrap(), GivenLengths::One(own));
         assert_eq!(given(Some("1,2,3")).unwrap_err().code, "fk::bad_lengths");
         assert_eq!(given(Some("no-such-file.csv")).unwrap_err().code, "file::not_readable");
         // those of the file are distances, whatever the legs show
@@ -122,7 +122,9 @@ mod tests {
         let text = format!("{}{table}", include_str!("../../../../../designs/rbt-octahedral.toml"));
         let mut shown: Design = text.parse().unwrap();
         shown.lengths = design.lengths;
-        let Given::One(found) = super::given(None, &shown, &context).unwrap() else { panic!("one set") };
+        let GivenLengths::One(found) = super::given(None, &shown, &context).unwrap() else {
+            panic!("one set")
+        };
         assert_eq!((Some(found.distances), found.shown), (design.lengths, [1.5, 0.5, 1.25, 1.0, 1.0, 3.0]));
     }
 

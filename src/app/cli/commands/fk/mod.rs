@@ -24,12 +24,12 @@ use records::{
     ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
 };
 
-use self::csv::Table;
-use self::lengths::Given;
+use self::csv::PoseTable;
+use self::lengths::GivenLengths;
 
 /// Arguments of `fk`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct FkArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
     /// Six lengths, or a table with six columns (`-` for standard input) and times where it has them; those of the design when absent
@@ -81,7 +81,7 @@ impl MethodArg {
 }
 
 /// Solves one problem or one for each row.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let method = args.method.method();
     let design = context.load_with_cranks(&args.design)?;
     if let Some(platform) = Context::cranks_of(&design)? {
@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         drives::refuse_without_start(&design)?;
     }
     let given = lengths::given(args.lengths.as_deref(), &design, context)?;
-    let table = Table { wanted: args.csv, all: args.all, time_name: None };
+    let table = PoseTable { wanted: args.csv, all: args.all, time_name: None };
     if let Some(text) = &args.near {
         context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
         let start = poses::parse(text, &design, "--near", "fk::bad_pose")?;
@@ -104,7 +104,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let (m, home) = (design.manipulator(), poses::home(&design));
     let options = FkOptions::new().seed(context.seed());
     match given {
-        Given::One(l) => {
+        GivenLengths::One(l) => {
             context.no_effect(
                 "threads",
                 "one set of lengths is solved on one thread, the rows of a CSV file on many",
@@ -122,8 +122,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             let text = table.text(&design, &answer).unwrap_or(text);
             Ok(Answer::new(exit, answer, text))
         }
-        Given::Rows(series) => {
-            let table = Table { time_name: series.time_name, ..table };
+        GivenLengths::Rows(series) => {
+            let table = PoseTable { time_name: series.time_name, ..table };
             let (exit, answer, text) =
                 many(method, (m, &home), &series.rows, &options, threads(args.threads));
             let text = table.text(&design, &answer).unwrap_or(text);

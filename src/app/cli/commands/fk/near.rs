@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::lengths::{Given, ShownLengths};
-use super::{Table, render};
+use super::lengths::{GivenLengths, ShownLengths};
+use super::{PoseTable, render};
 use crate::app::cli::exit::Exit;
 use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
@@ -19,13 +19,13 @@ use records::{
 };
 
 /// What is followed: joints and legs, from where real poses are measured, and the length that turns angles into lengths.
-pub(super) struct Machine<'a> {
+pub(super) struct TrackedMachine<'a> {
     pub(super) m: &'a Manipulator,
     pub(super) home: Pose,
     pub(super) characteristic_length: f64,
 }
 
-impl<'a> Machine<'a> {
+impl<'a> TrackedMachine<'a> {
     pub(super) fn of(design: &'a Design) -> Self {
         Self {
             m: design.manipulator(),
@@ -36,7 +36,7 @@ impl<'a> Machine<'a> {
 }
 
 /// What came of one set of lengths.
-pub(super) struct Followed {
+pub(super) struct TrackedRow {
     pub(super) exit: Exit,
     pub(super) record: FkOneAnswer,
     /// What people are told of it before the list of poses, with the ends of its lines.
@@ -48,20 +48,20 @@ pub(super) struct Followed {
 /// The answer about one set of lengths, or about each row of a table in turn; `step` is given the lengths and the number of their line.
 pub(super) fn followed(
     design: &Design,
-    given: &Given,
-    table: &Table,
+    given: &GivenLengths,
+    table: &PoseTable,
     titles: &str,
-    mut step: impl FnMut(&ShownLengths, usize) -> Followed,
+    mut step: impl FnMut(&ShownLengths, usize) -> TrackedRow,
 ) -> Answer {
     match given {
-        Given::One(l) => {
-            let Followed { exit, record, sentence, .. } = step(l, 0);
+        GivenLengths::One(l) => {
+            let TrackedRow { exit, record, sentence, .. } = step(l, 0);
             let text = format!("{sentence}{}", render::text(&design.name, &record.solved));
             let record = FkAnswer::One(Box::new(record));
             let text = table.text(design, &record).unwrap_or(text);
             Answer::new(exit, record, text)
         }
-        Given::Rows(series) => {
+        GivenLengths::Rows(series) => {
             let (mut exit, mut text) = (Exit::Yes, format!("{titles}\n"));
             let mut rows = Vec::with_capacity(series.rows.len());
             for row in &series.rows {
@@ -77,7 +77,7 @@ pub(super) fn followed(
                 });
             }
             let record = FkAnswer::Rows(FkRowsAnswer { rows });
-            let table = Table { time_name: series.time_name.clone(), ..*table };
+            let table = PoseTable { time_name: series.time_name.clone(), ..*table };
             let text = table.text(design, &record).unwrap_or(text);
             Answer::new(exit, record, text)
         }
@@ -85,8 +85,14 @@ pub(super) fn followed(
 }
 
 /// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
-pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table: &Table) -> Answer {
-    let (solver, machine) = (NearSolver::new(design.manipulator()), Machine::of(design));
+pub(super) fn run(
+    design: &Design,
+    given: &GivenLengths,
+    start: Pose,
+    seed: u64,
+    table: &PoseTable,
+) -> Answer {
+    let (solver, machine) = (NearSolver::new(design.manipulator()), TrackedMachine::of(design));
     let known = design.machine_uncertainty();
     let mut from = start;
     followed(
@@ -112,13 +118,13 @@ pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table:
                 near.uncertainty = uncertainty;
             }
             from = outcome.tracked().copied().unwrap_or(from);
-            Followed { exit: exit_of(&outcome), record, sentence, line: line(number, &machine, &outcome) }
+            TrackedRow { exit: exit_of(&outcome), record, sentence, line: line(number, &machine, &outcome) }
         },
     )
 }
 
 /// One line of the table for many rows.
-pub(super) fn line(number: usize, machine: &Machine<'_>, outcome: &NearOutcome) -> String {
+pub(super) fn line(number: usize, machine: &TrackedMachine<'_>, outcome: &NearOutcome) -> String {
     let e = outcome.evidence();
     format!(
         "{number:>4}  {:<16}  {:>8}  {:>17.3e}  {}",
@@ -135,7 +141,7 @@ pub(super) fn exit_of(outcome: &NearOutcome) -> Exit {
 
 /// The record of `fk` with at most one solution, and `near` with the evidence.
 pub(super) fn record(
-    machine: &Machine<'_>,
+    machine: &TrackedMachine<'_>,
     lengths: &LegLengths,
     start: &Pose,
     outcome: &NearOutcome,
@@ -155,7 +161,7 @@ pub(super) enum Proof {
 
 /// The record of a pose followed from `start`.
 pub(super) fn record_with(
-    machine: &Machine<'_>,
+    machine: &TrackedMachine<'_>,
     lengths: &LegLengths,
     (start, outcome): (&Pose, &NearOutcome),
     proof: Proof,
@@ -210,12 +216,12 @@ pub(super) fn record_with(
 }
 
 /// The inverse condition number of the Jacobian at the pose reached.
-fn conditioning(machine: &Machine<'_>, outcome: &NearOutcome) -> f64 {
+fn conditioning(machine: &TrackedMachine<'_>, outcome: &NearOutcome) -> f64 {
     inverse_condition(&jacobian(machine.m, outcome.pose(), machine.characteristic_length))
 }
 
 /// One line for people, before the list of poses.
-pub(super) fn sentence(machine: &Machine<'_>, outcome: &NearOutcome) -> String {
+pub(super) fn sentence(machine: &TrackedMachine<'_>, outcome: &NearOutcome) -> String {
     let e = outcome.evidence();
     match outcome {
         NearOutcome::Tracked { .. } => format!(

@@ -19,7 +19,7 @@ use records::{IkAnswer, IkRecord, IkRowsAnswer, Number};
 
 /// Arguments of `ik`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct IkArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
     /// A table with a pose a line (`-` for standard input), and times where it has them
@@ -36,7 +36,7 @@ pub(crate) struct Args {
 const BAD_POSE: &str = "ik::bad_pose";
 
 /// Every pose has lengths: the distances of the joints with the offsets of a calibration, or the lengths of the drives beside the distances where joints are not ideal.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let (series, one) = match &args.poses {
         Some(path) => (rows::poses(path, BAD_POSE, context)?, false),

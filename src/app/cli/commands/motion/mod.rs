@@ -20,7 +20,7 @@ use records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
 
 /// Arguments of `motion`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct MotionArgs {
     /// Design file (.toml or .json) with the tables home, payload and hardware
     design: PathBuf,
     /// A table with a time in seconds and a pose a line (`-` for standard input)
@@ -80,8 +80,8 @@ impl<'a> ChosenMotions<'a> {
         Self { trajectory, sine, accelerate, at_rest: false, about: "home", steps: STEPS, samples: SAMPLES }
     }
 
-    fn of(args: &'a Args) -> Self {
-        let Args { at_rest, about, steps, samples, .. } = args;
+    fn of(args: &'a MotionArgs) -> Self {
+        let MotionArgs { at_rest, about, steps, samples, .. } = args;
         let chosen = Self::new(args.trajectory.as_deref(), &args.sine, &args.accelerate);
         Self { at_rest: *at_rest, about, steps: *steps, samples: *samples, ..chosen }
     }
@@ -124,7 +124,7 @@ const SAMPLES: u32 = 360;
 const BAD_TRAJECTORY: &str = "motion::bad_trajectory";
 
 /// Exit 1 where a limit is exceeded at an instant looked at, or forces are not determined.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &MotionArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_ideal(&args.design)?;
     refuse_without_effect(args, &design, context)?;
     let chosen = ChosenMotions::of(args);
@@ -157,7 +157,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer::new(exit, answer, text))
 }
 
-fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Result<(), Failure> {
+fn refuse_without_effect(args: &MotionArgs, design: &Design, context: &Context) -> Result<(), Failure> {
     if args.trajectory.is_none() {
         context.no_effect("at_rest", "there is no trajectory")?;
         context.no_effect("steps", "there is no trajectory")?;
@@ -189,7 +189,7 @@ fn about(text: &str, design: &Design) -> Result<Pose, Failure> {
 
 /// The stiffness at the pose asked for.
 fn stiffness(
-    args: &Args,
+    args: &MotionArgs,
     design: &Design,
     masses: Option<&MotionMasses>,
 ) -> Result<Option<StiffnessRecord>, Failure> {
@@ -241,7 +241,7 @@ fn trajectory(path: &Path, ends: PathEnds, context: &Context) -> Result<PosePath
 }
 
 /// What forces are computed from; none without a payload.
-fn masses(args: &Args, design: &Design) -> Result<Option<MotionMasses>, Failure> {
+fn masses(args: &MotionArgs, design: &Design) -> Result<Option<MotionMasses>, Failure> {
     if design.moving_payload().is_none() {
         return Ok(None);
     }

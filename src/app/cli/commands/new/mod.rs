@@ -22,11 +22,11 @@ use platform::geom::{Angles, Pose};
 use records::{NewAnswer, PresetFile};
 use synthesis::singularity::Architecture;
 
-use self::prompts::Asked;
+use self::prompts::PromptedHexapod;
 
 /// Arguments of `new`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct NewArgs {
     /// Radius of the circle of the base joints
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     base_radius: Option<f64>,
@@ -89,14 +89,14 @@ struct Made {
 const UNIT: &str = "mm";
 
 /// Makes the design, tells its home and its lengths there, and writes it.
-pub(crate) fn run(args: &Args, context: &Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &NewArgs, context: &Context) -> Result<Answer, Failure> {
     let units = args.units.as_deref();
     let (made, asked_output) = match (&args.points, &args.corners) {
         _ if args.sheet.is_some() => (from_sheet(args)?, None),
         (Some(path), _) => (from_table(args, path, context)?, None),
         (None, Some(corners)) => (from_corners(args, corners)?, None),
         (None, None) if nothing_given(args) => {
-            let Asked { sizes, units, output } = asked()?;
+            let PromptedHexapod { sizes, units, output } = asked()?;
             (from_sizes(&sizes, &args.name, &units)?, Some(output))
         }
         (None, None) => (from_sizes(&sizes(args)?, &args.name, units.unwrap_or(UNIT))?, None),
@@ -105,7 +105,7 @@ pub(crate) fn run(args: &Args, context: &Context) -> Result<Answer, Failure> {
     finish(made, output.as_ref(), context)
 }
 
-fn nothing_given(args: &Args) -> bool {
+fn nothing_given(args: &NewArgs) -> bool {
     let sizes = [args.base_radius, args.platform_radius, args.base_spread, args.platform_spread, args.height];
     sizes.iter().all(Option::is_none)
 }
@@ -114,7 +114,7 @@ fn nothing_given(args: &Args) -> bool {
 const WAYS: &str = "give --base-radius, --platform-radius, --base-spread, --platform-spread and --height; or --corners BASE PLATFORM and --height; or --points FILE; or --sheet FILE and --dialect";
 
 /// Questions on a terminal.
-fn asked() -> Result<Asked, Failure> {
+fn asked() -> Result<PromptedHexapod, Failure> {
     if !streams::input_is_terminal() {
         let message = "nothing says what the new design is, and there is no terminal to ask on";
         return Err(Failure::refused("new::nothing_given", message).with_help(WAYS));
@@ -124,7 +124,7 @@ fn asked() -> Result<Asked, Failure> {
     })
 }
 
-fn sizes(args: &Args) -> Result<HexapodSizes, Failure> {
+fn sizes(args: &NewArgs) -> Result<HexapodSizes, Failure> {
     let missing =
         |option: &str| Failure::refused("new::missing", format!("{option} is missing")).with_help(WAYS);
     let sizes = HexapodSizes {
@@ -159,7 +159,7 @@ fn read_back(toml: String) -> Result<Made, Failure> {
 }
 
 /// The parameters of a program.
-fn from_sheet(args: &Args) -> Result<Made, Failure> {
+fn from_sheet(args: &NewArgs) -> Result<Made, Failure> {
     let path = args.sheet.as_deref().unwrap_or(std::path::Path::new("-"));
     let Some(dialect) = args.dialect else {
         let message =
@@ -174,7 +174,7 @@ fn from_sheet(args: &Args) -> Result<Made, Failure> {
     read_back(toml)
 }
 
-fn from_corners(args: &Args, texts: &[String]) -> Result<Made, Failure> {
+fn from_corners(args: &NewArgs, texts: &[String]) -> Result<Made, Failure> {
     let height =
         args.height.ok_or_else(|| Failure::refused("new::missing", "--height is missing").with_help(WAYS))?;
     let [base, platform] = texts else {
@@ -220,7 +220,7 @@ fn bad_points(shown: &str, why: &InvalidPointTable) -> Failure {
     Failure::refused(code, format!("{shown}: {why}")).with_help(help)
 }
 
-fn from_table(args: &Args, path: &std::path::Path, context: &Context) -> Result<Made, Failure> {
+fn from_table(args: &NewArgs, path: &std::path::Path, context: &Context) -> Result<Made, Failure> {
     let shown = files::shown(path);
     let mut table = PointTable::read(&files::read_table(path)?).map_err(|why| bad_points(&shown, &why))?;
     if let (Some(asked), Some(said)) = (&args.units, &table.units)

@@ -7,14 +7,14 @@ use ::files::design::HexapodSizes;
 
 /// What was answered.
 #[derive(Debug, PartialEq)]
-pub(super) struct Asked {
+pub(super) struct PromptedHexapod {
     pub(super) sizes: HexapodSizes,
     pub(super) units: String,
     pub(super) output: OutputPath,
 }
 
 /// Asks for sizes until they can be those of a hexapod; `None`: the answers ended.
-pub(super) fn ask(input: &mut impl BufRead, output: &mut impl Write) -> Option<Asked> {
+pub(super) fn ask(input: &mut impl BufRead, output: &mut impl Write) -> Option<PromptedHexapod> {
     let mut session = Questions { input, output };
     session.say("A hexapod with threefold symmetry; an empty answer takes the value in brackets.")?;
     let units = session.text("Unit of length", "mm")?;
@@ -36,7 +36,7 @@ pub(super) fn ask(input: &mut impl BufRead, output: &mut impl Write) -> Option<A
         }
     };
     let output = session.text("File to write", "hexapod.toml")?;
-    Some(Asked { sizes, units, output: std::ffi::OsString::from(output).into() })
+    Some(PromptedHexapod { sizes, units, output: std::ffi::OsString::from(output).into() })
 }
 
 struct Questions<'a, I, O> {
@@ -78,7 +78,7 @@ impl<I: BufRead, O: Write> Questions<'_, I, O> {
 mod tests {
     use super::*;
 
-    fn answered(answers: &str) -> (Option<Asked>, String) {
+    fn answered(answers: &str) -> (Option<PromptedHexapod>, String) {
         let mut output = Vec::new();
         let asked = ask(&mut answers.as_bytes(), &mut output);
         (asked, String::from_utf8(output).unwrap())
@@ -90,7 +90,7 @@ mod tests {
         let meant = HexapodSizes { radius: [500.0, 300.0], spread_deg: [20.0, 20.0], height: 400.0 };
         assert_eq!(
             asked.unwrap(),
-            Asked {
+            PromptedHexapod {
                 sizes: meant,
                 units: "mm".into(),
                 output: std::ffi::OsString::from("hexapod.toml").into()

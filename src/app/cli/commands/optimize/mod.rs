@@ -24,7 +24,7 @@ use sheet::Sheet;
 
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct OptimizeArgs {
     /// Design (.toml or .json); its tables home, workspace, hardware and optimize set poses and limits. Of an octahedral design the shared joints are spread along the sides, of others the legs are moved along their families of replaceable legs, unless the design names other variables
     design: PathBuf,
     /// Write the optimised design; .json gives JSON, anything else TOML
@@ -57,7 +57,7 @@ pub(crate) struct Args {
 }
 
 /// Optimises, and writes the design when asked to.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &OptimizeArgs, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     refuse_singular_home(&design, args.extension, "optimize::singular_home")?;
@@ -89,7 +89,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 }
 
 /// Refuses what was typed and has no effect on the search that answers the design.
-fn refuse_options(args: &Args, design: &Design, context: &Context) -> Result<(), Failure> {
+fn refuse_options(args: &OptimizeArgs, design: &Design, context: &Context) -> Result<(), Failure> {
     // lengths of drives are requirements
     let kind = SearchKind::of(design, args.drives.is_some() || design.drive_table.is_some());
     if kind == SearchKind::Offsets {
@@ -155,7 +155,7 @@ fn workers(asked: Option<u16>) -> Threads {
 }
 
 /// Writes the files that were asked for.
-fn write(args: &Args, found: &OptimizeReport) -> Result<OptimizeFiles, Failure> {
+fn write(args: &OptimizeArgs, found: &OptimizeReport) -> Result<OptimizeFiles, Failure> {
     let mut written = OptimizeFiles::default();
     let keep = |path: &Path, design: &Design| -> Result<String, Failure> {
         files::write_design(path, design)?;

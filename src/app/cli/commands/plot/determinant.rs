@@ -14,13 +14,13 @@ const SIDE: usize = 201;
 
 /// Arguments of `plot det`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct PlotDeterminantArgs {
     /// Octahedral design (.toml or .json)
     design: PathBuf,
     /// Two offsets on the axes, 1 to 6 in the order of the legs around the octahedron, or `equal` for the three of the base and the three of the
     /// platform
-    #[arg(long, value_name = "I,J", default_value = "equal", value_parser = Plane::parse)]
-    slice: Plane,
+    #[arg(long, value_name = "I,J", default_value = "equal", value_parser = ChangedOffsets::parse)]
+    slice: ChangedOffsets,
     /// Six offsets of the marked design, in edges of the triangles; those that are not on the axes keep these values
     #[arg(long, value_name = "T1,..,T6", allow_hyphen_values = true, default_value = "0,0,0,0,0,0", value_parser = six)]
     offsets: Offsets,
@@ -35,13 +35,13 @@ struct Offsets([f64; 6]);
 
 /// Which offsets the axes change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Plane {
+enum ChangedOffsets {
     /// Those of the base to the right, those of the platform upwards.
     Equal,
     Two(usize, usize),
 }
 
-impl Plane {
+impl ChangedOffsets {
     fn parse(text: &str) -> Result<Self, String> {
         if text == "equal" {
             return Ok(Self::Equal);
@@ -86,7 +86,7 @@ fn range(text: &str) -> Result<(f64, f64), String> {
     ends.ok_or_else(|| "give two numbers, the smaller one first".into())
 }
 
-pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
+pub(super) fn draw(args: &PlotDeterminantArgs, context: &mut Context) -> Result<String, Failure> {
     let design = context.load(&args.design)?;
     if let Err(why) = Octahedral::recognise(design.manipulator()) {
         let failure =
@@ -104,8 +104,8 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
     let det = offset_determinant(&args.offsets.0);
     let list = |t: &[f64; 6]| t.map(|x| x.to_string()).join(", ");
     let rest = match args.slice {
-        Plane::Equal => "equal offsets on each body".to_string(),
-        Plane::Two(..) => format!("the other offsets as in ({})", list(&args.offsets.0)),
+        ChangedOffsets::Equal => "equal offsets on each body".to_string(),
+        ChangedOffsets::Two(..) => format!("the other offsets as in ({})", list(&args.offsets.0)),
     };
     Ok(singular_slice(&SliceFigure {
         title: format!("det A of the platforms without shared joints of \u{201c}{}\u{201d}", design.name),

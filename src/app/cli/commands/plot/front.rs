@@ -11,17 +11,17 @@ use machine::requirements::Objective;
 
 /// Arguments of `plot pareto`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct PlotFrontArgs {
     /// Result that `equipod optimize DESIGN --json` wrote for a design with `mode = "pareto"`
     front: PathBuf,
 }
 
-fn refused(args: &Args, message: &str) -> Failure {
+fn refused(args: &PlotFrontArgs, message: &str) -> Failure {
     Failure::refused("plot::not_a_front", format!("{}: {message}", args.front.display()))
         .with_help("give the output of `equipod optimize DESIGN --json` for a design with mode = \"pareto\"")
 }
 
-pub(super) fn draw(args: &Args) -> Result<String, Failure> {
+pub(super) fn draw(args: &PlotFrontArgs) -> Result<String, Failure> {
     let text = files::read_text(&args.front)?;
     let document: Value = serde_json::from_str(&text)
         .map_err(|e| refused(args, &format!("the file is not a JSON document: {e}")))?;

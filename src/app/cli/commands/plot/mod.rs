@@ -24,7 +24,7 @@ use records::{FigureWord, PictureRecord, PlotAnswer};
 
 /// Arguments of `plot`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct PlotArgs {
     #[command(subcommand)]
     figure: Figure,
     /// Write the picture to this file; it goes to standard output when absent
@@ -36,7 +36,7 @@ pub(crate) struct Args {
 #[derive(Debug, clap::Subcommand)]
 enum Figure {
     /// Draw all assembly modes at given leg lengths, mirror images side by side
-    Modes(modes::Args),
+    Modes(modes::PlotModesArgs),
     /// Draw the curves of replaceable joints in two planes (conics, cubics, lines)
     Components {
         /// Design file (.toml or .json)
@@ -49,13 +49,13 @@ enum Figure {
         tolerance: f64,
     },
     /// Draw the sign of det A over two of the six offsets
-    Det(determinant::Args),
+    Det(determinant::PlotDeterminantArgs),
     /// Draw how the squared length of a virtual leg moves at all poses while one leg length varies
-    Locus(locus::Args),
+    Locus(locus::PlotLocusArgs),
     /// Draw two designs at the same pose side by side, with their leg map
-    Pair(pair::Args),
+    Pair(pair::PlotPairArgs),
     /// Draw a front that `optimize` found with `mode = "pareto"`
-    Pareto(front::Args),
+    Pareto(front::PlotFrontArgs),
     /// Draw the longest self-motion, animated
     SelfMotion(motion::CurveQuestion),
     /// Draw where det J vanishes over two freedoms of the platform
@@ -70,7 +70,7 @@ enum Figure {
         slice: Freedoms,
     },
     /// Draw columns of the table of a sweep: colours or lines over two, the distribution of one, parallel axes, points, a front
-    Sweep(swept::Args),
+    Sweep(swept::PlotSweptArgs),
     /// Draw the ways to share joints: that of a design, or all of them
     Topologies {
         /// Design file (.toml or .json): name its topology only
@@ -80,20 +80,20 @@ enum Figure {
         members: u64,
     },
     /// Draw the poses within all limits over two freedoms, and the limits that end them
-    Workspace(workspace::Args),
+    Workspace(workspace::PlotWorkspaceArgs),
 }
 
 /// What drawing gives: most figures are the picture alone, some come with their values.
-enum Drawn {
+enum Picture {
     Picture(FigureWord, String),
     Answer(Answer),
 }
 
 impl Figure {
-    fn draw(&self, output: Option<&Path>, context: &mut Context) -> Result<Drawn, Failure> {
+    fn draw(&self, output: Option<&Path>, context: &mut Context) -> Result<Picture, Failure> {
         let seed = context.seed();
         let (word, svg) = match self {
-            Self::Locus(args) => return locus::run(args, output, context).map(Drawn::Answer),
+            Self::Locus(args) => return locus::run(args, output, context).map(Picture::Answer),
             Self::Modes(args) => (FigureWord::Modes, modes::draw(args, context)?),
             Self::Components { design, pair, tolerance } => {
                 let svg = components::drawing(&context.load(design)?, *pair, *tolerance, seed)?;
@@ -118,15 +118,15 @@ impl Figure {
             }
             Self::Workspace(args) => (FigureWord::Workspace, workspace::draw(args, context)?),
         };
-        Ok(Drawn::Picture(word, svg))
+        Ok(Picture::Picture(word, svg))
     }
 }
 
 /// Draws, and writes the file or the picture itself.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &PlotArgs, context: &mut Context) -> Result<Answer, Failure> {
     let (figure, svg) = match args.figure.draw(args.output.as_deref(), context)? {
-        Drawn::Answer(answer) => return Ok(answer),
-        Drawn::Picture(figure, svg) => (figure, svg),
+        Picture::Answer(answer) => return Ok(answer),
+        Picture::Picture(figure, svg) => (figure, svg),
     };
     let (picture, text) = if let Some(path) = &args.output {
         files::write_text(path, &svg)?;

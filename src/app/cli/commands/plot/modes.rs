@@ -9,7 +9,7 @@ use ::fk::FkOptions;
 
 /// Arguments of `plot modes`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct PlotModesArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Six lengths; those of the design when absent, else those of its home pose
@@ -17,7 +17,7 @@ pub(super) struct Args {
     lengths: Option<String>,
 }
 
-pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
+pub(super) fn draw(args: &PlotModesArgs, context: &mut Context) -> Result<String, Failure> {
     let mut design = context.load(&args.design)?;
     if let Some(text) = &args.lengths {
         let six = fk::lengths::six(text, &design.leg_offsets()).map(|given| given.distances);

@@ -12,7 +12,7 @@ use verify::judge;
 
 /// Arguments of `plot pair`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct PlotPairArgs {
     /// Design file (.toml or .json)
     #[arg(value_name = "A")]
     first: PathBuf,
@@ -24,7 +24,7 @@ pub(super) struct Args {
     pose: String,
 }
 
-pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
+pub(super) fn draw(args: &PlotPairArgs, context: &mut Context) -> Result<String, Failure> {
     let (a, b) = (context.load(&args.first)?, context.load(&args.second)?);
     let pose = poses::parse(&args.pose, &a, "--pose", "plot::bad_pose")?;
     let found = judge(a.manipulator(), b.manipulator()).map_err(|e| Failure::internal(e.to_string()))?;

@@ -10,12 +10,12 @@ use files::plot::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_hist
 
 /// Arguments of `plot sweep`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct PlotSweptArgs {
     /// Folder of a sweep, or the file that `equipod sweep merge` wrote
     table: PathBuf,
     /// What is drawn: colours or lines over two columns, the distribution of one, parallel axes, points over two, the front of two
-    #[arg(long, value_enum, default_value_t = Kind::Scatter)]
-    kind: Kind,
+    #[arg(long, value_enum, default_value_t = SweptKind::Scatter)]
+    kind: SweptKind,
     /// Columns with commas between: across, up and, as colour, a third; parallel axes take from two to eight
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', required = true)]
     columns: Vec<String>,
@@ -29,7 +29,7 @@ pub(super) struct Args {
 
 /// `--kind`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Kind {
+enum SweptKind {
     Heat,
     Contour,
     Histogram,
@@ -38,7 +38,7 @@ enum Kind {
     Front,
 }
 
-impl Kind {
+impl SweptKind {
     /// Least and greatest number of columns.
     fn columns(self) -> (usize, usize) {
         match self {
@@ -50,7 +50,7 @@ impl Kind {
     }
 }
 
-pub(super) fn draw(args: &Args) -> Result<String, Failure> {
+pub(super) fn draw(args: &PlotSweptArgs) -> Result<String, Failure> {
     let (least, most) = args.kind.columns();
     let (kind, given) = (
         args.kind.to_possible_value().map(|v| v.get_name().to_owned()).unwrap_or_default(),
@@ -90,11 +90,11 @@ pub(super) fn draw(args: &Args) -> Result<String, Failure> {
     let figure = SweptFigure { title: table.name.clone(), note, candidates, columns };
     let gain = [args.better[0], args.better[1]].map(|b| b == Better::High);
     Ok(match args.kind {
-        Kind::Heat => swept_field(&figure, false),
-        Kind::Contour => swept_field(&figure, true),
-        Kind::Histogram => swept_histogram(&figure),
-        Kind::Parallel => swept_parallel(&figure),
-        Kind::Scatter => swept_cloud(&figure, None),
-        Kind::Front => swept_cloud(&figure, Some(gain)),
+        SweptKind::Heat => swept_field(&figure, false),
+        SweptKind::Contour => swept_field(&figure, true),
+        SweptKind::Histogram => swept_histogram(&figure),
+        SweptKind::Parallel => swept_parallel(&figure),
+        SweptKind::Scatter => swept_cloud(&figure, None),
+        SweptKind::Front => swept_cloud(&figure, Some(gain)),
     })
 }

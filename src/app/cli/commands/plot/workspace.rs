@@ -17,7 +17,7 @@ const DEGREES: f64 = 90.0;
 
 /// Arguments of `plot workspace`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct PlotWorkspaceArgs {
     /// Design file (.toml or .json) with its limits in the table hardware
     design: PathBuf,
     /// Two freedoms on the axes: x, y, z (reachable positions at a fixed orientation), rx, ry, rz (reachable orientations at a position; rotation
@@ -40,7 +40,7 @@ fn half_widths(text: &str) -> Result<[f64; 2], String> {
     both.ok_or_else(|| "give two positive numbers separated by a comma".into())
 }
 
-pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
+pub(super) fn draw(args: &PlotWorkspaceArgs, context: &mut Context) -> Result<String, Failure> {
     let design = context.load(&args.design)?;
     let m = design.manipulator();
     let pose = poses::parse(&args.pose, &design, "--pose", "plot::bad_pose")?;
@@ -56,7 +56,7 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
     let found: Vec<_> = grid.poses().map(|pose| limits.at(&pose)).collect();
     // what ends the workspace somewhere in the picture, in the order of the kinds
     let missed = found.iter().filter(|p| p.share.is_nan() || p.share <= 0.0).filter_map(|p| p.limit);
-    let mut names: Vec<Kind> = missed.map(Kind::of).collect();
+    let mut names: Vec<LimitKind> = missed.map(LimitKind::of).collect();
     names.sort_unstable();
     names.dedup();
     let [across, up] = grid.axes(&design);
@@ -67,7 +67,10 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
         up,
         side: grid.side,
         margins: found.iter().map(|p| p.share).collect(),
-        worst: found.iter().map(|p| p.limit.and_then(|l| names.binary_search(&Kind::of(l)).ok())).collect(),
+        worst: found
+            .iter()
+            .map(|p| p.limit.and_then(|l| names.binary_search(&LimitKind::of(l)).ok()))
+            .collect(),
         limits: names.iter().map(|k| WorkspaceLimit { code: k.code(), name: k.words() }).collect(),
         required: required_section(&design, &grid),
         home: (grid.centre(), if args.pose == "home" { "home".into() } else { "pose".into() }),
@@ -76,12 +79,12 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
 
 /// A kind of limit, whichever leg it is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
+enum LimitKind {
     Requirement(machine::requirements::TermKind),
     Singular,
 }
 
-impl Kind {
+impl LimitKind {
     fn of(limit: Limit) -> Self {
         match limit {
             Limit::Term(term) => Self::Requirement(term.kind),
@@ -207,7 +210,13 @@ mod tests {
     fn every_limit_has_its_colour() {
         let known = |code: &str| files::plot::LIMIT_FILLS.iter().any(|(c, _)| *c == code);
         let kinds = TermKind::ALL;
-        assert!(kinds.into_iter().map(Kind::Requirement).chain([Kind::Singular]).all(|k| known(k.code())));
+        assert!(
+            kinds
+                .into_iter()
+                .map(LimitKind::Requirement)
+                .chain([LimitKind::Singular])
+                .all(|k| known(k.code()))
+        );
         assert_eq!(kinds.len() + 1, files::plot::LIMIT_FILLS.len());
     }
 

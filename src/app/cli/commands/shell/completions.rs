@@ -9,13 +9,13 @@ use records::CompletionsAnswer;
 
 /// Arguments of `shell completions`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct ShellCompletionsArgs {
     /// Shell the script is for
     shell: Shell,
 }
 
 /// The script on standard output.
-pub(crate) fn run(args: &Args) -> Answer {
+pub(crate) fn run(args: &ShellCompletionsArgs) -> Answer {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut guide::program(), "equipod", &mut script);
     let text = String::from_utf8_lossy(&script).into_owned();

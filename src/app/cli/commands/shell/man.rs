@@ -13,7 +13,7 @@ use records::ManAnswer;
 
 /// Arguments of `shell man`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct ShellManArgs {
     /// Folder to write into; it is made where it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
@@ -38,7 +38,7 @@ fn add(command: &clap::Command, out: &mut Vec<(String, String)>) -> std::io::Res
 }
 
 /// Writes the pages.
-pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &ShellManArgs) -> Result<Answer, Failure> {
     files::make_folder(&args.output)?;
     let pages = pages().map_err(|e| Failure::internal(format!("a manual page cannot be made: {e}")))?;
     let (mut paths, mut text) = (Vec::new(), String::new());

@@ -10,14 +10,14 @@ use crate::app::cli::output::Answer;
 
 /// Commands about the shell.
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum ShellCommand {
     /// Print the completion script for a shell
-    Completions(completions::Args),
+    Completions(completions::ShellCompletionsArgs),
     /// Write the manual pages of all commands
-    Man(man::Args),
+    Man(man::ShellManArgs),
 }
 
-impl Command {
+impl ShellCommand {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         match self {

@@ -11,14 +11,14 @@ use crate::app::cli::output::Answer;
 
 /// Commands about singular poses.
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum SingularCommand {
     /// Find the sign of det J at poses and along paths, and a box without singular poses
-    Poses(poses::Args),
+    Poses(poses::SingularPosesArgs),
     /// Follow self-motions, which are curves of poses with constant leg lengths
-    Motion(motion::Args),
+    Motion(motion::SingularMotionArgs),
 }
 
-impl Command {
+impl SingularCommand {
     /// Runs the command.
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {

@@ -23,7 +23,7 @@ const SPARE: usize = 20;
 
 /// Arguments of `sweep best`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct SweepBestArgs {
     /// Folder of the sweep
     folder: PathBuf,
     /// Column of numbers by which candidates are ranked
@@ -44,7 +44,7 @@ pub(crate) struct Args {
 }
 
 /// Ranks the rows, makes the designs again from plan and seed, and compares them.
-pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SweepBestArgs) -> Result<Answer, Failure> {
     let folder = SweepFolder::open(&args.folder)?;
     let sweep = folder.sweep()?;
     let table = SweptTable::open(&args.folder, &args.keep)?;

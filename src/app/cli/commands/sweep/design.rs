@@ -11,7 +11,7 @@ use records::{SweepDesignAnswer, SweepDesignFile};
 
 /// Arguments of `sweep design`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct SweepDesignArgs {
     /// Folder of the sweep
     folder: PathBuf,
     /// Number of the candidate, as in the column of that name
@@ -23,7 +23,7 @@ pub(crate) struct Args {
 }
 
 /// Makes the design again from plan and seed.
-pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SweepDesignArgs) -> Result<Answer, Failure> {
     let folder = SweepFolder::open(&args.folder)?;
     let sweep = folder.sweep()?;
     let k = args.candidate;

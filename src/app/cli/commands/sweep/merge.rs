@@ -15,7 +15,7 @@ use sweep::part::{PartError, PartWriter};
 
 /// Arguments of `sweep merge`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct SweepMergeArgs {
     /// Folder of the sweep
     folder: PathBuf,
     /// Parquet file to write
@@ -27,7 +27,7 @@ pub(crate) struct Args {
 }
 
 /// Reads all parts, one group of rows after the other, and writes them in their order.
-pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
     let folder = SweepFolder::open(&args.folder)?;
     outside(&args.output)?;
     if files::is_standard(&args.output) {

@@ -16,24 +16,24 @@ use crate::app::cli::output::Answer;
 
 /// Commands about sweeps.
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum SweepCommand {
     /// Compute the candidates of a plan, or one shard of them; what is done already stays. `equipod sweep PLAN` is the same
-    Run(run::Args),
+    Run(run::SweepRunArgs),
     /// Say which shards are done, missing or damaged
-    Status(status::Args),
+    Status(status::SweepStatusArgs),
     /// Put the parts of a sweep into one Parquet file
-    Merge(merge::Args),
+    Merge(merge::SweepMergeArgs),
     /// Check the digests of all parts, and compute a random sample again, bit for bit
-    Verify(verify::Args),
+    Verify(verify::SweepVerifyArgs),
     /// Write the best candidates as design files, with a page that compares them
-    Best(best::Args),
+    Best(best::SweepBestArgs),
     /// Write a candidate as a design file
-    Design(design::Args),
+    Design(design::SweepDesignArgs),
     /// Write a script that hands the shards to a cluster with Slurm
-    Script(script::Args),
+    Script(script::SweepScriptArgs),
 }
 
-impl Command {
+impl SweepCommand {
     /// Runs the command.
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {

@@ -25,7 +25,7 @@ use sweep::{Sweep, shard_range};
 
 /// Arguments of `sweep run`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct SweepRunArgs {
     /// Plan (.toml or .json): base design, what varies, what is computed, what is kept
     plan: PathBuf,
     /// Folder of the parts; a sweep of the same plan in it is continued
@@ -76,7 +76,7 @@ const SAMPLE: (u64, Duration) = (24, Duration::from_secs(2));
 const FEW: u64 = 200;
 
 /// Runs the sweep.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SweepRunArgs, context: &mut Context) -> Result<Answer, Failure> {
     let texts = SweepTexts::load(&args.plan, context)?;
     let sweep = Arc::new(texts.sweep(context.seed(), &crate::app::cli::files::shown(&args.plan))?);
     let threads = match args.threads.and_then(|n| std::num::NonZeroUsize::new(n.into())) {

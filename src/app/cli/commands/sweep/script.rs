@@ -17,7 +17,7 @@ use super::run::CandidateSample;
 
 /// Arguments of `sweep script`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct SweepScriptArgs {
     /// Plan (.toml or .json)
     plan: PathBuf,
     /// Write arrays of jobs for Slurm; it is what is written without a word too
@@ -44,7 +44,7 @@ pub(crate) struct Args {
 }
 
 /// Writes the script.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SweepScriptArgs, context: &mut Context) -> Result<Answer, Failure> {
     let texts = SweepTexts::load(&args.plan, context)?;
     let seed = context.seed();
     let sweep = texts.sweep(seed, &files::shown(&args.plan))?;
@@ -76,7 +76,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 }
 
 struct Script<'a> {
-    args: &'a Args,
+    args: &'a SweepScriptArgs,
     seed: u64,
     shards: u64,
     /// What a shard takes.

@@ -11,13 +11,13 @@ use records::SweepStatusAnswer;
 
 /// Arguments of `sweep status`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct SweepStatusArgs {
     /// Folder of the sweep
     folder: PathBuf,
 }
 
 /// Reads all parts.
-pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SweepStatusArgs) -> Result<Answer, Failure> {
     let status = SweepFolder::open(&args.folder)?.status();
     let exit = if status.missing.is_empty() { Exit::Yes } else { Exit::No };
     let text = text(&status);

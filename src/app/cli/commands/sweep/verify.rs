@@ -17,7 +17,7 @@ use sweep::{Sweep, SweepCell, SweepRow, shard_range};
 
 /// Arguments of `sweep verify`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct SweepVerifyArgs {
     /// Folder of the sweep
     folder: PathBuf,
     /// Number of candidates that are computed again; --seed draws others
@@ -26,7 +26,7 @@ pub(crate) struct Args {
 }
 
 /// Checks the parts.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SweepVerifyArgs, context: &mut Context) -> Result<Answer, Failure> {
     let folder = SweepFolder::open(&args.folder)?;
     let sweep = folder.sweep()?;
     let status = folder.status();

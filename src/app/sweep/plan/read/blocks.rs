@@ -1,6 +1,6 @@
 //! Blocks of quantities that vary, and how many candidates they have.
 
-use super::{Reader, missing};
+use super::{PlanReader, missing};
 use crate::plan::{AxisValues, MOST_CANDIDATES, PlanAxis, PlanBlock, Spreading};
 use crate::sample::{DIMENSIONS, MOST, PointSpread};
 use files::design::Code;
@@ -13,7 +13,7 @@ const SPREADINGS: [(&str, Spreading); 5] = [
     ("latin_hypercube", Spreading::Points(PointSpread::LatinHypercube)),
     ("sobol", Spreading::Points(PointSpread::Sobol)),
 ];
-impl Reader<'_, '_> {
+impl PlanReader<'_, '_> {
     pub(super) fn blocks(&mut self, root: &Node, entry: Option<&Entry>) -> Option<Vec<PlanBlock>> {
         const FORM: &str = "write `[[vary]]` with `by = \"grid\"` and [vary.values] below it";
         let Some(entry) = entry else {

@@ -1,13 +1,13 @@
 //! What the parts of a plan need of each other and of the base design.
 
-use super::Reader;
+use super::PlanReader;
 use crate::column::SweepColumn;
 use crate::plan::{AnswerField, AnswerName, AxisValues, FreeQuantity, SweepPlan, SweepTask};
 use ask::equivalents::Original;
 use files::design::Code;
 use files::design::spanned::{Span, shown};
 use synthesis::Pattern;
-impl Reader<'_, '_> {
+impl PlanReader<'_, '_> {
     pub(super) fn count(&mut self, plan: &SweepPlan, place: &Span) {
         let counts: Vec<u64> = plan.blocks.iter().map(|b| b.count).collect();
         self.product(&counts, place);

@@ -134,21 +134,22 @@ fn missing(report: &mut Findings<'_>, root: &Node, key: &str, help: &str) {
 pub fn read(plan: PlanText<'_>, base_plan: &BasePlan) -> Result<SweepPlan, Vec<Violation>> {
     let mut report = Findings::new(plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text));
     let root = tree(plan, &mut report);
-    let found = root
-        .and_then(|root| Reader { report: &mut report, base: base_plan, presets: plan.presets }.plan(&root));
+    let found = root.and_then(|root| {
+        PlanReader { report: &mut report, base: base_plan, presets: plan.presets }.plan(&root)
+    });
     match found {
         Some(plan) if report.is_clean() => Ok(plan),
         _ => Err(report.into_violations()),
     }
 }
 
-struct Reader<'r, 't> {
+struct PlanReader<'r, 't> {
     report: &'r mut Findings<'t>,
     base: &'r BasePlan,
     presets: &'r [Preset],
 }
 
-impl Reader<'_, '_> {
+impl PlanReader<'_, '_> {
     fn plan(&mut self, root: &Node) -> Option<SweepPlan> {
         let entries = entries(root, self.report)?;
         check_keys(self.report, entries, &TOP_LEVEL, "a plan");

@@ -1,6 +1,6 @@
 //! Quantities that vary: their names, their values.
 
-use super::Reader;
+use super::PlanReader;
 use crate::column::{ColumnKind, SweepColumn};
 use crate::plan::place::TRAJECTORY;
 use crate::plan::{AxisValues, FreeQuantity, POSE_COORDINATES, PlanAxis};
@@ -8,7 +8,7 @@ use crate::sample::MOST;
 use files::design::Code;
 use files::design::spanned::{Entry, Node, Value, check_keys, find, nearest_help, number, shown, text};
 use synthesis::{Family, Pattern};
-impl Reader<'_, '_> {
+impl PlanReader<'_, '_> {
     /// The axes of a quantity: `offsets` and `lengths` stand for six.
     pub(super) fn axes(&mut self, path: &str, entry: &Entry, grid: bool) -> Option<Vec<PlanAxis>> {
         let units = self.base.design.units.clone();

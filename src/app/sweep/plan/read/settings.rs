@@ -1,12 +1,12 @@
 //! Settings of a plan: poses, effort, accuracy.
 
-use super::{Reader, pose_of};
+use super::{PlanReader, pose_of};
 use crate::plan::{AssessEffort, PoseChoice};
 use files::design::Code;
 use files::design::spanned::{Entry, Node, Value, check_keys, find, number, shown, table};
 use machine::manufacture::ErrorBound;
 use platform::geom::Pose;
-impl Reader<'_, '_> {
+impl PlanReader<'_, '_> {
     pub(super) fn poses(&mut self, entry: Option<&Entry>) -> Option<PoseChoice> {
         const FORM: &str = "write \"workspace\", \"home\", { region = N } or a list of poses [x, y, z, roll_deg, pitch_deg, yaw_deg]";
         let Some(entry) = entry else { return Some(PoseChoice::Workspace) };

@@ -1,11 +1,11 @@
 //! What is computed, and what is kept.
 
-use super::{Reader, missing};
+use super::{PlanReader, missing};
 use crate::column::{ColumnKind, SweepColumn};
 use crate::plan::{AnswerField, AnswerName, KeepCondition, SweepTask, TASK_WORDS};
 use files::design::Code;
 use files::design::spanned::{Entry, Node, Value, check_keys, find, nearest_help, shown, text};
-impl Reader<'_, '_> {
+impl PlanReader<'_, '_> {
     pub(super) fn tasks(&mut self, root: &Node, entry: Option<&Entry>) -> Option<Vec<SweepTask>> {
         const FORM: &str = "write compute = [\"det_a\", \"conditioning\"]";
         let Some(entry) = entry else {

@@ -62,7 +62,7 @@ pub(super) struct Tendon {
 
 /// A body with its group and its frame, base frame.
 #[derive(Debug, Clone, PartialEq)]
-struct Placed {
+struct PlacedBody {
     group: usize,
     at: Pose,
 }
@@ -79,8 +79,8 @@ pub(super) struct MujocoModel {
     pub(super) other_tendons: usize,
     /// The first body of each group, its name and its frame.
     first: BTreeMap<usize, (String, Pose)>,
-    bodies: BTreeMap<String, Placed>,
-    sites: BTreeMap<String, Placed>,
+    bodies: BTreeMap<String, PlacedBody>,
+    sites: BTreeMap<String, PlacedBody>,
     /// Number of hinges that an actuator turns.
     pub(super) driven_hinges: usize,
     pub(super) guesses: Vec<String>,
@@ -107,7 +107,7 @@ impl MujocoModel {
         let settings = Settings::of(root)?;
         let mut model = Self { groups: 1, joined: vec![WORLD], ..Self::default() };
         model.first.insert(WORLD, ("world".into(), identity()));
-        model.bodies.insert("world".into(), Placed { group: WORLD, at: identity() });
+        model.bodies.insert("world".into(), PlacedBody { group: WORLD, at: identity() });
         let of = |tag: &'static str| elements(root).filter(move |n| n.tag_name().name() == tag);
         for world in of("worldbody") {
             let around = world.attribute("childclass");
@@ -224,7 +224,7 @@ impl MujocoModel {
         }
         let name = node.attribute("name").unwrap_or_default();
         if !name.is_empty() {
-            let placed = Placed { group, at: pose };
+            let placed = PlacedBody { group, at: pose };
             if self.bodies.insert(name.into(), placed).is_some() {
                 return Err(at(node, format!("body `{name}` is defined a second time")));
             }
@@ -252,7 +252,7 @@ impl MujocoModel {
                     self.contents(settings, element, &inner, group, around)?;
                 }
                 "site" => {
-                    let placed = Placed { group, at: within(outer, &settings.pose(element, around)?) };
+                    let placed = PlacedBody { group, at: within(outer, &settings.pose(element, around)?) };
                     if let Some(name) = element.attribute("name") {
                         self.sites.insert(name.into(), placed);
                     }
@@ -265,10 +265,10 @@ impl MujocoModel {
 
     /// What an attribute of an element names, among bodies or sites.
     fn named<'a>(
-        list: &'a BTreeMap<String, Placed>,
+        list: &'a BTreeMap<String, PlacedBody>,
         node: Node<'_, '_>,
         attribute: &str,
-    ) -> Result<&'a Placed, String> {
+    ) -> Result<&'a PlacedBody, String> {
         let name = node.attribute(attribute);
         let name = name.ok_or_else(|| at(node, format!("{attribute} is missing")))?;
         list.get(name).ok_or_else(|| at(node, format!("{attribute}=\"{name}\" names nothing in this model")))
@@ -281,7 +281,7 @@ impl MujocoModel {
             return Ok(());
         }
         let sites = node.attribute("site1").is_some() || node.attribute("site2").is_some();
-        let world = Placed { group: WORLD, at: identity() };
+        let world = PlacedBody { group: WORLD, at: identity() };
         let (first, second) = if sites {
             let of = |attribute: &str| Self::named(&self.sites, node, attribute);
             (of("site1")?.clone(), of("site2")?.clone())

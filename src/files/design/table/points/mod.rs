@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::hal::{HOME_OF_COMMENT, HexapodPins, home_of};
 use super::header::{UNITS, plain};
 use super::mjcf;
-use super::sheet::{InvalidSheet, Sheet, SheetRow};
+use super::sheet::{CellTable, InvalidSheet, SheetRow};
 use super::text::decode;
 use crate::design::{DesignModel, NameCount};
 use platform::geom::Pose;
@@ -70,7 +70,7 @@ impl PointTable {
             let HexapodPins { legs, home, guesses } = pins?;
             return Ok(Self { legs, names: None, units: None, home, guesses });
         }
-        let mut sheet = Sheet::read(bytes, LEAST_NUMBERS)?;
+        let mut sheet = CellTable::read(bytes, LEAST_NUMBERS)?;
         let mut guesses = std::mem::take(&mut sheet.guesses);
         let rows = data_rows(&sheet, &mut guesses)?;
         let columns = match sheet.header.as_ref().and_then(|h| PointColumns::named(h, &mut guesses)) {
@@ -169,7 +169,7 @@ struct PointRow<'a> {
 
 /// The rows with numbers; rows of words are titles of a body, or the header once more.
 fn data_rows<'a>(
-    sheet: &'a Sheet,
+    sheet: &'a CellTable,
     guesses: &mut Vec<String>,
 ) -> Result<Vec<PointRow<'a>>, InvalidPointTable> {
     let mut body = None;
@@ -321,7 +321,7 @@ impl PointColumns {
 
     /// By the order of the columns that hold a number in every row.
     fn numbered(
-        sheet: &Sheet,
+        sheet: &CellTable,
         rows: &[PointRow<'_>],
         guesses: &mut Vec<String>,
     ) -> Result<Self, InvalidPointTable> {
@@ -376,7 +376,7 @@ impl PointColumns {
 
 /// The point in three columns of a row.
 fn point(
-    sheet: &Sheet,
+    sheet: &CellTable,
     row: &SheetRow,
     (x, y, z): CoordinateColumns,
 ) -> Result<Point3<f64>, InvalidPointTable> {
@@ -396,7 +396,7 @@ fn not_a_number(row: &SheetRow, column: usize) -> InvalidPointTable {
 const LEG_WORDS: [&str; 6] = ["leg", "legnumber", "legno", "strut", "actuator", "limb"];
 
 /// The cells of a row that are no numbers.
-fn words<'a>(sheet: &Sheet, row: &'a SheetRow) -> Vec<&'a str> {
+fn words<'a>(sheet: &CellTable, row: &'a SheetRow) -> Vec<&'a str> {
     row.cells.iter().filter(|c| !c.is_empty() && sheet.number(c).is_none()).map(String::as_str).collect()
 }
 
@@ -404,7 +404,7 @@ fn words<'a>(sheet: &Sheet, row: &'a SheetRow) -> Vec<&'a str> {
 type Ends = [Vec<NamedPoint>; 2];
 
 fn six_rows(
-    sheet: &Sheet,
+    sheet: &CellTable,
     rows: &[PointRow<'_>],
     columns: &PointColumns,
     guesses: &mut Vec<String>,
@@ -434,7 +434,7 @@ fn six_rows(
 }
 
 fn twelve_rows(
-    sheet: &Sheet,
+    sheet: &CellTable,
     rows: &[PointRow<'_>],
     columns: &PointColumns,
     guesses: &mut Vec<String>,

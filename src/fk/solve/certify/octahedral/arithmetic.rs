@@ -215,7 +215,7 @@ fn cross(a: &RealVector, b: &RealVector) -> RealVector {
 
 /// A triangle `A, B, C`: products of `b = B - A`, `c = C - A`, and a frame with `B = (len, 0)`, `C = (u, v)`.
 #[derive(Debug, Clone)]
-pub(in crate::solve::certify) struct Triangle {
+pub(in crate::solve::certify) struct CertifiedTriangle {
     pub(in crate::solve::certify) bb: Real,
     pub(in crate::solve::certify) cc: Real,
     /// `|b - c|^2`.
@@ -227,7 +227,7 @@ pub(in crate::solve::certify) struct Triangle {
     pub(in crate::solve::certify) axes: [RealVector; 3],
 }
 
-impl Triangle {
+impl CertifiedTriangle {
     /// From enclosed corners.
     pub(in crate::solve::certify) fn of(p: [RealVector; 3]) -> Self {
         let side = |i: usize, j: usize| -> RealVector { [0, 1, 2].map(|k| p[i][k] - p[j][k]) };

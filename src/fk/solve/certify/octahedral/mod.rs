@@ -16,15 +16,15 @@ use num_complex::Complex64;
 
 use super::certificate::{PoseEnclosure, ProvedReality, WhyUncertified};
 use super::system::{SquareData, exact_product, power_of_two_below, scale_point, scaled_radius};
-use arithmetic::{RealVector, Triangle, parts};
-use circles::{Sides, Zeros, one_zero_about};
+use arithmetic::{CertifiedTriangle, RealVector, parts};
+use circles::{BaseSides, ZeroDiscs, one_zero_about};
 use num::ball::{Disc, Real, UP};
 use num::batch::LANES;
 use num::rounding::check_arithmetic;
 use num::vector_unit::on_vector_unit;
 use platform::geom::ComplexPose;
 use platform::manipulator::{Body, LegIndex, Octahedral};
-use poses::{Given, corners_of, deviation, place};
+use poses::{GivenPoses, corners_of, deviation, place};
 
 /// Pairs of poses of an octahedral platform.
 pub const PAIRS: usize = LANES;
@@ -34,9 +34,9 @@ pub const PAIRS: usize = LANES;
 pub struct OctahedralCertifier {
     unit: f64,
     order: [usize; 6],
-    base: Triangle,
-    platform: Triangle,
-    sides: Sides,
+    base: CertifiedTriangle,
+    platform: CertifiedTriangle,
+    sides: BaseSides,
     /// `P4`, `P5`, `P6` in the platform frame, over the unit.
     corners: [RealVector; 3],
     /// `P1` in the base frame and `P4` in the platform frame, over the unit.
@@ -158,9 +158,9 @@ impl OctahedralCertifier {
         Ok(Self {
             unit,
             order: design.order().map(LegIndex::get),
-            base: Triangle::of(p),
-            platform: Triangle::of(q),
-            sides: Sides::of(&Triangle::of(p)),
+            base: CertifiedTriangle::of(p),
+            platform: CertifiedTriangle::of(q),
+            sides: BaseSides::of(&CertifiedTriangle::of(p)),
             corners: q,
             origins: [p[0], q[0]],
         })
@@ -217,7 +217,7 @@ impl OctahedralCertifier {
         let circles = self.sides.circles(s);
         let t = &self.platform;
         let gaps = self.sides.gaps(&circles, [t.bb, t.opposite, t.cc]);
-        let given = Given::of(poses, self.unit);
+        let given = GivenPoses::of(poses, self.unit);
         let found = one_zero_about(&circles, &gaps, &corners_of(self, &circles, &given));
         let deviation = deviation(self, &place(self, &circles, &found), &given);
         let relative = deviation.relative;
@@ -279,7 +279,7 @@ const LARGEST: f64 = (1u64 << 50) as f64;
 
 /// The equations are real, so that the conjugate of a zero is one; within the uniqueness ball it is the zero itself, and the pose is real. A corner that cannot be real proves the opposite.
 #[inline(always)]
-fn reality(found: &Zeros, k: usize) -> ProvedReality {
+fn reality(found: &ZeroDiscs, k: usize) -> ProvedReality {
     let [above, below] = found.conjugates;
     if (found.radius.0[k] + above.0[k]) * UP <= found.uniqueness.0[k] {
         ProvedReality::Real
@@ -292,7 +292,7 @@ fn reality(found: &Zeros, k: usize) -> ProvedReality {
 
 /// Every two lanes have disjoint discs for the distance of a corner across its side.
 #[inline(always)]
-fn are_distinct(found: &Zeros) -> bool {
+fn are_distinct(found: &ZeroDiscs) -> bool {
     let mut all = true;
     for shift in 1..=LANES / 2 {
         for k in 0..LANES {

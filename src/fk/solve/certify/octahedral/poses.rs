@@ -15,7 +15,7 @@
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
 use super::arithmetic::{Discs, Reals, parts, reciprocal, sizes};
-use super::circles::{Circle, OnCircle, Zeros};
+use super::circles::{CornerCircle, OnCircle, ZeroDiscs};
 use super::{OctahedralCertifier, PAIRS, U};
 use num::ball::Real;
 use num::batch::{ComplexBatch, LANES};
@@ -24,7 +24,7 @@ use platform::geom::ComplexPose;
 pub(super) type Points = [Discs; 3];
 
 /// One of the two mirror images.
-pub(super) struct Placed {
+pub(super) struct MirrorPose {
     /// `P4`, in the frame of the base triangle with `P1` in the origin.
     pub(super) p4: Points,
     /// Columns: axes of the platform triangle's frame in that of the base triangle.
@@ -43,7 +43,11 @@ fn cross(a: &Points, b: &Points) -> Points {
 /// `(|u| + |v|) r^2` of its linear part; `x = x0 + dx + ex` and `y` likewise give for the product, coordinate by coordinate,
 /// `x0 cross y0 + (dx cross y0 + x0 cross dy)` up to twice `(|dx| + |ex|) (|dy| + |ey|) + |x0| |ey| + |ex| |y0|`.
 #[inline(always)]
-pub(super) fn place(design: &OctahedralCertifier, circles: &[Circle; 3], zeros: &Zeros) -> Placed {
+pub(super) fn place(
+    design: &OctahedralCertifier,
+    circles: &[CornerCircle; 3],
+    zeros: &ZeroDiscs,
+) -> MirrorPose {
     let t = &design.platform;
     let (mut corners, mut moves) = ([[Discs::ZERO; 3]; 3], [[ComplexBatch::ZERO; 3]; 3]);
     for k in 0..3 {
@@ -106,15 +110,15 @@ pub(super) fn place(design: &OctahedralCertifier, circles: &[Circle; 3], zeros: 
             grow(sizes(&moves[0][k]) * r + zeros.sizes[0] * r * r) + (zeros.sizes[0] * r).times(unknown),
         );
     }
-    Placed { p4, frame: [ax, ay, az] }
+    MirrorPose { p4, frame: [ax, ay, az] }
 }
 
 /// `(h, z)` of the corners of poses `2k`.
 #[inline(always)]
 pub(super) fn corners_of(
     design: &OctahedralCertifier,
-    circles: &[Circle; 3],
-    given: &Given,
+    circles: &[CornerCircle; 3],
+    given: &GivenPoses,
 ) -> [OnCircle; 3] {
     let axes = &design.base.axes;
     let r = &given.rotation[0];
@@ -164,7 +168,7 @@ pub(super) struct Deviation {
 
 /// How far the poses are from the certified ones.
 #[inline(always)]
-pub(super) fn deviation(design: &OctahedralCertifier, placed: &Placed, given: &Given) -> Deviation {
+pub(super) fn deviation(design: &OctahedralCertifier, placed: &MirrorPose, given: &GivenPoses) -> Deviation {
     let (re, rg) = (design.base.axes_radius(), design.platform.axes_radius());
     let (rho, m) = extremes(&placed.frame);
     let (rho4, m4) = extremes(&[placed.p4]);
@@ -201,13 +205,13 @@ pub(super) fn deviation(design: &OctahedralCertifier, placed: &Placed, given: &G
 }
 
 /// Given poses side by side, `2k` and `2k + 1`.
-pub(super) struct Given {
+pub(super) struct GivenPoses {
     rotation: [[[ComplexBatch; 3]; 3]; 2],
     /// Over the unit.
     position: [[ComplexBatch; 3]; 2],
 }
 
-impl Given {
+impl GivenPoses {
     #[inline(always)]
     pub(super) fn of(poses: &[ComplexPose; 2 * PAIRS], unit: f64) -> Self {
         let mut out =
@@ -239,7 +243,7 @@ struct Nominal {
 
 impl Nominal {
     #[inline(always)]
-    fn of(design: &OctahedralCertifier, placed: &Placed) -> Self {
+    fn of(design: &OctahedralCertifier, placed: &MirrorPose) -> Self {
         let (e, g) = (&design.base.axes, &design.platform.axes);
         let f = &placed.frame;
         let zero = [[ComplexBatch::ZERO; 3]; 3];

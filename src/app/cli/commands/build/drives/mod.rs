@@ -14,7 +14,7 @@ use records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 
 /// Arguments of `build drives`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct BuildDrivesArgs {
     /// Design file (.toml or .json) with its home pose, workspace, limits and loads
     design: PathBuf,
     /// Table of drives (.csv), that of the design (`drives` in `[hardware]`) when absent; its first line names the columns and their units: name, stroke, dead or retracted length, force, speed, mass, stiffness, price, source
@@ -37,7 +37,7 @@ pub(crate) struct Args {
 }
 
 /// Exit 0 where a drive is proved to fit, 1 where all are proved not to, 3 otherwise.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &BuildDrivesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let Some(table) = asked(args.table.as_deref(), &args.design, &design, context)? else {
         let message = "neither the command nor the design names a table of drives";

@@ -22,7 +22,7 @@ use verify::{Verdict, Verification};
 
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct BuildRoundArgs {
     /// Design file (.toml or .json) with planar bodies; its home pose, workspace and requirements judge the roundings
     design: PathBuf,
     /// Distance between neighbouring holes, instead of the grids that the design states in its table holes
@@ -103,24 +103,30 @@ pub(super) enum Variant {
 
 /// A rounding that may be written.
 #[derive(Debug, Clone, Copy)]
-struct Choice<'a> {
+struct RoundingChoice<'a> {
     way: RoundingWay,
     manipulator: &'a Manipulator,
     grids: &'a [Option<Grid>; 2],
 }
 
 /// The two roundings, the exact one first, where there are.
-fn choices(found: &Rounding) -> [Option<Choice<'_>>; 2] {
+fn choices(found: &Rounding) -> [Option<RoundingChoice<'_>>; 2] {
     let exact = found.exact.as_ref().ok();
-    let exact =
-        exact.map(|e| Choice { way: RoundingWay::Exact, manipulator: &e.manipulator, grids: &e.grids });
+    let exact = exact.map(|e| RoundingChoice {
+        way: RoundingWay::Exact,
+        manipulator: &e.manipulator,
+        grids: &e.grids,
+    });
     let nearest = found.nearest.as_ref().ok();
-    let nearest =
-        nearest.map(|n| Choice { way: RoundingWay::Nearest, manipulator: &n.manipulator, grids: &n.grids });
+    let nearest = nearest.map(|n| RoundingChoice {
+        way: RoundingWay::Nearest,
+        manipulator: &n.manipulator,
+        grids: &n.grids,
+    });
     [exact, nearest]
 }
 
-fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
+fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<RoundingChoice<'_>> {
     let [exact, nearest] = choices(found);
     match variant {
         Variant::Exact => exact,
@@ -130,12 +136,12 @@ fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
 }
 
 /// The choice of one of the two manipulators.
-fn with<'a>(found: &'a Rounding, m: &Manipulator) -> Option<Choice<'a>> {
+fn with<'a>(found: &'a Rounding, m: &Manipulator) -> Option<RoundingChoice<'a>> {
     choices(found).into_iter().flatten().find(|c| std::ptr::eq(c.manipulator, m))
 }
 
 /// The grids of the design, or of `--grid`, with what other options say of them.
-fn grids(args: &Args, design: &Design) -> Result<[Option<Grid>; 2], Failure> {
+fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Failure> {
     let pitches = args.grid.map(|base| [base, args.grid_platform.unwrap_or(base)]);
     let mut grids = match (design.holes, pitches) {
         (Some(grids), None) => grids,
@@ -186,7 +192,7 @@ fn no_grid_to_change(body: Body) -> Failure {
 }
 
 /// Rounds, judges both roundings and writes the chosen one.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let grids = grids(args, &design)?;
     let tool = Point3::from(numbers::<3>(&args.tool, "--tool", "round::bad_tool")?);

@@ -24,7 +24,7 @@ use records::PoseDeviations;
 
 /// Arguments of `build tolerances`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct BuildTolerancesArgs {
     /// Design file (.toml or .json); its home pose and workspace give the poses
     design: PathBuf,
     /// Greatest allowed error of the tool point and of the orientation
@@ -61,7 +61,7 @@ pub(crate) struct Args {
 
 /// Everything that was found.
 #[derive(Debug)]
-pub(super) struct Found {
+pub(super) struct ToleranceReports {
     pub(super) bound: ErrorBound,
     pub(super) tool: Point3<f64>,
     pub(super) budget: Budget,
@@ -157,7 +157,7 @@ pub(in crate::app::cli::commands) fn joint_radius(
     })
 }
 
-fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
+fn find(design: &Design, args: &BuildTolerancesArgs, seed: u64) -> Result<ToleranceReports, Failure> {
     let (bound, tool) = asked(&args.bound, &args.tool)?;
     let (space, workspace_given) = poses::space(design);
     let search = PoseSearch {
@@ -187,11 +187,22 @@ fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
         Some((p.norm(), w.norm().to_degrees()))
     });
     let solved = solved(m, &budget, &trials, &tool, &bound);
-    Ok(Found { bound, tool, budget, trials, calibrated, computed, map, worst, solved, workspace_given })
+    Ok(ToleranceReports {
+        bound,
+        tool,
+        budget,
+        trials,
+        calibrated,
+        computed,
+        map,
+        worst,
+        solved,
+        workspace_given,
+    })
 }
 
 /// What the map of errors is about; `None` where it is not asked for.
-fn machine_errors(args: &Args, budget: &Budget) -> Result<Option<MachineErrors>, Failure> {
+fn machine_errors(args: &BuildTolerancesArgs, budget: &Budget) -> Result<Option<MachineErrors>, Failure> {
     if args.joint_error.is_none()
         && args.length_error.is_none()
         && args.growth.is_none()
@@ -242,7 +253,7 @@ fn computed_poses(
 }
 
 /// Computes the budget and tries it.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &BuildTolerancesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let found = find(&design, args, context.seed())?;
     if let (Some(path), Some((_, map))) = (&args.map, &found.map) {

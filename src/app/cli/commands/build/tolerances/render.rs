@@ -1,6 +1,6 @@
 //! What `build tolerances` writes.
 
-use super::Found;
+use super::ToleranceReports;
 use crate::app::cli::table::{column_unit, csv_line, number};
 use ask::Design;
 use machine::manufacture::{ErrorAtPose, ErrorParts};
@@ -10,7 +10,12 @@ use records::{
 };
 
 /// The record of the answer.
-pub(super) fn record(design: &Design, f: &Found, seed: u64, path: Option<String>) -> TolerancesAnswer {
+pub(super) fn record(
+    design: &Design,
+    f: &ToleranceReports,
+    seed: u64,
+    path: Option<String>,
+) -> TolerancesAnswer {
     let b = &f.budget;
     TolerancesAnswer {
         assessment: AssessAnswer::of(design, seed),

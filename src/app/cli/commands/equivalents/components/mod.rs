@@ -19,7 +19,7 @@ use synthesis::components::{
 
 /// Arguments of `equivalents components`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct EquivalentsComponentsArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Report only this family, counted from 1
@@ -62,7 +62,7 @@ pub(in crate::app::cli::commands) fn drawing(
 }
 
 /// Lists the families.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &EquivalentsComponentsArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
     let found = search(&design, options)?;

@@ -30,7 +30,7 @@ pub(super) fn run(
 ) -> Result<Answer, Failure> {
     let wishes = args.wishes(design)?;
     let families = super::families(design, options)?;
-    let Found { mut record, designs, exit, .. } =
+    let FoundMoves { mut record, designs, exit, .. } =
         platforms(design, &families, &wishes, &args.options(options.seed))?;
     if let Some(folder) = output {
         files::make_folder(folder)?;
@@ -48,7 +48,7 @@ pub(super) fn run(
 
 /// What a search found, with the platforms as designs.
 #[derive(Debug)]
-pub(in crate::app::cli::commands) struct Found {
+pub(in crate::app::cli::commands) struct FoundMoves {
     pub(in crate::app::cli::commands) record: MoveSearchAnswer,
     /// One for each platform of the record; absent where it makes no design.
     pub(in crate::app::cli::commands) designs: Vec<Option<Design>>,
@@ -63,7 +63,7 @@ pub(in crate::app::cli::commands) fn platforms(
     families: &Components,
     wishes: &Wishes,
     options: &MoveSearchOptions,
-) -> Result<Found, Failure> {
+) -> Result<FoundMoves, Failure> {
     let outcome = search(design.manipulator(), families, wishes, options).map_err(|e| match e {
         SearchError::NearlyDependent(_) => {
             Failure::new(Exit::Inconclusive, "move::nearly_singular_design", e.to_string())
@@ -84,7 +84,7 @@ pub(in crate::app::cli::commands) fn platforms(
     let numbers = |c: &Candidate| c.placements.iter().filter(new).map(|p| p.leg.get() + 1).collect();
     let moved = found.iter().map(|f| numbers(f.candidate)).collect();
     let designs = found.into_iter().map(|f| f.design).collect();
-    Ok(Found { record, designs, moved, exit })
+    Ok(FoundMoves { record, designs, moved, exit })
 }
 
 /// A platform of the search with what `assess` says of it.

@@ -17,7 +17,7 @@ use ask::Design;
 use naming::{Meant, family_names, list_families, moved_design, resolve};
 use platform::manipulator::Body;
 use records::MoveAnswer;
-use request::{Request, requests};
+use request::{MoveRequest, requests};
 use synthesis::components::{ComponentOptions, Components, ComponentsError, components};
 use synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
 use synthesis::{LegMapOutcome, LegMapTolerances, Relation};
@@ -25,7 +25,7 @@ use verify::judge;
 
 /// Arguments of `equivalents move`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct EquivalentsMoveArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Number of the leg to move, 1 to 6
@@ -57,7 +57,7 @@ pub(crate) struct Args {
 }
 
 /// Moves legs, or searches.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &EquivalentsMoveArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
     if args.search {
@@ -165,7 +165,7 @@ fn families(design: &Design, options: ComponentOptions) -> Result<Components, Fa
 
 /// Moves made at once, with the names of what they used.
 #[derive(Debug)]
-struct Done {
+struct MovedAtOnce {
     relocation: Relocation,
     /// For each move the type of its family and the joints that span it.
     families: Vec<(String, Option<String>)>,
@@ -174,8 +174,12 @@ struct Done {
 }
 
 /// The moves one after another; the first singular one is the last.
-fn sequence(design: &Design, wanted: &[Request], options: ComponentOptions) -> Result<Vec<Done>, Failure> {
-    let mut done: Vec<Done> = Vec::new();
+fn sequence(
+    design: &Design,
+    wanted: &[MoveRequest],
+    options: ComponentOptions,
+) -> Result<Vec<MovedAtOnce>, Failure> {
+    let mut done: Vec<MovedAtOnce> = Vec::new();
     for request in wanted {
         let current = done.last().and_then(|s| s.design.as_ref()).unwrap_or(design);
         let step = one_step(design, current, std::slice::from_ref(request), options)?;
@@ -192,9 +196,9 @@ fn sequence(design: &Design, wanted: &[Request], options: ComponentOptions) -> R
 fn one_step(
     given: &Design,
     current: &Design,
-    wanted: &[Request],
+    wanted: &[MoveRequest],
     options: ComponentOptions,
-) -> Result<Done, Failure> {
+) -> Result<MovedAtOnce, Failure> {
     let found = families(current, options)?;
     let mut moves: Vec<LegMove> = Vec::new();
     for r in wanted {
@@ -214,7 +218,7 @@ fn one_step(
     if let Some(new) = &design {
         relocation.map = judged(current, new)?;
     }
-    Ok(Done { relocation, families: names, design })
+    Ok(MovedAtOnce { relocation, families: names, design })
 }
 
 /// The relation of two designs, decided on their joints.

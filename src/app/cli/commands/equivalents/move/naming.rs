@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::request::Along;
+use super::request::NamedFamily;
 use crate::app::cli::failure::Failure;
 use ask::Design;
 use files::design::{DesignModel, Origin};
@@ -26,22 +26,22 @@ pub(super) struct Meant {
 /// The family that is meant. Joint names are those of `given`, at the places they have there, which families keep; joints that
 /// only `current` has can be named too.
 pub(super) fn resolve(
-    along: &Along,
+    along: &NamedFamily,
     given: &Design,
     current: &Design,
     found: &Components,
 ) -> Result<Meant, Failure> {
     let text = match along {
-        Along::Number(n) if (1..=found.components.len()).contains(n) => {
+        NamedFamily::Number(n) if (1..=found.components.len()).contains(n) => {
             return Ok(Meant { index: n - 1, formulas: None });
         }
-        Along::Number(n) => {
+        NamedFamily::Number(n) => {
             let message = format!("there is no family {n}, the platform has {}", found.components.len());
             return Err(
                 Failure::refused("move::no_such_family", message).with_help(list_families(current, found)?)
             );
         }
-        Along::Between(text) => text,
+        NamedFamily::Between(text) => text,
     };
     let (base, platform) = (joints(given, current, false), joints(given, current, true));
     let flats = text

@@ -1,6 +1,6 @@
 //! What moves came to, as JSON and as text.
 
-use super::Done;
+use super::MovedAtOnce;
 use ask::Design;
 use records::{DesignRecord, LegMoveRecord, MoveMode, MoveStepRecord, MovesAnswer, Number};
 use synthesis::relocate::{Chain, MovedLeg, Relocation};
@@ -8,7 +8,7 @@ use synthesis::relocate::{Chain, MovedLeg, Relocation};
 /// Moves of one run.
 pub(super) struct Record<'a> {
     pub(super) design: &'a Design,
-    pub(super) done: &'a [Done],
+    pub(super) done: &'a [MovedAtOnce],
     pub(super) chain: &'a Chain,
     pub(super) wanted: usize,
     pub(super) together: bool,
@@ -40,7 +40,7 @@ impl Record<'_> {
     }
 }
 
-fn step(s: &Done) -> MoveStepRecord {
+fn step(s: &MovedAtOnce) -> MoveStepRecord {
     let r: &Relocation = &s.relocation;
     let one = |(m, (type_name, name)): (&MovedLeg, &(String, Option<String>))| LegMoveRecord {
         leg: m.request.leg.get() + 1,

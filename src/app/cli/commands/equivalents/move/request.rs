@@ -7,7 +7,7 @@ const FORM: &str = "a move is LEG:FAMILY:T[,U,..], for instance 1:3:0.25 or 1:P1
 
 /// A family as it is named.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Along {
+pub(super) enum NamedFamily {
     /// Its number in `equipod equivalents components`, from 1.
     Number(usize),
     /// The joints that span its flats, not yet looked up: `P1:P4-P5`.
@@ -16,9 +16,9 @@ pub(super) enum Along {
 
 /// One move.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Request {
+pub(super) struct MoveRequest {
     pub(super) leg: LegIndex,
-    pub(super) along: Along,
+    pub(super) along: NamedFamily,
     pub(super) parameters: Vec<f64>,
 }
 
@@ -28,7 +28,7 @@ pub(super) fn requests(
     along: Option<&str>,
     to: Option<&str>,
     moves: &[String],
-) -> Result<Vec<Request>, Failure> {
+) -> Result<Vec<MoveRequest>, Failure> {
     let mut out = Vec::new();
     if let (Some(leg), Some(along), Some(to)) = (leg, along, to) {
         out.push(request(leg, along, to)?);
@@ -44,7 +44,7 @@ pub(super) fn requests(
     Ok(out)
 }
 
-fn request(leg: &str, along: &str, to: &str) -> Result<Request, Failure> {
+fn request(leg: &str, along: &str, to: &str) -> Result<MoveRequest, Failure> {
     let bad = |message: String| Failure::refused("move::bad_move", message).with_help(FORM);
     let parameters: Result<Vec<f64>, Failure> = to
         .split(',')
@@ -54,8 +54,8 @@ fn request(leg: &str, along: &str, to: &str) -> Result<Request, Failure> {
         })
         .collect();
     let along = along.trim();
-    let along = along.parse().map_or_else(|_| Along::Between(along.to_string()), Along::Number);
-    Ok(Request { leg: self::leg(leg)?, along, parameters: parameters? })
+    let along = along.parse().map_or_else(|_| NamedFamily::Between(along.to_string()), NamedFamily::Number);
+    Ok(MoveRequest { leg: self::leg(leg)?, along, parameters: parameters? })
 }
 
 /// A leg by its number from 1.
@@ -74,8 +74,8 @@ mod tests {
     #[test]
     fn moves_in_one_word_and_in_three() {
         let list = requests(None, None, None, &["1:3:0.25".into(), "6:P1:P4-P5:-0.5,2".into()]).unwrap();
-        assert_eq!((list[0].along.clone(), list[0].parameters.clone()), (Along::Number(3), vec![0.25]));
-        assert_eq!((list[1].leg.get(), list[1].along.clone()), (5, Along::Between("P1:P4-P5".into())));
+        assert_eq!((list[0].along.clone(), list[0].parameters.clone()), (NamedFamily::Number(3), vec![0.25]));
+        assert_eq!((list[1].leg.get(), list[1].along.clone()), (5, NamedFamily::Between("P1:P4-P5".into())));
         assert_eq!(list[1].parameters, [-0.5, 2.0]);
         assert_eq!(requests(Some("1"), Some("3"), Some("0.25"), &[]).unwrap()[0], list[0]);
         for bad in ["1:0.25", "x:1:0.2", "7:1:0.2", "0:1:0.2", "1:2:", "1:2:nan", "1"] {

@@ -28,7 +28,7 @@ use records::{
 
 /// Arguments of `equivalents topologies`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct EquivalentsTopologiesArgs {
     /// Design file (.toml or .json): name its topology only
     design: Option<PathBuf>,
     /// Number of random members of each topology that are solved to count its poses
@@ -57,7 +57,7 @@ struct TopologyEntry {
 }
 
 /// Lists the catalogue, or the topology of one design.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &EquivalentsTopologiesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let mut wanted = catalogue();
     let count = wanted.len();
     let (mut of_design, mut by_virtual_legs) = (None, None);
@@ -198,7 +198,7 @@ fn recognised(design: &Design) -> Result<Recognised, Failure> {
     })
 }
 
-fn write_files(args: &Args, entries: &[TopologyEntry]) -> Result<(), Failure> {
+fn write_files(args: &EquivalentsTopologiesArgs, entries: &[TopologyEntry]) -> Result<(), Failure> {
     if let Some(path) = &args.svg {
         files::write_text(path, &sheet(entries))?;
     }

@@ -21,7 +21,7 @@ use records::LocusWord;
 
 /// Arguments of `plot locus`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct PlotLocusArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Six lengths, those of the design when absent; that of the leg that varies is not used
@@ -51,7 +51,7 @@ pub(crate) struct Args {
 }
 
 /// The virtual leg with its name.
-struct Between {
+struct VirtualLeg {
     leg: Leg,
     base: String,
     platform: String,
@@ -61,11 +61,11 @@ struct Between {
 struct Row {
     length: f64,
     /// `None` where the problem could not be solved.
-    found: Option<Found>,
+    found: Option<RowPoses>,
 }
 
 /// The poses of one row.
-struct Found {
+struct RowPoses {
     solutions: FkSolutions,
     /// One for each root.
     values: Vec<Complex64>,
@@ -91,7 +91,7 @@ impl Row {
 struct Locus {
     name: String,
     leg: u8,
-    between: Between,
+    between: VirtualLeg,
     rows: Vec<Row>,
     steps: Vec<LocusStep>,
 }
@@ -103,7 +103,11 @@ impl Locus {
 }
 
 /// Solves at each length and evaluates the distance. Without `output` the text of the answer is the picture.
-pub(super) fn run(args: &Args, output: Option<&Path>, context: &mut Context) -> Result<Answer, Failure> {
+pub(super) fn run(
+    args: &PlotLocusArgs,
+    output: Option<&Path>,
+    context: &mut Context,
+) -> Result<Answer, Failure> {
     let found = solve(args, context)?;
     if let Some(path) = output {
         files::write_text(path, &found.picture())?;
@@ -121,10 +125,10 @@ pub(super) fn run(args: &Args, output: Option<&Path>, context: &mut Context) -> 
     Ok(Answer::new(exit, record, text))
 }
 
-fn solve(args: &Args, context: &mut Context) -> Result<Locus, Failure> {
+fn solve(args: &PlotLocusArgs, context: &mut Context) -> Result<Locus, Failure> {
     let method = args.method.method();
     let design = context.load(&args.design)?;
-    let lengths::Given::One(given) = lengths::given(args.lengths.as_deref(), &design, context)? else {
+    let lengths::GivenLengths::One(given) = lengths::given(args.lengths.as_deref(), &design, context)? else {
         return Err(Failure::refused(
             "locus::one_row",
             "--lengths names a table, but one set of lengths is wanted",
@@ -146,7 +150,7 @@ fn solve(args: &Args, context: &mut Context) -> Result<Locus, Failure> {
         let found = match result {
             Ok(solutions) => {
                 let values = solutions.roots.iter().map(|r| r.pose.squared_length(&between.leg)).collect();
-                Some(Found { solutions, values })
+                Some(RowPoses { solutions, values })
             }
             // no method for this design at any length
             Err(e @ fk::FkError::NotApplicable { .. }) => return Err(failure_of(&e)),
@@ -170,7 +174,7 @@ fn step(row: &Row) -> LocusStep {
 }
 
 /// The lengths asked for, ends exactly.
-fn varied(args: &Args, given: &LegLengths) -> Result<Vec<LegLengths>, Failure> {
+fn varied(args: &PlotLocusArgs, given: &LegLengths) -> Result<Vec<LegLengths>, Failure> {
     let last = args.steps - 1;
     let at = |k: u32| {
         let t = f64::from(k) / f64::from(last);
@@ -185,9 +189,9 @@ fn varied(args: &Args, given: &LegLengths) -> Result<Vec<LegLengths>, Failure> {
     (0..args.steps).map(at).collect()
 }
 
-fn between(design: &Design, (a, b): (usize, usize)) -> Between {
+fn between(design: &Design, (a, b): (usize, usize)) -> VirtualLeg {
     let m = design.manipulator();
-    Between {
+    VirtualLeg {
         leg: Leg { base: m.base_joints()[a], platform: m.platform_joints()[b] },
         base: design.base_names()[a].clone(),
         platform: design.platform_names()[b].clone(),
@@ -195,7 +199,7 @@ fn between(design: &Design, (a, b): (usize, usize)) -> Between {
 }
 
 /// `BASE,PLATFORM` by the names of the design.
-fn named(text: &str, design: &Design) -> Result<Between, Failure> {
+fn named(text: &str, design: &Design) -> Result<VirtualLeg, Failure> {
     let refuse = |message: String| {
         let help = format!(
             "base joints: {}; platform joints: {}",

@@ -4,12 +4,18 @@ use std::fmt::Write as _;
 
 use num_complex::Complex64;
 
-use super::{Between, Found, Row};
+use super::{Row, RowPoses, VirtualLeg};
 use files::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
 use fk::{FkRoot, Reality};
 use records::{LocusAnswer, LocusRowRecord, LocusValueRecord, LocusWord, Number};
 
-pub(super) fn picture(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {
+pub(super) fn picture(
+    name: &str,
+    leg: u8,
+    between: &VirtualLeg,
+    rows: &[Row],
+    steps: &[LocusStep],
+) -> String {
     let without = rows.iter().filter(|r| r.status() != LocusWord::Isolated).count();
     let mut note = format!("{} lengths", rows.len());
     if without > 0 {
@@ -44,7 +50,7 @@ pub(super) fn csv(answer: &LocusAnswer) -> String {
     out
 }
 
-fn values(found: &Found) -> Vec<LocusValueRecord> {
+fn values(found: &RowPoses) -> Vec<LocusValueRecord> {
     let value = |(root, v): (&FkRoot, &Complex64)| LocusValueRecord {
         re: Number(v.re),
         im: Number(v.im),
@@ -59,7 +65,7 @@ fn values(found: &Found) -> Vec<LocusValueRecord> {
     found.solutions.roots.iter().zip(&found.values).map(value).collect()
 }
 
-pub(super) fn record(leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> LocusAnswer {
+pub(super) fn record(leg: u8, between: &VirtualLeg, rows: &[Row], steps: &[LocusStep]) -> LocusAnswer {
     let row = |(step, row): (usize, &Row)| LocusRowRecord {
         step,
         length: Number(row.length),

@@ -17,7 +17,7 @@ use synthesis::singularity::{CurveEnd, MotionOptions};
 
 /// Arguments of `singular motion`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct SingularMotionArgs {
     #[command(flatten)]
     question: CurveQuestion,
     /// Write the poses as a table
@@ -53,7 +53,7 @@ fn turn(text: &str) -> Result<f64, String> {
 }
 
 /// Follows the motion.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SingularMotionArgs, context: &mut Context) -> Result<Answer, Failure> {
     let (design, found) = trace(&args.question, context)?;
     if let Some(path) = &args.csv {
         files::write_text(path, &render::csv(&found))?;

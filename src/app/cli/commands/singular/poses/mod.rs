@@ -19,7 +19,7 @@ use synthesis::singularity::JoinOptions;
 
 /// Arguments of `singular poses`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct SingularPosesArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Pose in the middle: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
@@ -62,7 +62,7 @@ pub(crate) struct Args {
 }
 
 /// What was found, for [`render`].
-struct Found {
+struct SingularPoses {
     report: SingularPosesReport,
     /// Whether the region is the workspace of the design.
     of_the_design: bool,
@@ -71,7 +71,7 @@ struct Found {
 }
 
 /// Judges the poses, proves the box, draws the slice.
-pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let pose = poses::parse(&args.pose, &design, "--pose", "poses::bad_pose")?;
     let lengths = match &args.lengths {
@@ -94,7 +94,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let path = paths::path(args, &design, &report)?;
     let joins = JoinOptions { samples: args.samples, seed };
     let between = args.between.then(|| report.between(&design, &joins));
-    let found = Found { report, of_the_design: args.shape.is_none(), path, between };
+    let found = SingularPoses { report, of_the_design: args.shape.is_none(), path, between };
     Ok(render::answer(&design, &found))
 }
 

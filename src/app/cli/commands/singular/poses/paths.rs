@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::Args;
+use super::SingularPosesArgs;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::poses;
@@ -22,7 +22,7 @@ fn refuse(message: String) -> Failure {
 
 /// The path of `--path` and `--via`, written to `--csv`.
 pub(super) fn path(
-    args: &Args,
+    args: &SingularPosesArgs,
     design: &Design,
     report: &SingularPosesReport,
 ) -> Result<Option<SignPath>, Failure> {

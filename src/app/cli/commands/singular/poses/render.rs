@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Found, paths};
+use super::{SingularPoses, paths};
 use crate::app::cli::output::Answer;
 use ask::{Design, PoseFigures};
 use records::{
@@ -20,7 +20,7 @@ fn judged(j: &PoseFigures) -> JudgedPoseRecord {
 }
 
 /// The answer.
-pub(super) fn answer(design: &Design, found: &Found) -> Answer {
+pub(super) fn answer(design: &Design, found: &SingularPoses) -> Answer {
     let report = &found.report;
     let regular = &report.regular;
     let record = SingularitiesAnswer {

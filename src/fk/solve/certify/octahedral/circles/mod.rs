@@ -28,13 +28,13 @@
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
 use super::U;
-use super::arithmetic::{Discs, Reals, Triangle, reciprocal, root, sizes};
+use super::arithmetic::{CertifiedTriangle, Discs, Reals, reciprocal, root, sizes};
 use num::ball::{Real, UP};
 use num::batch::{ComplexBatch, LANES};
 
 /// The sides of the base triangle about which `P4`, `P5`, `P6` turn: `P1 P2`, `P2 P3`, `P3 P1`, in the frame of the triangle.
 #[derive(Debug, Clone)]
-pub(super) struct Sides {
+pub(super) struct BaseSides {
     start: [[Real; 2]; 3],
     length: [Real; 3],
     along: [[Real; 2]; 3],
@@ -44,8 +44,8 @@ pub(super) struct Sides {
     mixed: [[Real; 2]; 3],
 }
 
-impl Sides {
-    pub(super) fn of(t: &Triangle) -> Self {
+impl BaseSides {
+    pub(super) fn of(t: &CertifiedTriangle) -> Self {
         let (zero, one) = (Real::ZERO, Real::point(1.0));
         let long = |square: Real, by: [Real; 2]| {
             let length = root(square);
@@ -69,19 +69,19 @@ impl Sides {
 
     /// The circles for squared lengths `s14 s24 s25 s35 s36 s16`.
     #[inline(always)]
-    pub(super) fn circles(&self, s: &[Real; 6]) -> [Circle; 3] {
+    pub(super) fn circles(&self, s: &[Real; 6]) -> [CornerCircle; 3] {
         [0, 1, 2].map(|k| {
             let length = self.length[k];
             let (from, to) = (s[2 * k], s[2 * k + 1]);
             let foot = (from + length * length - to).scaled(0.5) * reciprocal(length);
             let middle = [0, 1].map(|i| self.start[k][i] + foot * self.along[k][i]);
-            Circle { middle, squared_radius: from - foot * foot }
+            CornerCircle { middle, squared_radius: from - foot * foot }
         })
     }
 
     /// The gaps `45, 56, 64`, with `d` their squared distances.
     #[inline(always)]
-    pub(super) fn gaps(&self, circles: &[Circle; 3], d: [Real; 3]) -> [CornerGap; 3] {
+    pub(super) fn gaps(&self, circles: &[CornerCircle; 3], d: [Real; 3]) -> [CornerGap; 3] {
         [0, 1, 2].map(|k| {
             let l = (k + 1) % 3;
             let (p, q) = (&circles[k], &circles[l]);
@@ -100,7 +100,7 @@ impl Sides {
 
 /// Where a corner can be by its two legs.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Circle {
+pub(super) struct CornerCircle {
     /// In the plane of the base.
     pub(super) middle: [Real; 2],
     pub(super) squared_radius: Real,
@@ -176,7 +176,7 @@ fn inverse(gaps: &[[ComplexBatch; 3]; 3]) -> [[ComplexBatch; 3]; 3] {
 }
 
 /// Discs that hold exactly one zero each, with the proof's numbers lane by lane; radii that prove nothing are NaN.
-pub(super) struct Zeros {
+pub(super) struct ZeroDiscs {
     /// `u` of each corner: the centre.
     pub(super) centres: [ComplexBatch; 3],
     /// The zero is at most this far from the centre.
@@ -202,7 +202,7 @@ pub(super) struct Zeros {
 
 /// `(u, v)` of corners with these `u`.
 #[inline(always)]
-fn corners_at(circles: &[Circle; 3], u: &[ComplexBatch; 3]) -> [OnCircle; 3] {
+fn corners_at(circles: &[CornerCircle; 3], u: &[ComplexBatch; 3]) -> [OnCircle; 3] {
     let mut out = [[ComplexBatch::ZERO; 2]; 3];
     for k in 0..3 {
         out[k] = [u[k], u[k].reciprocal().times(circles[k].squared_radius.centre)];
@@ -222,7 +222,11 @@ fn gaps_at(gaps: &[CornerGap; 3], corners: &[OnCircle; 3]) -> [[ComplexBatch; 3]
 
 /// Decides for each lane whether some disc about the corners `(h, z)` given holds exactly one zero of the three gaps. One Newton step comes first.
 #[inline(always)]
-pub(super) fn one_zero_about(circles: &[Circle; 3], gaps: &[CornerGap; 3], given: &[OnCircle; 3]) -> Zeros {
+pub(super) fn one_zero_about(
+    circles: &[CornerCircle; 3],
+    gaps: &[CornerGap; 3],
+    given: &[OnCircle; 3],
+) -> ZeroDiscs {
     // loops all through: `map` of an array of batches is now and then a function of its own, compiled without vector units
     let mut centres = [ComplexBatch::ZERO; 3];
     for k in 0..3 {
@@ -285,7 +289,7 @@ pub(super) fn one_zero_about(circles: &[Circle; 3], gaps: &[CornerGap; 3], given
     let lipschitz = (kappa + (beta * radius).times(2.0)).up();
     // |exp(t) - 1| <= exp(r) - 1 <= r (1 + r) for r <= 1
     let moved = (radius * radius.plus(1.0)).up();
-    let mut out = Zeros {
+    let mut out = ZeroDiscs {
         centres,
         radius,
         uniqueness,

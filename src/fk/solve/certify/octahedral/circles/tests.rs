@@ -33,8 +33,8 @@ fn corner(start: [i64; 2], along: [(i64, i64); 2], length: i64, s: [f64; 2], u: 
 #[test]
 fn gaps_are_squared_distances_over_the_rationals() {
     let points = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
-    let triangle = Triangle::of(points.map(|p| p.map(Real::point)));
-    let sides = Sides::of(&triangle);
+    let triangle = CertifiedTriangle::of(points.map(|p| p.map(Real::point)));
+    let sides = BaseSides::of(&triangle);
     let mut rng = Rng::new(5);
     let mut closest = 0.0_f64;
     for _ in 0..200 {
@@ -93,9 +93,10 @@ fn gaps_are_squared_distances_over_the_rationals() {
 /// Second derivatives within the reach stay below twice `q`, for corners of any kind.
 #[test]
 fn the_curvature_is_a_bound() {
-    let triangle =
-        Triangle::of([[0.0, 0.0, 0.0], [2.0, 0.1, 0.0], [0.4, 1.5, 0.3]].map(|p| p.map(Real::point)));
-    let sides = Sides::of(&triangle);
+    let triangle = CertifiedTriangle::of(
+        [[0.0, 0.0, 0.0], [2.0, 0.1, 0.0], [0.4, 1.5, 0.3]].map(|p| p.map(Real::point)),
+    );
+    let sides = BaseSides::of(&triangle);
     let mut rng = Rng::new(6);
     let mut closest = 0.0_f64;
     for _ in 0..100 {
