@@ -1,9 +1,10 @@
-//! Gough-Stewart platforms that can be built: for a platform whose legs share joints, an equivalent one without shared joints, and all poses of either
-//! for given leg lengths, with certificates.
+//! Gough-Stewart platforms that can be built: for a platform whose legs share joints, an equivalent one without shared
+//! joints, and all poses of either for given leg lengths, with certificates.
 //!
-//! The best known of these platforms are the octahedral ones, whose six legs meet in three joints of the base and three of the platform. A joint that two
-//! legs share is hard to build: it has play, and little room to swing. Every octahedral platform is *kinematically equivalent* to platforms without shared joints: they have the same poses, the same
-//! singularities and the same forward kinematics.
+//! The best known of these platforms are the octahedral ones, whose six legs meet in three joints of the base and three
+//! of the platform. A joint that two legs share is hard to build: it has play, and little room to swing. Every
+//! octahedral platform is *kinematically equivalent* to platforms without shared joints: they have the same poses, the
+//! same singularities and the same forward kinematics.
 //!
 //! Leg `i` joins the base joint `a_i` to the platform joint `b_i`. At the pose `(R, p)` its squared length is
 //!
@@ -11,9 +12,11 @@
 //! s_i = |R b_i + p - a_i|^2,
 //! ```
 //!
-//! and two platforms are equivalent when `s' = A s + c` holds at every pose, with a constant matrix `A` and `det A != 0`.
+//! and two platforms are equivalent when `s' = A s + c` holds at every pose, with a constant matrix `A` and
+//! `det A != 0`.
 //!
-//! Everything on this page is in [`prelude`]. A [`Design`] is a platform with names, units, home pose and requirements, read from a file or a text:
+//! Everything on this page is in [`prelude`]. A [`Design`] is a platform with names, units, home pose and requirements,
+//! read from a file or a text:
 //!
 //! ```
 //! use equipod::prelude::*;
@@ -32,8 +35,9 @@
 //!
 //! # An equivalent platform without shared joints
 //!
-//! [`Design::equivalents`] has all platforms of the class, [`Design::optimize`] the best one under the requirements of the design. [`verify()`] compares any two
-//! designs: by the leg map, and by forward kinematics that knows nothing of it.
+//! [`Design::equivalents`] has all platforms of the class, [`Design::optimize`] the best one under the requirements of
+//! the design. [`verify()`] compares any two designs: by the leg map, and by forward kinematics that knows nothing of
+//! it.
 //!
 //! ```
 //! use equipod::prelude::*;
@@ -71,8 +75,9 @@
 //!
 //! # Many lengths, one pose after the other
 //!
-//! [`Design::solver`] prepares a design once; [`Solver::solve_all`] takes rows of lengths from any iterator and gives results in their order, from all cores, as
-//! they are done. [`Design::tracker`] follows the one pose that a machine is at. [`Cancel`] ends what takes long.
+//! [`Design::solver`] prepares a design once; [`Solver::solve_all`] takes rows of lengths from any iterator and gives
+//! results in their order, from all cores, as they are done. [`Design::tracker`] follows the one pose that a machine is
+//! at. [`Cancel`] ends what takes long.
 //!
 //! ```
 //! use equipod::prelude::*;
@@ -94,14 +99,16 @@
 //!
 //! # Poses
 //!
-//! A [`Pose`] is made from a position and [`Angles`], a unit quaternion or a rotation matrix, from a 4 x 4 matrix or from nalgebra's `Isometry3`, and becomes any
-//! of them. `nalgebra` and `num_complex` are re-exported in the versions of the signatures.
+//! A [`Pose`] is made from a position and [`Angles`], a unit quaternion or a rotation matrix, from a 4 x 4 matrix or
+//! from nalgebra's `Isometry3`, and becomes any of them. `nalgebra` and `num_complex` are re-exported in the versions
+//! of the signatures.
 //!
 //! # Without files
 //!
-//! With `default-features = false` the library has poses and certificates alone: [`Manipulator`] has `fk`, `ik`, `solver` and `tracker` as a design has.
-//! The features `synthesis`, `optimize`, `files`, `page`, `lab` and `cli` add the rest; `docs/architecture.md` says what each costs.
-//! The modules behind this page are in [`methods`], for those who develop methods.
+//! With `default-features = false` the library has poses and certificates alone: [`Manipulator`] has `fk`, `ik`,
+//! `solver` and `tracker` as a design has. The features `synthesis`, `optimize`, `files`, `page`, `lab` and `cli` add
+//! the rest; `docs/architecture.md` says what each costs. The modules behind this page are in [`methods`], for those
+//! who develop methods.
 
 #![cfg_attr(
     not(feature = "cli"),
@@ -185,7 +192,8 @@ pub mod prelude {
 /// The modules behind the entrance, for those who develop methods: a new solver, a new way to prove a root, another
 /// search. Users of the library need none of them.
 ///
-/// Each holds what its layer knows (`docs/architecture.md`). Names and signatures in here change from version to version.
+/// Each holds what its layer knows (`docs/architecture.md`). Names and signatures in here change from version to
+/// version.
 pub mod methods {
     /// Problems drawn from a class, solved, validated with arithmetic of their own, counted and timed.
     #[cfg(feature = "lab")]
@@ -211,7 +219,8 @@ pub mod methods {
     pub mod dimensional {
         pub use ::optimize::dimensional::*;
     }
-    /// Machines whose joints are not ideal: universal joints whose axes do not meet, screws that couple the turn of a leg to its length.
+    /// Machines whose joints are not ideal: universal joints whose axes do not meet, screws that couple the turn of a
+    /// leg to its length.
     #[cfg(feature = "synthesis")]
     pub mod coupled {
         pub use ::machine::coupled::*;
@@ -220,7 +229,8 @@ pub mod methods {
     pub mod distance {
         pub use ::fk::distance::*;
     }
-    /// How the legs move and what their drives push when the platform moves: inverse dynamics, stiffness, natural frequencies.
+    /// How the legs move and what their drives push when the platform moves: inverse dynamics, stiffness, natural
+    /// frequencies.
     #[cfg(feature = "synthesis")]
     pub mod dynamics {
         pub use ::machine::dynamics::*;
@@ -275,7 +285,8 @@ pub mod methods {
     pub mod poly {
         pub use ::num::poly::*;
     }
-    /// How far the platform may move from a pose before a requirement binds, and the allowed pose nearest to one asked for.
+    /// How far the platform may move from a pose before a requirement binds, and the allowed pose nearest to one asked
+    /// for.
     #[cfg(feature = "synthesis")]
     pub mod reach {
         pub use ::machine::reach::*;
@@ -315,7 +326,8 @@ pub mod methods {
     }
 }
 
-/// The code of the README and of the guide for controllers is compiled as documentation tests; that of the README is run too.
+/// The code of the README and of the guide for controllers is compiled as documentation tests; that of the README is
+/// run too.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 #[doc = include_str!("../docs/guides/controller.md")]

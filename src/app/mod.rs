@@ -1,6 +1,8 @@
-//! Answers users: it holds their questions, the answers as data, and the doors, which are the command line, the page, Python, C and sweeps.
+//! Answers users: it holds their questions, the answers as data, and the doors, which are the command line, the page,
+//! Python, C and sweeps.
 //!
-//! It knows everything below. It proves nothing: each "proved", "singular", "equivalent" and "met" is copied from one value of the rooms below.
+//! It knows everything below. It proves nothing: each "proved", "singular", "equivalent" and "met" is copied from one
+//! value of the rooms below.
 //!
 //! * `ask` (a package): one function for each question.
 //! * `records` (a package): every answer as plain data.

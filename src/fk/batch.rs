@@ -1,7 +1,8 @@
 //! Solves many problems on all cores.
 //!
-//! Problems are handed out one by one; each result goes to the place of its problem, and each is computed on one thread from its own data and
-//! the options alone. So results do not depend on the number of threads, nor on which thread took which problem.
+//! Problems are handed out one by one; each result goes to the place of its problem, and each is computed on one thread
+//! from its own data and the options alone. So results do not depend on the number of threads, nor on which thread took
+//! which problem.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -43,7 +44,8 @@ pub struct BatchProblem<'a> {
 /// Result of one problem.
 pub type BatchResult = Result<FkSolutions, FkError>;
 
-/// Solves one design, [prepared](ForwardKinematics::prepare) where there are several leg lengths; result `i` belongs to `lengths[i]`. A problem that fails leaves the others as they are.
+/// Solves one design, [prepared](ForwardKinematics::prepare) where there are several leg lengths; result `i` belongs to
+/// `lengths[i]`. A problem that fails leaves the others as they are.
 ///
 /// ```
 /// # mod equipod { pub use equipod_fk::*; pub mod methods { pub use equipod_fk as fk; pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }

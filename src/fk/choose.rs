@@ -27,7 +27,8 @@ pub fn solver(method: Option<Method>) -> Box<dyn ForwardKinematics> {
     }
 }
 
-/// The fastest method that applies and accounts for all poses: the octic, trilateration for designs with few poses, otherwise the homotopy.
+/// The fastest method that applies and accounts for all poses: the octic, trilateration for designs with few poses,
+/// otherwise the homotopy.
 ///
 /// The result names the method that was used.
 #[derive(Debug, Clone, Copy, Default)]

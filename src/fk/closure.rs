@@ -18,7 +18,8 @@ pub struct Closure {
     pub polynomial: ClosurePolynomial,
     /// Degrees before and after removal of the singular factors, the factors.
     pub degrees: ClosureDegrees,
-    /// Number of real poses over each real root, proved by the polynomial together with the number of all poses; `None` where it does not follow.
+    /// Number of real poses over each real root, proved by the polynomial together with the number of all poses; `None`
+    /// where it does not follow.
     pub real_poses: Option<Vec<usize>>,
 }
 
@@ -42,10 +43,11 @@ pub enum NoClosure {
     Polynomial(#[from] ClosureError),
 }
 
-/// The closure polynomial for the squared lengths `s` that `found` was computed from, by the first sequence that tells the number of real poses; if none does, by the first
-/// that has a polynomial.
+/// The closure polynomial for the squared lengths `s` that `found` was computed from, by the first sequence that tells
+/// the number of real poses; if none does, by the first that has a polynomial.
 ///
-/// The polynomial knows nothing of the poses found but their number, and that only when it is proved: so it is a second opinion about how many are real.
+/// The polynomial knows nothing of the poses found but their number, and that only when it is proved: so it is a second
+/// opinion about how many are real.
 ///
 /// # Errors
 /// [`NoClosure`].

@@ -29,12 +29,14 @@ pub enum Completeness {
         /// The bound.
         theorem: Theorem,
     },
-    /// The certified roots are distinct and as many as the finite poses, multiplicity included, of the design and lengths as written, counted modulo random primes: all poses are
-    /// isolated and listed, up to the probability of error of [`FkSolutions::pose_count`](super::FkSolutions::pose_count).
+    /// The certified roots are distinct and as many as the finite poses, multiplicity included, of the design and
+    /// lengths as written, counted modulo random primes: all poses are isolated and listed, up to the probability of
+    /// error of [`FkSolutions::pose_count`](super::FkSolutions::pose_count).
     Modular {
         /// Certified distinct poses.
         poses: usize,
-        /// Whether the poses of the lengths given are counted, or those of generic lengths: when these are as many as the certified poses, there are no others.
+        /// Whether the poses of the lengths given are counted, or those of generic lengths: when these are as many as
+        /// the certified poses, there are no others.
         lengths: CountedLengths,
         /// Bound on the probability that the count is wrong.
         error_probability: f64,
@@ -191,8 +193,8 @@ pub enum Reason {
         /// Bound on the probability that the count is wrong.
         error_probability: f64,
     },
-    /// Modulo random primes there are more poses for generic lengths than are certified, or those certified are not proved distinct; the lengths at hand are known within radii only and
-    /// may have fewer.
+    /// Modulo random primes there are more poses for generic lengths than are certified, or those certified are not
+    /// proved distinct; the lengths at hand are known within radii only and may have fewer.
     FewerThanGeneric {
         /// Finite poses for generic lengths.
         counted: usize,

@@ -42,7 +42,8 @@ pub(super) fn incompatible(o: &FkOptions) -> FkSolutions {
     without_roots(Completeness::Proved { theorem }, SolutionSet::Empty, o)
 }
 
-/// Dependent leg equations: as many random sections as there are relations, or as the poses have dimensions, and the points they cut out.
+/// Dependent leg equations: as many random sections as there are relations, or as the poses have dimensions, and the
+/// points they cut out.
 ///
 /// `proved` is the number of relations known to hold exactly, 0 when none is.
 pub(super) fn curves(
@@ -95,8 +96,8 @@ pub(super) fn not_told_apart(
     Ok(out)
 }
 
-/// The answer for a set of positive dimension that the count has found: points on it in place of the ends of paths, which are arbitrary. Certified
-/// roots are isolated poses beside it and stay; what has no certificate is not a root.
+/// The answer for a set of positive dimension that the count has found: points on it in place of the ends of paths,
+/// which are arbitrary. Certified roots are isolated poses beside it and stay; what has no certificate is not a root.
 pub(super) fn positive_dimensional(
     mut found: FkSolutions,
     m: &Manipulator,

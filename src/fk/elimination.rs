@@ -36,7 +36,8 @@ impl PoseCandidates {
         self.attempts == 0
     }
 
-    /// Refines and certifies every candidate; what is not certified is rejected. Complete when 40 distinct poses are certified.
+    /// Refines and certifies every candidate; what is not certified is rejected. Complete when 40 distinct poses are
+    /// certified.
     pub(super) fn solutions(
         &self,
         method: Method,
@@ -85,7 +86,8 @@ mod tests {
     use platform::geom::Pose;
     use platform::manipulator::Leg;
 
-    /// Certification finds that candidates repeat a root; the counts of the elimination are told beside that, not in its place.
+    /// Certification finds that candidates repeat a root; the counts of the elimination are told beside that, not in
+    /// its place.
     #[test]
     fn what_certification_found_doubtful_is_still_told_after_the_counts_of_the_elimination() {
         let mut rng = Rng::new(17);

@@ -83,12 +83,14 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// Whether it is known which single roots are of the cluster: one that may have a root and may not is none to count.
+    /// Whether it is known which single roots are of the cluster: one that may have a root and may not is none to
+    /// count.
     fn may_count(&self, cluster: &ClusterCertificate) -> bool {
         self.simple.iter().all(|c| c.enclosure().is_disjoint(cluster.enclosure()) || is_of(c, cluster))
     }
 
-    /// The smallest cluster near a pose at which so many paths ended, with the root that is beside it where there is just one; else, as far as it can be proved, one of so many roots.
+    /// The smallest cluster near a pose at which so many paths ended, with the root that is beside it where there is
+    /// just one; else, as far as it can be proved, one of so many roots.
     fn together(&self, pose: &ComplexPose, ends: usize) -> Option<Together> {
         let mut best: Option<ProvedCluster> = None;
         // more roots than paths would be those of paths that went elsewhere
@@ -116,7 +118,8 @@ impl Known<'_> {
         best.map(|cluster| Together { cluster, beside: None })
     }
 
-    /// The one root that a cluster has beside those of a smaller one: the middles are means of the roots, to first order.
+    /// The one root that a cluster has beside those of a smaller one: the middles are means of the roots, to first
+    /// order.
     fn beside(&self, fewer: &ProvedCluster, all: &ProvedCluster) -> Option<CertifiedPose> {
         let (m, one) = (Complex64::from(fewer.1.multiplicity() as f64), Complex64::ONE);
         let rest = |all, fewer| -> ComplexPose {
@@ -133,8 +136,8 @@ impl Known<'_> {
     }
 }
 
-/// Poses that are one, or too close to be told apart, are proved together. Of two candidates in one such cluster the first has it; the single roots that are of it count with it. Roots
-/// that are found beside clusters are given back.
+/// Poses that are one, or too close to be told apart, are proved together. Of two candidates in one such cluster the
+/// first has it; the single roots that are of it count with it. Roots that are found beside clusters are given back.
 fn certify_clusters(
     mut roots: Vec<&mut FkRoot>,
     known: &mut Known<'_>,
@@ -238,8 +241,9 @@ pub(super) fn proved(reality: ProvedReality) -> Reality {
     }
 }
 
-/// When the certified roots are pairwise distinct and as many as the theorem allows, or as that of the platform's class does,
-/// completeness is proved; more are a contradiction. Otherwise regular roots without a certificate, and certificates that may be of one root, are doubts.
+/// When the certified roots are pairwise distinct and as many as the theorem allows, or as that of the platform's class
+/// does, completeness is proved; more are a contradiction. Otherwise regular roots without a certificate, and
+/// certificates that may be of one root, are doubts.
 pub(super) fn conclude(
     solutions: &mut FkSolutions,
     m: &Manipulator,
@@ -263,7 +267,8 @@ pub(super) fn conclude(
     Ok(())
 }
 
-/// Compares the number of certified roots, which are distinct, with what the theorem and those of the platform's class allow; whether completeness is proved.
+/// Compares the number of certified roots, which are distinct, with what the theorem and those of the platform's class
+/// allow; whether completeness is proved.
 fn conclude_by_number(
     solutions: &mut FkSolutions,
     m: &Manipulator,

@@ -60,8 +60,8 @@ struct CertifiedRoot {
     sources: Vec<usize>,
 }
 
-/// Certifies regular ends one by one, conjugates together. What has no certificate is refined and merged as the candidates of
-/// any other method are. `precise` are ends of other paths.
+/// Certifies regular ends one by one, conjugates together. What has no certificate is refined and merged as the
+/// candidates of any other method are. `precise` are ends of other paths.
 pub(super) fn harvest(
     m: &Manipulator,
     s: &SquaredLegLengths,
@@ -140,7 +140,8 @@ fn record(m: &Manipulator, legs: &[Leg; 6], s: &SquaredLegLengths, p: &Certified
     }
 }
 
-/// The roots of proofs in the order of [`collect_with`], where there is nothing else: a record has a kilobyte, so that only their keys are sorted.
+/// The roots of proofs in the order of [`collect_with`], where there is nothing else: a record has a kilobyte, so that
+/// only their keys are sorted.
 fn in_order(m: &Manipulator, s: &SquaredLegLengths, mut proofs: Vec<CertifiedRoot>) -> Collected {
     let key = |p: &CertifiedRoot| sort_key(proved(p.root.certificate.reality()), &p.root.pose, m.size());
     let mut order: Vec<(SortKey, usize)> = proofs.iter().enumerate().map(|(k, p)| (key(p), k)).collect();
@@ -158,7 +159,8 @@ fn is_zero(x: f64) -> bool {
     x.to_bits() << 1 == 0 // either sign
 }
 
-/// Roots that are certified with this one: the conjugate, and with both bodies flat the mirror images of both. Each is made when it is asked for.
+/// Roots that are certified with this one: the conjugate, and with both bodies flat the mirror images of both. Each is
+/// made when it is asked for.
 fn images(root: &CertifiedPose, flat: bool) -> impl Iterator<Item = CertifiedPose> + use<'_> {
     let pair = root.certificate.reality() == ProvedReality::NonReal;
     let wanted = move |(conjugate, mirrored): &(bool, bool)| (!conjugate || pair) && (!mirrored || flat);
@@ -258,7 +260,8 @@ fn certify_all(
     open
 }
 
-/// Poses so far out, or so close to an end at `e.e = 0`, that the endgame could not tell: a certificate can, it proves `e.e != 0`.
+/// Poses so far out, or so close to an end at `e.e = 0`, that the endgame could not tell: a certificate can, it proves
+/// `e.e != 0`.
 fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[HarvestEnd]) -> Vec<CertifiedRoot> {
     if ends.is_empty() {
         return Vec::new();
@@ -357,7 +360,8 @@ fn precise_pose(x: &[ComplexOctuple; 8]) -> ComplexPose {
     ComplexPose { rotation, position }
 }
 
-/// Merges proofs of one root, among those that overlap; their number. A conjugate that has a path after all is no repetition.
+/// Merges proofs of one root, among those that overlap; their number. A conjugate that has a path after all is no
+/// repetition.
 fn drop_repeated(proofs: &mut Vec<CertifiedRoot>, overlapping: &[(usize, usize)]) -> usize {
     let certificate = |k: usize| &proofs[k].root.certificate;
     if overlapping.iter().all(|(i, j)| relation(certificate(*i), certificate(*j)) != RootRelation::Same) {

@@ -7,7 +7,8 @@ use super::{FkError, FkOptions, FkSolutions, Theorem, Tried};
 use crate::distance::HiddenLengths;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// Ways tried while the poses are not proved to be all, by number of virtual legs: with three each takes as long as a hundred with two.
+/// Ways tried while the poses are not proved to be all, by number of virtual legs: with three each takes as long as a
+/// hundred with two.
 const WAYS: [(usize, usize); 2] = [(2, 6), (3, 6)];
 
 /// Values of closure conditions after which no further way is tried: the poses are fewer than usual.
@@ -15,7 +16,8 @@ const BUDGET: usize = 150_000;
 
 /// All poses of a design that needs two or three virtual legs, `None` for others.
 ///
-/// Complete only when as many distinct poses are certified as the topology can have; those that several ways find count together.
+/// Complete only when as many distinct poses are certified as the topology can have; those that several ways find count
+/// together.
 pub(super) fn solve(
     m: &Manipulator,
     s: &SquaredLegLengths,

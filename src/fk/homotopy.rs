@@ -28,13 +28,13 @@ const FINE_ATTEMPTS: u64 = 2;
 /// Above this ratio of the bodies doubles keep at most six digits of the smaller one beside the larger.
 const BODIES_APART: f64 = 1e10;
 
-/// Forward kinematics of any six legs by 40 homotopy paths from a generic start system, or, where base and platform are planar,
-/// by 20 paths to one pose of each mirror pair.
+/// Forward kinematics of any six legs by 40 homotopy paths from a generic start system, or, where base and platform are
+/// planar, by 20 paths to one pose of each mirror pair.
 ///
-/// Unknowns are the dual quaternion `(e, g)`, `g = p e`; a pose is finite when `e.e != 0` (source: Husty 1996
-/// for the coordinates, Gallet, Nawratil, Schicho 2014 for the degree 40). Each path is reported with its
-/// end: a finite pose, `e.e = 0`, infinity, or failed. Both poses of a mirror pair are refined and certified on the
-/// legs as they are; when fewer are found than there can be, all 40 paths are tracked, and those of them that do not end in a certified pose
+/// Unknowns are the dual quaternion `(e, g)`, `g = p e`; a pose is finite when `e.e != 0` (source: Husty 1996 for the
+/// coordinates, Gallet, Nawratil, Schicho 2014 for the degree 40). Each path is reported with its end: a finite pose,
+/// `e.e = 0`, infinity, or failed. Both poses of a mirror pair are refined and certified on the legs as they are; when
+/// fewer are found than there can be, all 40 paths are tracked, and those of them that do not end in a certified pose
 /// are followed with 256 bits.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Homotopy;
@@ -117,7 +117,8 @@ impl ForwardKinematics for Homotopy {
     }
 }
 
-/// Lengths of a motion, rounded, are lengths of no motion: the design as written has the poses that are certified and no others, and next to it are designs that move. That is said, and nothing is called complete.
+/// Lengths of a motion, rounded, are lengths of no motion: the design as written has the poses that are certified and
+/// no others, and next to it are designs that move. That is said, and nothing is called complete.
 fn moving_within_rounding(
     found: Option<FkSolutions>,
     m: &Manipulator,
@@ -190,7 +191,8 @@ impl SectionProblem {
         Ok(assemble(o, self, &paths, self.kind.count(), found))
     }
 
-    /// Puts what the precise continuation of paths found in the place of what doubles had; the finite ends with all their digits.
+    /// Puts what the precise continuation of paths found in the place of what doubles had; the finite ends with all
+    /// their digits.
     fn take_over(&self, paths: &mut [HomotopyPath], open: &[usize], tails: &[TailEnd]) -> Vec<PreciseEnd> {
         let mut out = Vec::new();
         for (&source, tail) in open.iter().zip(tails) {
@@ -287,9 +289,9 @@ fn report_of(start: usize, path: &HomotopyPath) -> PathReport {
 
 /// Whether an end is near infinity or `e.e = 0` but not there to the digits that ends have.
 ///
-/// Ends at infinity have `|e| / |(e, g)|` below `1e-9`, or around `1e-8`, the root of rounding, where two paths end in one; ends at
-/// `e.e = 0` have `|e.e| / |e|^2` below `1e-13` and `e` not small (18,000 ends of the special classes of the harness). The limits leave a factor of ten. Between
-/// are poses far out.
+/// Ends at infinity have `|e| / |(e, g)|` below `1e-9`, or around `1e-8`, the root of rounding, where two paths end in
+/// one; ends at `e.e = 0` have `|e.e| / |e|^2` below `1e-13` and `e` not small (18,000 ends of the special classes of
+/// the harness). The limits leave a factor of ten. Between are poses far out.
 fn is_blurred(path: &HomotopyPath) -> bool {
     let e: f64 = path.x[..4].iter().map(Complex64::norm_sqr).sum();
     let all: f64 = path.x.iter().map(Complex64::norm_sqr).sum();

@@ -1,8 +1,10 @@
-//! Whether the poses found are all there are, by their number: the design and lengths as written have so many finite poses, modulo random primes.
+//! Whether the poses found are all there are, by their number: the design and lengths as written have so many finite
+//! poses, modulo random primes.
 //!
-//! The count shares nothing with what finds the poses. Certified roots are distinct zeros of the same equations: as many as the count are all, each is simple and isolated; fewer
-//! are not all; more contradict it. Where the lengths are known within radii only, those of generic lengths are counted, which are as many or more: as many certified roots are all isolated ones,
-//! fewer may be all.
+//! The count shares nothing with what finds the poses. Certified roots are distinct zeros of the same equations: as
+//! many as the count are all, each is simple and isolated; fewer are not all; more contradict it. Where the lengths are
+//! known within radii only, those of generic lengths are counted, which are as many or more: as many certified roots
+//! are all isolated ones, fewer may be all.
 
 use super::evidence::{all_distinct, cluster_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
@@ -109,7 +111,8 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Realit
     Ok(RealityJudgement::Complete)
 }
 
-/// What the count says where poses form a set of positive dimension, or seem to within rounding; nothing when it is undecided.
+/// What the count says where poses form a set of positive dimension, or seem to within rounding; nothing when it is
+/// undecided.
 pub(super) fn set_counted(count: &PoseCount, established: bool) -> Completeness {
     let error_probability = count.error_probability;
     // of lengths known within radii nothing is counted

@@ -1,13 +1,15 @@
 //! Forward kinematics: finds all finite complex poses that a platform can have with given leg lengths.
 //!
-//! It knows `num` and `platform`. Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that agreement of
-//! the root sets of two platforms is evidence for the map between them. `solve::certify`, which proves roots, names nothing that finds them.
+//! It knows `num` and `platform`. Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that
+//! agreement of the root sets of two platforms is evidence for the map between them. `solve::certify`, which proves
+//! roots, names nothing that finds them.
 //!
 //! * [`FkOptions`]: the method, the seed and what is counted.
 //! * [`FkSolutions`]: the poses, each with its certificate, and whether they are all.
 //! * [`NearSolver`]: one real pose followed from lengths to lengths.
 //!
-//! Squared lengths become leg equations; a method finds roots, Newton's method sharpens them, certificates prove them, and a theorem or a count says whether they are all.
+//! Squared lengths become leg equations; a method finds roots, Newton's method sharpens them, certificates prove them,
+//! and a theorem or a count says whether they are all.
 
 mod batch;
 mod bounds;
@@ -73,11 +75,13 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct FkOptions {
-    /// The method that [`solver`] is to choose; `None` for the fastest that applies. A method that is asked itself does not look at it.
+    /// The method that [`solver`] is to choose; `None` for the fastest that applies. A method that is asked itself does
+    /// not look at it.
     pub method: Option<Method>,
     /// Seed of the generic constants (gamma, patches). Same seed, same output.
     pub seed: u64,
-    /// Whether poses are counted modulo random primes when completeness is not proved otherwise: some milliseconds a problem.
+    /// Whether poses are counted modulo random primes when completeness is not proved otherwise: some milliseconds a
+    /// problem.
     pub pose_count: PoseCounting,
     /// Limits relative to the design that decide what counts as one root, a real root, a root at all.
     pub tolerances: FkTolerances,
@@ -89,19 +93,23 @@ pub enum PoseCounting {
     /// Where no theorem says that the poses found are all.
     #[default]
     WhenUnproved,
-    /// Not at all: then completeness is proved by a theorem or not known, and sets of positive dimension are recognised numerically only.
+    /// Not at all: then completeness is proved by a theorem or not known, and sets of positive dimension are recognised
+    /// numerically only.
     Never,
 }
 
 /// Dimensionless limits; positions are divided by the size of the design before they are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FkTolerances {
-    /// Largest accepted residual of a root (leg equations over size squared, `R^T R = I`), relative to the square of the pose's own numbers; its root for singular ends of paths.
+    /// Largest accepted residual of a root (leg equations over size squared, `R^T R = I`), relative to the square of
+    /// the pose's own numbers; its root for singular ends of paths.
     pub residual: f64,
-    /// Two regular poses without certificate that are closer than this, relative to their own numbers, are one root. Certificates tell closer ones apart.
+    /// Two regular poses without certificate that are closer than this, relative to their own numbers, are one root.
+    /// Certificates tell closer ones apart.
     pub distinct: f64,
-    /// Relative size of imaginary parts up to which a regular pose without certificate is taken for real, times the root of its condition number; a thousand times more is
-    /// non-real (ten thousand times for points on curves of poses), between is undecided. Certificates decide reality by proof.
+    /// Relative size of imaginary parts up to which a regular pose without certificate is taken for real, times the
+    /// root of its condition number; a thousand times more is non-real (ten thousand times for points on curves of
+    /// poses), between is undecided. Certificates decide reality by proof.
     pub reality: f64,
 }
 
@@ -194,9 +202,9 @@ pub trait ForwardKinematics: Send + Sync {
     /// [`FkError`] when the method does not apply or breaks down; "no pose" is a value, not an error.
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError>;
 
-    /// The method with what depends on the design alone done, for many lengths of one design. Results are those of [`solve`](Self::solve).
-    /// `None` when there is nothing to prepare, or when the method does not apply: then [`solve`](Self::solve) says so.
-    /// Preparation takes the seed and the way of counting from the options.
+    /// The method with what depends on the design alone done, for many lengths of one design. Results are those of
+    /// [`solve`](Self::solve). `None` when there is nothing to prepare, or when the method does not apply: then
+    /// [`solve`](Self::solve) says so. Preparation takes the seed and the way of counting from the options.
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
         let _ = (m, o);
         None

@@ -1,7 +1,8 @@
 //! Real points of sets of poses of positive dimension, from many starts: a search, not a proof.
 //!
-//! From random real poses the Levenberg-Marquardt method leads to zeros of the leg equations where there are any near by. A zero is on a set of positive dimension when a small
-//! step in the directions in which the equations are flat leads to another zero. Zeros between which a walk of small steps finds its way are on one component.
+//! From random real poses the Levenberg-Marquardt method leads to zeros of the leg equations where there are any near
+//! by. A zero is on a set of positive dimension when a small step in the directions in which the equations are flat
+//! leads to another zero. Zeros between which a walk of small steps finds its way are on one component.
 
 use nalgebra::{Matrix6, Rotation3, SVector, Vector3, Vector6};
 
@@ -16,7 +17,8 @@ const STARTS: u64 = 24;
 const ITERATIONS: usize = 80;
 /// Largest error of a zero in the leg equations over size squared, relative to the square of the pose's own numbers.
 const RESIDUAL: f64 = 1e-13;
-/// Directions with singular values below this times the largest are flat: zeros of multiplicity are known to the root of rounding only.
+/// Directions with singular values below this times the largest are flat: zeros of multiplicity are known to the root
+/// of rounding only.
 const FLAT: f64 = 1e-5;
 /// Length of the steps that tell a set from an isolated pose, radians and design sizes.
 const STRIDE: f64 = 1e-2;

@@ -108,12 +108,12 @@ pub enum SolutionSet {
     PositiveDimensional {
         /// Dimension, at least.
         dimension: usize,
-        /// One pose for each point in which general linear sections (of the seventeen quadratic forms of the dual quaternion, as
-        /// many as the dimension) meet the set, so at least one on each component of that dimension. Their number is the degree
-        /// of the set in that embedding when `established`.
+        /// One pose for each point in which general linear sections (of the seventeen quadratic forms of the dual
+        /// quaternion, as many as the dimension) meet the set, so at least one on each component of that dimension.
+        /// Their number is the degree of the set in that embedding when `established`.
         witnesses: Vec<FkRoot>,
-        /// `true` when a relation between the legs is proved on the joints as given, the lengths satisfy it within rounding and
-        /// all witnesses are regular; `false` when the motion was only seen numerically.
+        /// `true` when a relation between the legs is proved on the joints as given, the lengths satisfy it within
+        /// rounding and all witnesses are regular; `false` when the motion was only seen numerically.
         established: bool,
     },
 }
@@ -152,17 +152,19 @@ pub struct FkRoot {
     pub pose: ComplexPose,
     /// Whether it is real.
     pub reality: Reality,
-    /// Proof of existence and uniqueness with all its numbers, for checks by other programs; `None` where there is none.
+    /// Proof of existence and uniqueness with all its numbers, for checks by other programs; `None` where there is
+    /// none.
     pub certificate: Option<RootCertificate>,
-    /// 1 for certified and for regular roots, however many candidates ended there; for singular ones the number of start paths (or polynomial roots) that end here, mirror
-    /// images of paths included.
+    /// 1 for certified and for regular roots, however many candidates ended there; for singular ones the number of
+    /// start paths (or polynomial roots) that end here, mirror images of paths included.
     pub multiplicity: u32,
     /// Largest error of the leg equations over size squared and of `R^T R = I`.
     pub residual: f64,
     /// Estimate of the condition number of the root (dimensionless, Newton matrix of the method).
     pub condition: f64,
-    /// The pose as a dual quaternion `(e_0..e_3, g_0..g_3)`, `g = p e`, `max |e_k| = 1`, `g` in design units: where `e.e` is small `R` and `p` lose as many digits as it is
-    /// small, and this keeps them. `None` for methods that do not work in dual quaternions and for poses without certificate.
+    /// The pose as a dual quaternion `(e_0..e_3, g_0..g_3)`, `g = p e`, `max |e_k| = 1`, `g` in design units: where
+    /// `e.e` is small `R` and `p` lose as many digits as it is small, and this keeps them. `None` for methods that do
+    /// not work in dual quaternions and for poses without certificate.
     pub dual_quaternion: Option<[Complex64; 8]>,
 }
 
@@ -278,14 +280,15 @@ pub struct FkSolutions {
     pub solution_set: SolutionSet,
     /// Whether these are all.
     pub completeness: Completeness,
-    /// What each homotopy path did, 40 or, where each stands for itself and its mirror image, 20; empty for other methods.
+    /// What each homotopy path did, 40 or, where each stands for itself and its mirror image, 20; empty for other
+    /// methods.
     pub paths: Vec<PathReport>,
     /// Candidates that are not roots.
     pub rejected: Vec<Rejected>,
     /// The finite poses counted without finding them; `None` when that was not asked, or not needed for a proof.
     pub pose_count: Option<PoseCount>,
-    /// Ends of paths without a proof: there may be a root of this multiplicity near the pose, several, or none. They are not among the roots,
-    /// and as long as there are any the answer is undecided.
+    /// Ends of paths without a proof: there may be a root of this multiplicity near the pose, several, or none. They
+    /// are not among the roots, and as long as there are any the answer is undecided.
     pub unproved: Vec<FkRoot>,
     /// Seed of the generic constants.
     pub seed: u64,
@@ -335,14 +338,16 @@ impl FkSolutions {
         self.roots.iter().filter(|r| r.certified()).map(|r| r.multiplicity as usize).sum()
     }
 
-    /// Finite poses that exist, multiplicity included, and are not among the certified roots, where their number is known.
+    /// Finite poses that exist, multiplicity included, and are not among the certified roots, where their number is
+    /// known.
     #[must_use]
     pub fn missing(&self) -> Option<usize> {
         let count = self.pose_count.as_ref().filter(|c| c.lengths == CountedLengths::Given)?;
         count.finite()?.checked_sub(self.certified_count())
     }
 
-    /// The answer is whole: all poses are listed, by proof or modulo random primes, or a motion is established of which they are points.
+    /// The answer is whole: all poses are listed, by proof or modulo random primes, or a motion is established of which
+    /// they are points.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         match &self.solution_set {

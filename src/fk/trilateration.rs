@@ -29,11 +29,13 @@ const RADII: [f64; 3] = [1.0, 16.0, 1.0 / 16.0];
 
 /// Forward kinematics by trilateration in floating point: all finite poses, refined on the leg equations and certified.
 ///
-/// Platforms that need two or three virtual legs have one length hidden, see `docs/theory/hidden-lengths.md`; the others (30 of the 34
-/// joint-sharing topologies) follow a trilateration sequence. Which sequence to use depends on which joints are shared; that is worked out once for the legs of a design and kept in the value.
-/// Complete when as many distinct poses are certified as the topology can have; other sequences are tried before it gives up, and at
+/// Platforms that need two or three virtual legs have one length hidden, see `docs/theory/hidden-lengths.md`; the
+/// others (30 of the 34 joint-sharing topologies) follow a trilateration sequence. Which sequence to use depends on
+/// which joints are shared; that is worked out once for the legs of a design and kept in the value. Complete when as
+/// many distinct poses are certified as the topology can have; other sequences are tried before it gives up, and at
 /// last the exact closure polynomial ([`closure_candidates`]), which takes milliseconds and more.
-/// [`FkError::NotApplicable`] when legs are shared otherwise than in these topologies, or triangles that have to be proper are collinear.
+/// [`FkError::NotApplicable`] when legs are shared otherwise than in these topologies, or triangles that have to be
+/// proper are collinear.
 #[derive(Debug, Default)]
 pub struct Trilateration {
     known: Mutex<BTreeMap<Legs, Arc<Ranked>>>,
@@ -209,8 +211,8 @@ pub(super) fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iter
     })
 }
 
-/// Refines, merges and certifies the ends of all that was `tried`; `theorem` bounds their number. What cannot be certified is not a root: with other distances
-/// the same lengths give other poses of rounding far out.
+/// Refines, merges and certifies the ends of all that was `tried`; `theorem` bounds their number. What cannot be
+/// certified is not a root: with other distances the same lengths give other poses of rounding far out.
 pub(super) fn judged(
     m: &Manipulator,
     s: &SquaredLegLengths,

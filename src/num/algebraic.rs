@@ -1,7 +1,7 @@
 //! Numbers of one field of square roots, of any length, for decisions that neither rounding nor length must take.
 //!
-//! [`Surd`] refuses long results, because designs are written and printed with it.
-//! Here sums, products and quotients always exist: [`Algebraic::all`] admits only numbers of one field whose radicands stay below `2^63`.
+//! [`Surd`] refuses long results, because designs are written and printed with it. Here sums, products and quotients
+//! always exist: [`Algebraic::all`] admits only numbers of one field whose radicands stay below `2^63`.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -168,7 +168,8 @@ impl ExactNumber for Algebraic {
         self * other
     }
 
-    /// Fractions go the way of fractions; other rows are eliminated in the field, if they are not independent modulo a prime, where they would be independent.
+    /// Fractions go the way of fractions; other rows are eliminated in the field, if they are not independent modulo a
+    /// prime, where they would be independent.
     fn relations(rows: &[Vec<Self>]) -> Vec<Vec<Self>> {
         let rational = rows.iter().map(|row| row.iter().map(|x| x.as_rational().cloned()).collect());
         if let Some(rows) = rational.collect::<Option<Vec<Vec<Rational>>>>() {

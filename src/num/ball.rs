@@ -1,18 +1,22 @@
 //! Balls of real and complex numbers: a centre and a radius that takes up every rounding error.
 //!
-//! One type serves reals ([`Ball<f64>`], within the crate `Real`), complex numbers ([`Disc`]) and complex numbers about a centre in double-double (`WideDisc`); the centre says by
-//! [`BallCentre`] what its own operations cost. An [`Interval`] encloses reals too, by its two ends: it is the one to take where
-//! signs and ends matter (ranges, bisection, square roots near zero), a ball where many products and sums follow each other, at half of the price.
+//! One type serves reals ([`Ball<f64>`], within the crate `Real`), complex numbers ([`Disc`]) and complex numbers about
+//! a centre in double-double (`WideDisc`); the centre says by [`BallCentre`] what its own operations cost. An
+//! [`Interval`] encloses reals too, by its two ends: it is the one to take where signs and ends matter (ranges,
+//! bisection, square roots near zero), a ball where many products and sums follow each other, at half of the price.
 //!
-//! Error analysis, with the unit `u = 2^-53` of double or [`DoubleDouble::UNIT`] in its place, and `|z|_1 = |re z| + |im z|`, which is computed without
-//! underflow and satisfies `|z| <= |z|_1 <= sqrt 2 |z|`. Rounding to nearest gives each part of a sum of doubles relative error `u`; each part of a product
-//! `ac - bd` error `2u(1+u)(|ac| + |bd|)`, so that the modulus of the product's error is at most `2u(1+u) (|z|_1 |w|_1)`. In double-double the two parts of a
-//! sum have relative error `u` each, together `2u`, and a product of two parts takes two products and a sum, below `4u |z|_1 |w|_1` for the modulus.
-//! The inverse, `conj z / |z|^2`, takes a product, a sum without cancellation and a quotient in each part: below `8u |1/z|_1`.
-//! The radii are computed in double from sums and products of non-negative numbers in fewer than 60 operations, hence with relative error below `61 * 2^-53 <
-//! 2^-40`; the factor `1 + 2^-40` makes them upper bounds again. Moduli of centres in double-double are those of their leading doubles, off by `2^-53` of themselves, which it takes up too.
-//! Underflow adds at most `2^-1074` an operation, which the `2^-900` added to radii covers as long as moduli stay below `2^100`.
-//! A radius that is infinite or NaN says nothing and makes every test that would prove something fail.
+//! Error analysis, with the unit `u = 2^-53` of double or [`DoubleDouble::UNIT`] in its place, and
+//! `|z|_1 = |re z| + |im z|`, which is computed without underflow and satisfies `|z| <= |z|_1 <= sqrt 2 |z|`. Rounding
+//! to nearest gives each part of a sum of doubles relative error `u`; each part of a product `ac - bd` error
+//! `2u(1+u)(|ac| + |bd|)`, so that the modulus of the product's error is at most `2u(1+u) (|z|_1 |w|_1)`. In
+//! double-double the two parts of a sum have relative error `u` each, together `2u`, and a product of two parts takes
+//! two products and a sum, below `4u |z|_1 |w|_1` for the modulus. The inverse, `conj z / |z|^2`, takes a product, a
+//! sum without cancellation and a quotient in each part: below `8u |1/z|_1`. The radii are computed in double from sums
+//! and products of non-negative numbers in fewer than 60 operations, hence with relative error below
+//! `61 * 2^-53 < 2^-40`; the factor `1 + 2^-40` makes them upper bounds again. Moduli of centres in double-double are
+//! those of their leading doubles, off by `2^-53` of themselves, which it takes up too. Underflow adds at most
+//! `2^-1074` an operation, which the `2^-900` added to radii covers as long as moduli stay below `2^100`. A radius that
+//! is infinite or NaN says nothing and makes every test that would prove something fail.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

@@ -1,7 +1,7 @@
 //! The one door to the conic solver clarabel (Goulart, Chen 2024); no other file names it.
 //!
-//! A program is `minimise 1/2 x^T P x + q^T x` subject to `b - A x in K`, given row by row. Its status is
-//! translated, and never believed alone: every point is re-checked here by plain arithmetic on the rows, an infeasibility
+//! A program is `minimise 1/2 x^T P x + q^T x` subject to `b - A x in K`, given row by row. Its status is translated,
+//! and never believed alone: every point is re-checked here by plain arithmetic on the rows, an infeasibility
 //! certificate in intervals by `num::farkas`.
 
 use clarabel::algebra::CscMatrix;

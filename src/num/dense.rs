@@ -1,5 +1,6 @@
-//! Eigenvalue problems and triangular factors of matrices of some size, by faer; no other file names it. They belong to the eliminations for comparison and to
-//! the units of time of `bench`: everything else has small matrices and [`super::linalg`].
+//! Eigenvalue problems and triangular factors of matrices of some size, by faer; no other file names it. They belong to
+//! the eliminations for comparison and to the units of time of `bench`: everything else has small matrices and
+//! [`super::linalg`].
 //!
 //! faer is built without its `rayon` feature, so every call is sequential: equal inputs give equal bytes,
 //! and parallelism is over problems, outside.

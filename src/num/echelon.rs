@@ -1,7 +1,7 @@
 //! Row echelon forms modulo a prime of 61 bits.
 //!
-//! A row is reduced in accumulators of 128 bits: products are added without division, and each column is reduced once, when the elimination comes to it
-//! (delayed reduction; Dumas, Giorgi, Pernet 2008).
+//! A row is reduced in accumulators of 128 bits: products are added without division, and each column is reduced once,
+//! when the elimination comes to it (delayed reduction; Dumas, Giorgi, Pernet 2008).
 
 use super::modular::Field;
 
@@ -69,7 +69,8 @@ impl Echelon {
         self.rows.len()
     }
 
-    /// Adds a row of residues; the column of its leading entry after elimination, `None` when it depends on the rows before.
+    /// Adds a row of residues; the column of its leading entry after elimination, `None` when it depends on the rows
+    /// before.
     pub fn insert(&mut self, row: &[u64]) -> Option<usize> {
         let Self { wide, work, .. } = self;
         for (w, x) in work.iter_mut().zip(row) {

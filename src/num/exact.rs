@@ -74,11 +74,13 @@ pub fn relations<N: ExactNumber>(rows: &[Vec<N>]) -> Vec<Vec<N>> {
 
 /// [`relations`] between rows of fractions.
 ///
-/// Elimination without fractions (Bareiss 1968) of integer rows beside an identity; row `i` of the result has `rows.len()` entries, that of the row it
-/// was made of is 1. The rank is the number of rows less the number of relations.
+/// Elimination without fractions (Bareiss 1968) of integer rows beside an identity; row `i` of the result has
+/// `rows.len()` entries, that of the row it was made of is 1. The rank is the number of rows less the number of
+/// relations.
 ///
-/// Relations between rows do not change when a column is multiplied, so that every column is brought to integers without a common power of two first;
-/// numbers of a thousand digits beside ones stay that long and no longer, because no fraction is ever reduced on the way.
+/// Relations between rows do not change when a column is multiplied, so that every column is brought to integers
+/// without a common power of two first; numbers of a thousand digits beside ones stay that long and no longer, because
+/// no fraction is ever reduced on the way.
 fn relations_of_fractions(rows: &[ExactVector]) -> Vec<ExactVector> {
     let count = rows.len();
     let width = rows.first().map_or(0, Vec::len);
@@ -151,7 +153,8 @@ fn full_rank_modulo(field: Field, rows: &[Vec<BigInt>]) -> bool {
     field.rank(residues) == rows.len()
 }
 
-/// The multiple of a list that consists of integers without a common factor, the first that is not zero positive; zeros stay zeros.
+/// The multiple of a list that consists of integers without a common factor, the first that is not zero positive; zeros
+/// stay zeros.
 pub fn primitive(list: &[Rational]) -> Vec<Rational> {
     let Some(first) = list.iter().find(|x| **x != zero()) else { return list.to_vec() };
     let denominator =
@@ -170,7 +173,8 @@ pub fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
     Some(if exponent < 0 { Rational::new(digits, power) } else { Rational::from(digits * power) })
 }
 
-/// The nearest double, halves to even; overflow gives an infinity, and what is below the smallest normal double may be rounded twice.
+/// The nearest double, halves to even; overflow gives an infinity, and what is below the smallest normal double may be
+/// rounded twice.
 pub fn nearest(x: &Rational) -> f64 {
     let (n, d) = (x.numer(), x.denom());
     // 64 or 65 leading bits of the quotient, and one that says whether anything is left

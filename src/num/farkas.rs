@@ -1,8 +1,9 @@
 //! Farkas certificates judged in intervals.
 //!
-//! Rows `rhs - coefficients . x` that are to lie in a cone `K`, and a vector `y` of the dual cone: for every `x` that meets the rows,
-//! `0 <= y . (rhs - A x)`. Where the right-hand side is below 0 for all `x` of a box and all data within their intervals, no `x` of the box meets the
-//! rows (Farkas 1902; for cones Boyd, Vandenberghe 2004, sec. 5.8). `y` may come from anywhere: whatever it is, the proof is valid.
+//! Rows `rhs - coefficients . x` that are to lie in a cone `K`, and a vector `y` of the dual cone: for every `x` that
+//! meets the rows, `0 <= y . (rhs - A x)`. Where the right-hand side is below 0 for all `x` of a box and all data
+//! within their intervals, no `x` of the box meets the rows (Farkas 1902; for cones Boyd, Vandenberghe 2004, sec. 5.8).
+//! `y` may come from anywhere: whatever it is, the proof is valid.
 
 use super::conic::Cone;
 use super::interval::Interval;
@@ -16,7 +17,8 @@ pub struct EnclosedRow {
     pub rhs: Interval,
 }
 
-/// How far below 0 the combination of the rows stays on the box, for `|y|_1 = 1`; `None` when it does not: then nothing is proved.
+/// How far below 0 the combination of the rows stays on the box, for `|y|_1 = 1`; `None` when it does not: then nothing
+/// is proved.
 pub fn refuted(rows: &[EnclosedRow], cones: &[Cone], ray: &[f64], ranges: &[Interval]) -> Option<f64> {
     let weights = in_dual_cone(cones, ray)?;
     if rows.len() != weights.len() {

@@ -1,6 +1,7 @@
 //! Values with first and second derivatives in up to six variables, enclosed over a box of them.
 //!
-//! Forward differentiation (Wengert 1964) in outward-rounded intervals: each component of a result holds that of the exact function at every point of the box.
+//! Forward differentiation (Wengert 1964) in outward-rounded intervals: each component of a result holds that of the
+//! exact function at every point of the box.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -92,7 +93,8 @@ impl Jet {
         })
     }
 
-    /// With derivatives of first or of second order that may differ by as much, at their places, and no others of that order or above.
+    /// With derivatives of first or of second order that may differ by as much, at their places, and no others of that
+    /// order or above.
     pub fn widened(mut self, order: usize, widths: &[Interval; PAIRS]) -> Self {
         let wide = |x: Interval, width: Interval| x + Interval::about_zero(width.hi());
         if order == 1 {

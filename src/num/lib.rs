@@ -1,4 +1,5 @@
-//! Numbers with known errors: double-double, interval and exact arithmetic, polynomials in one unknown, decompositions of small matrices, seeded random numbers, and the doors to faer and clarabel.
+//! Numbers with known errors: double-double, interval and exact arithmetic, polynomials in one unknown, decompositions
+//! of small matrices, seeded random numbers, and the doors to faer and clarabel.
 //!
 //! It knows nothing of platforms and names no other room.
 //!
@@ -6,7 +7,8 @@
 //! * [`Surd`](surd::Surd): a number of a field of square roots, exactly.
 //! * [`Rng`]: random numbers from a seed, a stream for each purpose.
 //!
-//! A number is made from a double or from a written expression, goes through the rooms above in the arithmetic that the question needs, and becomes a double with a bound of its error.
+//! A number is made from a double or from a written expression, goes through the rooms above in the arithmetic that the
+//! question needs, and becomes a double with a bound of its error.
 
 pub mod algebraic;
 pub mod ball;

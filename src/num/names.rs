@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-/// Whether a character changes the direction of the text after it: embeddings, overrides and isolates. A program then reads another text than the one shown (Boucher and Anderson 2021).
+/// Whether a character changes the direction of the text after it: embeddings, overrides and isolates. A program then
+/// reads another text than the one shown (Boucher and Anderson 2021).
 pub fn changes_direction(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

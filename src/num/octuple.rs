@@ -1,7 +1,8 @@
-//! Floating point with 256 bits (octuple precision), for what double-double cannot resolve: the last part of homotopy paths whose ends differ by products of
-//! several small numbers.
+//! Floating point with 256 bits (octuple precision), for what double-double cannot resolve: the last part of homotopy
+//! paths whose ends differ by products of several small numbers.
 //!
-//! Results are truncated: every operation has an error below `2^-253` of its result, a sum of the larger operand, a quotient four times that. Nothing here is a proof; the exponent has 32 bits and does not overflow in use.
+//! Results are truncated: every operation has an error below `2^-253` of its result, a sum of the larger operand, a
+//! quotient four times that. Nothing here is a proof; the exponent has 32 bits and does not overflow in use.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -12,7 +13,8 @@ use super::complex::Complex;
 const LIMBS: usize = 4;
 const BITS: i64 = 256;
 
-/// `(-1)^negative 2^exponent m`, `m` in `[1/2, 1)` the fraction with the given limbs, least significant first; zero has no bit set.
+/// `(-1)^negative 2^exponent m`, `m` in `[1/2, 1)` the fraction with the given limbs, least significant first; zero has
+/// no bit set.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Octuple {
     negative: bool,
@@ -276,7 +278,8 @@ pub struct OctupleLu<const N: usize> {
 }
 
 impl<const N: usize> OctupleLu<N> {
-    /// Factorises `a`; `None` when a column has no pivot. Pivots are the largest to a factor of two: digits there are enough.
+    /// Factorises `a`; `None` when a column has no pivot. Pivots are the largest to a factor of two: digits there are
+    /// enough.
     pub fn factorise(mut a: [[ComplexOctuple; N]; N]) -> Option<Self> {
         let mut order: [usize; N] = std::array::from_fn(|k| k);
         for k in 0..N {

@@ -1,14 +1,18 @@
-//! Whether this thread computes as the proofs assume: doubles of 64 bits, rounded to the nearest, subnormal numbers kept.
+//! Whether this thread computes as the proofs assume: doubles of 64 bits, rounded to the nearest, subnormal numbers
+//! kept.
 //!
-//! An interval is a result of the processor and its neighbours ([`f64::next_down`], [`f64::next_up`]). That encloses the true value because IEEE 754 rounds
-//! to the nearest by default. Three things end it without a trace in the results:
+//! An interval is a result of the processor and its neighbours ([`f64::next_down`], [`f64::next_up`]). That encloses
+//! the true value because IEEE 754 rounds to the nearest by default. Three things end it without a trace in the
+//! results:
 //!
 //! * a processor that holds results in wider registers (x87): refused when the library is compiled,
 //! * a rounding mode other than to the nearest, and
-//! * flushing of subnormal results or operands to zero. Code compiled with `-ffast-math` switches it on for a whole process when its library is loaded.
+//! * flushing of subnormal results or operands to zero. Code compiled with `-ffast-math` switches it on for a whole
+//!   process when its library is loaded.
 //!
-//! The last two are settings of a thread, which new threads inherit. [`check_arithmetic`] finds them by computing, on any processor, at the cost of seven
-//! operations. The program asks it at its start, and `fk::solve::certify` before every certified solve: no certificate comes from such a thread.
+//! The last two are settings of a thread, which new threads inherit. [`check_arithmetic`] finds them by computing, on
+//! any processor, at the cost of seven operations. The program asks it at its start, and `fk::solve::certify` before
+//! every certified solve: no certificate comes from such a thread.
 
 use std::hint::black_box;
 
@@ -44,7 +48,8 @@ fn judge(sum: impl Fn(f64, f64) -> f64, product: impl Fn(f64, f64) -> f64) -> Re
     let quarter = f64::EPSILON / 4.0;
     // bits are compared: a comparison of doubles would flush its operands as well
     let gives = |x: f64, expected: f64| black_box(x).to_bits() == expected.to_bits();
-    // in the order of the lines: not upwards, nor in wide registers; not downwards; not towards zero; ties go to the even neighbour
+    // in the order of the lines: not upwards, nor in wide registers; not downwards; not towards zero; ties go to the
+    // even neighbour
     let to_nearest = gives(sum(1.0, quarter), 1.0)
         && gives(sum(-1.0, -quarter), -1.0)
         && gives(sum(1.0, 3.0 * quarter), 1.0 + f64::EPSILON)

@@ -48,12 +48,12 @@ impl Rng {
     }
 }
 
-/// What random numbers are drawn for. Each purpose begins a stream of the seed anew, or a family of streams with one for each item, so that nothing that is
-/// drawn changes what is drawn for another purpose, and an item has the same numbers whichever other items are looked at. Purposes whose numbers mean different
-/// things may share a stream.
+/// What random numbers are drawn for. Each purpose begins a stream of the seed anew, or a family of streams with one
+/// for each item, so that nothing that is drawn changes what is drawn for another purpose, and an item has the same
+/// numbers whichever other items are looked at. Purposes whose numbers mean different things may share a stream.
 ///
-/// This is the whole list. Only two others draw: the problems of `bench`, whose streams are named by their class, and searches that have a seed for
-/// themselves and begin with [`Rng::new`].
+/// This is the whole list. Only two others draw: the problems of `bench`, whose streams are named by their class, and
+/// searches that have a seed for themselves and begin with [`Rng::new`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Purpose {
     /// Tells families apart that are numbered from zero.

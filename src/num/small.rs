@@ -1,9 +1,9 @@
 //! Decompositions of small matrices in a bounded number of steps, right for matrices of any rank.
 //!
-//! The iterations of `nalgebra` have no bound by default, and entries whose products fall below the range of doubles can keep them going for ever.
-//! Its singular value decomposition moreover returns factors whose product is off by some per cent for some matrices of low rank
-//! (0.35, 7 of 300 random 6 x 6 matrices of rank 2), so the one here rotates pairs of columns instead (one-sided Jacobi; Hestenes 1958,
-//! Drmac and Veselic 2008).
+//! The iterations of `nalgebra` have no bound by default, and entries whose products fall below the range of doubles
+//! can keep them going for ever. Its singular value decomposition moreover returns factors whose product is off by some
+//! per cent for some matrices of low rank (0.35, 7 of 300 random 6 x 6 matrices of rank 2), so the one here rotates
+//! pairs of columns instead (one-sided Jacobi; Hestenes 1958, Drmac and Veselic 2008).
 
 use nalgebra::allocator::Allocator;
 use nalgebra::{
@@ -81,8 +81,8 @@ where
     Some(values)
 }
 
-/// Columns of `w`, at least as long as many, become left singular vectors; those of `v`, the unit matrix before, right ones. `None` for entries
-/// that are not finite.
+/// Columns of `w`, at least as long as many, become left singular vectors; those of `v`, the unit matrix before, right
+/// ones. `None` for entries that are not finite.
 pub(super) fn decompose<T>(w: &mut [T], v: &mut [T], values: &mut [f64]) -> Option<()>
 where
     T: ComplexField<RealField = f64> + Copy,
@@ -105,8 +105,8 @@ where
     Some(())
 }
 
-/// Rotates the columns of `w` until all are orthogonal, the longest first, those of `v` alike; their lengths are the singular values. The columns
-/// are left divided by the largest entry.
+/// Rotates the columns of `w` until all are orthogonal, the longest first, those of `v` alike; their lengths are the
+/// singular values. The columns are left divided by the largest entry.
 fn orthogonalise<T>(w: &mut [T], v: &mut [T], values: &mut [f64]) -> Option<()>
 where
     T: ComplexField<RealField = f64> + Copy,
@@ -146,8 +146,9 @@ fn norm_squared<T: ComplexField<RealField = f64> + Copy>(x: &[T]) -> f64 {
     x.iter().map(|x| x.modulus_squared()).sum()
 }
 
-/// Makes every pair of columns orthogonal once, the longer one first. `true` when all were. Columns that are nothing next to the largest
-/// entry are made zero, so that their squares cannot underflow. `squares` holds the squared lengths, which a turn changes by a known amount.
+/// Makes every pair of columns orthogonal once, the longer one first. `true` when all were. Columns that are nothing
+/// next to the largest entry are made zero, so that their squares cannot underflow. `squares` holds the squared
+/// lengths, which a turn changes by a known amount.
 #[inline]
 fn sweep<T: ComplexField<RealField = f64> + Copy>(
     w: &mut [T],
@@ -252,7 +253,8 @@ pub(super) fn complete<T: ComplexField<RealField = f64> + Copy>(before: &[T], co
     }
 }
 
-/// Eigenvalues, in no order, and eigenvectors, as columns, of a symmetric matrix. Of one with entries that are not finite: zeros, and the axes.
+/// Eigenvalues, in no order, and eigenvectors, as columns, of a symmetric matrix. Of one with entries that are not
+/// finite: zeros, and the axes.
 pub fn symmetric_eigen3(m: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let none = (Vector3::zeros(), Matrix3::identity());
     if m.iter().any(|x| !x.is_finite()) {

@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Ends a long computation from outside: clones are one switch. What is under way at the time is finished, nothing new begins.
+/// Ends a long computation from outside: clones are one switch. What is under way at the time is finished, nothing new
+/// begins.
 ///
 /// ```
 /// # mod equipod { pub use equipod_num::Cancel; pub mod methods { pub use equipod_num::poly; } }
@@ -37,8 +38,8 @@ impl Cancel {
     }
 }
 
-/// Jobs that a worker may be ahead of the result that is handed out next, for each worker: a slow job holds nobody up for long, and
-/// results that wait take no more room than this.
+/// Jobs that a worker may be ahead of the result that is handed out next, for each worker: a slow job holds nobody up
+/// for long, and results that wait take no more room than this.
 const AHEAD: usize = 16;
 
 type Outcome<T> = Result<T, Box<dyn std::any::Any + Send>>;
@@ -90,7 +91,8 @@ impl<I> Shared<I> {
     }
 }
 
-/// The results of `job` for all inputs, in the order of the inputs. Ends early when it is cancelled; dropping it cancels it.
+/// The results of `job` for all inputs, in the order of the inputs. Ends early when it is cancelled; dropping it
+/// cancels it.
 #[allow(missing_debug_implementations, reason = "a job is a function")]
 pub struct Stream<I, T> {
     shared: Arc<Shared<I>>,

@@ -2,10 +2,9 @@
 //! square roots of integers, and of these times cosines.
 //!
 //! The square roots of different squarefree integers are linearly independent over `Q` (Besicovitch 1940), and so are
-//! their products with the cosines of [`FieldRoot`].
-//! The sum is therefore unique: it is zero only when it has no terms, and its sign is found by evaluating it to
-//! enough digits.
-//! Numbers are kept small on purpose: an operation whose result would be long, and a square root that is no such sum, give `None`.
+//! their products with the cosines of [`FieldRoot`]. The sum is therefore unique: it is zero only when it has no terms,
+//! and its sign is found by evaluating it to enough digits. Numbers are kept small on purpose: an operation whose
+//! result would be long, and a square root that is no such sum, give `None`.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -294,7 +293,8 @@ impl Surd {
         Some((cosine, sine))
     }
 
-    /// Rationals below and above it (both the number when it is rational), closer together than `2^-bits` of its magnitude.
+    /// Rationals below and above it (both the number when it is rational), closer together than `2^-bits` of its
+    /// magnitude.
     pub fn between(&self, bits: u64) -> (Rational, Rational) {
         if let Some(x) = self.as_rational() {
             return (x.clone(), x);
@@ -358,7 +358,8 @@ pub fn combination(weights: &[Surd], values: &[Surd]) -> Option<Surd> {
     weights.iter().zip(values).try_fold(Surd::zero(), |sum, (w, x)| sum.plus(&w.times(x)?))
 }
 
-/// Brings the first `width` columns to the identity above zeros as far as they go; the rank. `None` when numbers become too long.
+/// Brings the first `width` columns to the identity above zeros as far as they go; the rank. `None` when numbers become
+/// too long.
 pub fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
     let mut rank = 0;
     for column in 0..width {
@@ -396,7 +397,8 @@ fn rational_root(x: &Rational) -> Option<Surd> {
     Surd::lowest(BTreeMap::from([(FieldRoot::of(radicand), square)]), x.denom().clone())
 }
 
-/// `s` and squarefree `r` with `n = s^2 r`, `n` positive; `None` when `r` cannot be told to be squarefree by small primes, or is too large.
+/// `s` and squarefree `r` with `n = s^2 r`, `n` positive; `None` when `r` cannot be told to be squarefree by small
+/// primes, or is too large.
 fn squarefree(mut n: BigInt) -> Option<(BigInt, u64)> {
     let (mut square, mut free) = (BigInt::one(), 1u64);
     let whole = n.sqrt();

@@ -4,8 +4,8 @@ use std::ops::{Mul, Sub};
 
 use super::hexagon::{HexagonPoint, Offset};
 
-/// `(prod (1 - t), prod t)` over offsets, in any numbers (floating point, exact, intervals): with one offset on each side of the hexagon
-/// their difference is `det A`, with some left out the minors of `A`.
+/// `(prod (1 - t), prod t)` over offsets, in any numbers (floating point, exact, intervals): with one offset on each
+/// side of the hexagon their difference is `det A`, with some left out the minors of `A`.
 pub fn offset_products<T>(one: &T, t: impl IntoIterator<Item = T>) -> (T, T)
 where
     T: Clone + Mul<Output = T> + Sub<Output = T>,
@@ -25,8 +25,8 @@ pub fn offset_determinant(t: &[f64; 6]) -> f64 {
     rest - own
 }
 
-/// The offset `t_k` that makes the platform without shared joints with the five others singular: `t_k = Q / (P + Q)`, `P = prod t_j`,
-/// `Q = prod (1 - t_j)` over `j != k`.
+/// The offset `t_k` that makes the platform without shared joints with the five others singular: `t_k = Q / (P + Q)`,
+/// `P = prod t_j`, `Q = prod (1 - t_j)` over `j != k`.
 ///
 /// `None` where `P + Q = 0`: either no finite `t_k` does, or (`P = Q = 0`, two coincident legs or the like) every one.
 #[must_use]
@@ -124,11 +124,11 @@ fn covers(point: HexagonPoint, vertex: usize) -> bool {
 /// Expands `det A` of six points of the hexagon; `None` when it is the zero polynomial, that is when the
 /// points are dependent for all offsets.
 ///
-/// Row `j` of `A` has entries only in the one or two columns that point `j` covers. A column with one entry
-/// left, or a row with one entry left, is expanded (exactly one term); a column or row with none makes the
-/// determinant zero. What remains has two entries in every row and column: a cycle in the hexagon, which is either the two inner
-/// points of one side, `(1 - t) u - t (1 - u) = u - t`, or one inner point on each of the six sides. Neither
-/// is the zero polynomial, so the expansion decides generic independence exactly.
+/// Row `j` of `A` has entries only in the one or two columns that point `j` covers. A column with one entry left, or a
+/// row with one entry left, is expanded (exactly one term); a column or row with none makes the determinant zero. What
+/// remains has two entries in every row and column: a cycle in the hexagon, which is either the two inner points of one
+/// side, `(1 - t) u - t (1 - u) = u - t`, or one inner point on each of the six sides. Neither is the zero polynomial,
+/// so the expansion decides generic independence exactly.
 pub(crate) fn expand(points: &[HexagonPoint; 6]) -> Option<Expansion> {
     let mut slots: [Option<HexagonPoint>; 6] = [None; 6];
     let mut open: Vec<HexagonPoint> = points.to_vec();
@@ -207,7 +207,8 @@ mod tests {
         assert!(offset_determinant(&[0.5; 6]).abs() < 1e-16);
     }
 
-    /// Legs of isosceles triangles on both sides of the plane `x = 0`, ends on the edges at `t`: base end, platform end.
+    /// Legs of isosceles triangles on both sides of the plane `x = 0`, ends on the edges at `t`: base end, platform
+    /// end.
     fn isosceles_legs(t: [f64; 6]) -> [[[f64; 2]; 2]; 6] {
         let base = [[0.0, 2.0], [-1.5, -1.0], [1.5, -1.0]];
         let platform = [[-1.0, 0.5], [0.0, -1.0], [1.0, 0.5]];
@@ -235,8 +236,8 @@ mod tests {
         })
     }
 
-    /// "Mirror planes" in docs/theory/octahedral-class.md: of platforms without shared joints exactly those with offsets `t, u, 1/2, 1 - u, 1 - t, 1/2` have the mirror plane of
-    /// the triangles, and they are singular.
+    /// "Mirror planes" in docs/theory/octahedral-class.md: of platforms without shared joints exactly those with
+    /// offsets `t, u, 1/2, 1 - u, 1 - t, 1/2` have the mirror plane of the triangles, and they are singular.
     #[test]
     fn platforms_with_a_mirror_plane_are_singular() {
         for (t, u) in [(0.25, 0.125), (0.375, -0.5), (1.5, 0.75), (0.5, 0.5)] {

@@ -1,8 +1,8 @@
 //! The leg map between platforms whose joints are known exactly, as exact numbers.
 //!
-//! A leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`; `A` writes the vectors of TO as combinations of those of FROM, and
-//! `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. Both platforms are equivalent if and only if all three hold: the legs of FROM are independent, those
-//! of TO are, and every one of TO is in the span of FROM.
+//! A leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`; `A` writes the vectors of TO as combinations of those of
+//! FROM, and `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. Both platforms are equivalent if and only if
+//! all three hold: the legs of FROM are independent, those of TO are, and every one of TO is in the span of FROM.
 
 use std::fmt::Write as _;
 
@@ -104,7 +104,8 @@ impl ExactMap {
         determinant(&a)
     }
 
-    /// The share `t` for which the determinant vanishes when row `i` is `1 - t` and `t` beside zeros: `det A` is affine in `t`.
+    /// The share `t` for which the determinant vanishes when row `i` is `1 - t` and `t` beside zeros: `det A` is affine
+    /// in `t`.
     pub(crate) fn singular_share(&self, i: usize) -> Option<Algebraic> {
         let (own, other) = self.share_columns(i)?;
         let at = |k: usize| self.determinant_with(&[(i, k)]);
@@ -113,8 +114,9 @@ impl ExactMap {
         (!slope.is_zero()).then(|| &start / &slope)
     }
 
-    /// `det A` for all shares `t1` to `t6` at once, of the rows that are `1 - t` and `t` beside zeros, the other rows as they stand: a sum of products of `(1 - t)` and `t`, since the determinant is affine in
-    /// each row. Its zeros are the singular ones of the platforms whose leg ends stay on the same edges. `None` where there is no such row.
+    /// `det A` for all shares `t1` to `t6` at once, of the rows that are `1 - t` and `t` beside zeros, the other rows
+    /// as they stand: a sum of products of `(1 - t)` and `t`, since the determinant is affine in each row. Its zeros
+    /// are the singular ones of the platforms whose leg ends stay on the same edges. `None` where there is no such row.
     pub(crate) fn determinant_of_shares(&self) -> Option<String> {
         let free: Vec<(usize, (usize, usize))> =
             (0..6).filter_map(|i| Some((i, self.share_columns(i)?))).collect();

@@ -57,7 +57,8 @@ impl AffineLegMap {
         Self { a: Matrix6::identity(), c: Vector6::zeros() }
     }
 
-    /// `A s + c` for `A` and `c` as they are, in double-double; the radii hold those of `s` and the rounding of the sums.
+    /// `A s + c` for `A` and `c` as they are, in double-double; the radii hold those of `s` and the rounding of the
+    /// sums.
     ///
     /// # Errors
     /// The first leg whose value is negative or not finite; nothing is clamped.
@@ -161,11 +162,14 @@ impl std::fmt::Display for Relation {
 /// Dimensionless limits of [`leg_map`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegMapTolerances {
-    /// A leg of TO farther than this from the span of FROM, relative to its vector, is not in it. Asked only where joints are not known exactly.
+    /// A leg of TO farther than this from the span of FROM, relative to its vector, is not in it. Asked only where
+    /// joints are not known exactly.
     pub residual: f64,
-    /// Leg vectors with singular values below this times the largest are left out of the span, where exact arithmetic does not find them independent.
+    /// Leg vectors with singular values below this times the largest are left out of the span, where exact arithmetic
+    /// does not find them independent.
     pub rank: f64,
-    /// `A` with `sigma_min / sigma_max` below this cannot be told from a singular one. Asked only where joints are not known exactly.
+    /// `A` with `sigma_min / sigma_max` below this cannot be told from a singular one. Asked only where joints are not
+    /// known exactly.
     pub singular: f64,
 }
 
@@ -184,7 +188,8 @@ pub struct LegMapOutcome {
     pub relation: Relation,
     /// What the verdict is proved about; [`Level::WithinRounding`] where nothing is proved.
     pub level: Level,
-    /// Whether the relation holds within rounding of the joints, so that they may be rounded values of equivalent platforms; true as well where it holds exactly.
+    /// Whether the relation holds within rounding of the joints, so that they may be rounded values of equivalent
+    /// platforms; true as well where it holds exactly.
     pub holds_within_rounding: bool,
     /// The least-squares map. It is *the* map unless `relation` is [`Relation::Unrelated`]; then only the
     /// rows with a small residual mean anything.
@@ -201,9 +206,9 @@ pub struct LegMapOutcome {
     pub singular_values: [f64; 6],
     /// `sigma_min / sigma_max` of `A`.
     pub inverse_condition: f64,
-    /// What `inverse_condition` had to exceed: the tolerance asked for, or the error to expect in `A` from rounding, the residual
-    /// and the condition of FROM, whichever is larger; below the tolerance the error alone, where exact arithmetic found both platforms independent;
-    /// 0 where the map is exact.
+    /// What `inverse_condition` had to exceed: the tolerance asked for, or the error to expect in `A` from rounding,
+    /// the residual and the condition of FROM, whichever is larger; below the tolerance the error alone, where exact
+    /// arithmetic found both platforms independent; 0 where the map is exact.
     pub singular_limit: f64,
     /// Whether the map is exact: every leg vector of TO lies in the span of those of FROM, not within a tolerance.
     pub exact: bool,
@@ -228,10 +233,12 @@ pub struct ExactNumbers {
     pub c: [String; 6],
     /// `det A`.
     pub determinant: String,
-    /// For each leg of TO whose row of `A` is `1 - t` and `t` beside zeros, the number `t` for which `det A` vanishes while the other legs stay; `None` for other rows, and where
-    /// there is no such number. A leg end at the share `t` of an edge has such a row.
+    /// For each leg of TO whose row of `A` is `1 - t` and `t` beside zeros, the number `t` for which `det A` vanishes
+    /// while the other legs stay; `None` for other rows, and where there is no such number. A leg end at the share `t`
+    /// of an edge has such a row.
     pub singular_shares: [Option<String>; 6],
-    /// `det A` as a polynomial in the shares `t1` to `t6` of all such rows at once, the others as they stand: its zeros are the singular shares. `None` where there is no such row.
+    /// `det A` as a polynomial in the shares `t1` to `t6` of all such rows at once, the others as they stand: its zeros
+    /// are the singular shares. `None` where there is no such row.
     pub determinant_of_shares: Option<String>,
 }
 
@@ -263,7 +270,8 @@ impl LegMapOutcome {
         self
     }
 
-    /// The same for a TO that was moved by numbers that are known to the tolerance only: its joints as written mean nothing. `dependent` where the legs of one of the two are, which no motion changes.
+    /// The same for a TO that was moved by numbers that are known to the tolerance only: its joints as written mean
+    /// nothing. `dependent` where the legs of one of the two are, which no motion changes.
     pub(super) fn of_moved(mut self, dependent: bool) -> Self {
         self.holds_within_rounding = self.residual <= self.tolerances.residual;
         if dependent && self.holds_within_rounding {
@@ -389,7 +397,8 @@ impl ExactNumbers {
 const LONG: u64 = 2048;
 /// The same for doubles, whose fractions are long without need.
 const SHORT: u64 = 256;
-/// Coordinates count as rounded by this share of the largest coordinate of their body: eight half units in its last place.
+/// Coordinates count as rounded by this share of the largest coordinate of their body: eight half units in its last
+/// place.
 const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// The affine map from the squared leg lengths of `from` to those of `to`, leg by leg in leg order.
@@ -405,9 +414,10 @@ const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
 /// likewise for `b`, a shift by `u` changes `c_i` by `2 u (a'_i - sum A_ij a_j) + |u|^2 (1 - sum A_ij) = 0`,
 /// so `c` is formed from the centred joints, where nothing large cancels.
 ///
-/// The relation is decided in exact arithmetic on the joints as they are: numbers of a field of square roots for designs with constructions, the rational numbers that
-/// doubles are for others. Platforms that are not equivalent as written, but miss it by no more than rounding of their doubles, are [`Relation::Undecided`]. Tolerances decide only where
-/// joints are known between bounds only, and never for a relation.
+/// The relation is decided in exact arithmetic on the joints as they are: numbers of a field of square roots for
+/// designs with constructions, the rational numbers that doubles are for others. Platforms that are not equivalent as
+/// written, but miss it by no more than rounding of their doubles, are [`Relation::Undecided`]. Tolerances decide only
+/// where joints are known between bounds only, and never for a relation.
 ///
 /// ```
 /// # mod equipod { pub mod methods { pub use equipod_synthesis as synthesis; pub use platform::manipulator; } }
@@ -426,8 +436,8 @@ const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Source: Rojas, Borras, Thomas, *A distance-based formulation of the octahedral manipulator kinematics*, eq. (4)-(7), for
-/// one offset; the general statement is derived in `docs/theory/leg-maps.md`.
+/// Source: Rojas, Borras, Thomas, *A distance-based formulation of the octahedral manipulator kinematics*, eq. (4)-(7),
+/// for one offset; the general statement is derived in `docs/theory/leg-maps.md`.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.
@@ -439,8 +449,8 @@ pub fn leg_map(
     related(from, &to.legs(), ExactLegs::of(to).as_ref(), to.level(), tolerances)
 }
 
-/// As [`leg_map()`], for six legs that were computed from those of `from`, so that they are known to the tolerance only; two of them may be the same one, which no [`Manipulator`]
-/// has.
+/// As [`leg_map()`], for six legs that were computed from those of `from`, so that they are known to the tolerance
+/// only; two of them may be the same one, which no [`Manipulator`] has.
 pub(super) fn leg_map_to_legs(
     from: &Manipulator,
     legs: &[Leg; 6],
@@ -519,8 +529,9 @@ fn related(
     Ok(outcome)
 }
 
-/// How far, relative to its vector, a leg of TO that is a combination of those of FROM may be from their span when all coordinates are rounded: with coordinates off by `d`, in normalised units, every
-/// leg vector is off by `4 d` of itself at most, and a combination by as much for each of its terms.
+/// How far, relative to its vector, a leg of TO that is a combination of those of FROM may be from their span when all
+/// coordinates are rounded: with coordinates off by `d`, in normalised units, every leg vector is off by `4 d` of
+/// itself at most, and a combination by as much for each of its terms.
 fn rounding_of_residuals(from: &Manipulator, to: &[Leg; 6], a: &Matrix6<f64>, n: &Normalisation) -> [f64; 6] {
     let legs = from.legs();
     let all = || legs.iter().chain(to);

@@ -1,7 +1,8 @@
-//! Finds the platforms that are equivalent to a given one with the leg maps between them, and the designs that no pose can hold.
+//! Finds the platforms that are equivalent to a given one with the leg maps between them, and the designs that no pose
+//! can hold.
 //!
-//! It knows `num` and `platform`. Nothing in here solves forward kinematics: `synthesis` and `fk` never import each other, so that
-//! agreement of the root sets of two platforms is evidence for the map between them.
+//! It knows `num` and `platform`. Nothing in here solves forward kinematics: `synthesis` and `fk` never import each
+//! other, so that agreement of the root sets of two platforms is evidence for the map between them.
 //!
 //! * [`Family`]: all platforms that are equivalent to an octahedral one.
 //! * [`AffineLegMap`]: `s' = A s + c` between the squared lengths of two platforms.

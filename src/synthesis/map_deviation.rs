@@ -1,12 +1,14 @@
 //! How far the squared lengths of a platform can be from what a leg map says, over a box of poses.
 //!
-//! About the home pose `(R0, p0)`, with `x0 = R0 b0 + p0` for any point `b0` of the platform, `b~ = b - b0`, `a~ = a - x0`, `R = T R0` and `y = R b0 + p - x0`,
+//! About the home pose `(R0, p0)`, with `x0 = R0 b0 + p0` for any point `b0` of the platform, `b~ = b - b0`,
+//! `a~ = a - x0`, `R = T R0` and `y = R b0 + p - x0`,
 //!
 //! ```text
 //! s = |y + R b~ - a~|^2 = |y|^2 + |a~|^2 + |b~|^2 + 2 y.(R b~ - a~) - 2 a~.R b~.
 //! ```
 //!
-//! With `D[f] = f(leg i of TO) - sum_k A_ik f(leg k of FROM)`, which is zero for every `f` below but for rounding where the map is exact,
+//! With `D[f] = f(leg i of TO) - sum_k A_ik f(leg k of FROM)`, which is zero for every `f` below but for rounding where
+//! the map is exact,
 //!
 //! ```text
 //! s'_i - (A s + c)_i = D[1] |y|^2 + (D[|a~|^2 + |b~|^2] - c_i - 2 D[a~.R0 b~]) + 2 y.(R D[b~] - D[a~]) - 2 tr((T - 1) R0 D[b~ a~^T]),
@@ -65,10 +67,11 @@ fn norm<'a>(list: impl IntoIterator<Item = &'a Real>) -> f64 {
 }
 
 impl AffineLegMap {
-    /// For each leg of `to` a bound of `|s(to) - A s(from) - c|` over the box of poses from which a plan draws, units squared.
+    /// For each leg of `to` a bound of `|s(to) - A s(from) - c|` over the box of poses from which a plan draws, units
+    /// squared.
     ///
-    /// It holds for the joints as the doubles they are, without a tolerance: zero but for rounding where the map is exact, and of the size of the differences of the joints
-    /// times that of the platforms where joints are rounded.
+    /// It holds for the joints as the doubles they are, without a tolerance: zero but for rounding where the map is
+    /// exact, and of the size of the differences of the joints times that of the platforms where joints are rounded.
     #[must_use]
     pub fn deviation_bounds(&self, from: &Manipulator, to: &Manipulator, plan: &SamplePlan) -> [f64; 6] {
         let b0 = to.mean_leg_ends()[1];

@@ -5,9 +5,9 @@
 //! the closed side that belongs to `Y` carries two points, one of them is a vertex, and it moves into the side.
 //! (Moving an inner point on its side only changes the value of its offset.)
 //!
-//! A move *splits* a joint when another leg stays behind at `X1`. Only then a joint is added and the topology
-//! changes; otherwise the lone joint `X1` is merely displaced and the topology stays what it was.
-//! Two inner points on one side are reached: the first leg of a pair slides, then the second, which still shares `Y` with it.
+//! A move *splits* a joint when another leg stays behind at `X1`. Only then a joint is added and the topology changes;
+//! otherwise the lone joint `X1` is merely displaced and the topology stays what it was. Two inner points on one side
+//! are reached: the first leg of a pair slides, then the second, which still shares `Y` with it.
 
 use std::collections::BTreeSet;
 

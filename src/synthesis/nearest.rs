@@ -1,19 +1,21 @@
 //! The octahedral platform nearest to a platform: six legs moved as little as possible onto the sides of two triangles.
 //!
-//! A platform with one leg on each side of the hexagon of an octahedral platform ([`edge`]) is equivalent to the octahedral platform where
-//! `det A = prod (1 - t_k) - prod t_k` is not zero; with all `t_k = 0` it is the octahedral platform. Of these platforms the one is sought whose leg ends are nearest:
+//! A platform with one leg on each side of the hexagon of an octahedral platform ([`edge`]) is equivalent to the
+//! octahedral platform where `det A = prod (1 - t_k) - prod t_k` is not zero; with all `t_k = 0` it is the octahedral
+//! platform. Of these platforms the one is sought whose leg ends are nearest:
 //!
 //! ```text
 //! F = sum over the legs of |a - a'|^2 + |b - b'|^2  ->  min,
 //! ```
 //!
-//! with base ends `a` in the frame of the base and platform ends `b` in that of the platform, over the six corners, the six `t_k` between `-e` and
-//! `1 + e`, and the 120 ways to lay six legs round the hexagon. For one way the two bodies are fits of their own: a triangle whose corners are near three points and
-//! the lines of whose sides are near three others. Each is solved by Gauss-Newton steps over the corners (the nearest `t_k` are projections, and `F` with these
+//! with base ends `a` in the frame of the base and platform ends `b` in that of the platform, over the six corners, the
+//! six `t_k` between `-e` and `1 + e`, and the 120 ways to lay six legs round the hexagon. For one way the two bodies
+//! are fits of their own: a triangle whose corners are near three points and the lines of whose sides are near three
+//! others. Each is solved by Gauss-Newton steps over the corners (the nearest `t_k` are projections, and `F` with these
 //! has the gradient that it has with fixed `t_k`), from six starts without random numbers.
 //!
-//! What is found is a local minimum for each way and the least of them; there may be a smaller one. Ways whose minimum has triangles without area,
-//! or `|det A|` below the limit, are set aside and counted.
+//! What is found is a local minimum for each way and the least of them; there may be a smaller one. Ways whose minimum
+//! has triangles without area, or `|det A|` below the limit, are set aside and counted.
 
 use nalgebra::{Point3, SMatrix, SVector, Vector3};
 
@@ -268,8 +270,8 @@ impl TriangleWish {
         TriangleFit { corners: c, t, squares, settled }
     }
 
-    /// The best fit of all starts: the corners as they are, each half-way to the side points before, after and to both, the triangle whose sides have the side points in their middle, and the corners
-    /// twice as far from their mean.
+    /// The best fit of all starts: the corners as they are, each half-way to the side points before, after and to both,
+    /// the triangle whose sides have the side points in their middle, and the corners twice as far from their mean.
     fn best(&self) -> TriangleFit {
         let p = self.corners;
         let q = |s: usize| self.sides[s % 3];
@@ -358,9 +360,11 @@ impl HexagonWay {
 
 /// The octahedral platform nearest to a platform.
 ///
-/// The legs may share joints; those at one joint are moved independently. `None` where no way round the hexagon gives a regular platform.
+/// The legs may share joints; those at one joint are moved independently. `None` where no way round the hexagon gives a
+/// regular platform.
 ///
-/// The sum of squares has the unit of the design squared; the answer scales with the design. The same input gives the same answer.
+/// The sum of squares has the unit of the design squared; the answer scales with the design. The same input gives the
+/// same answer.
 #[must_use]
 pub fn nearest_octahedral(m: &Manipulator, options: &NearestOptions) -> Option<NearestOctahedral> {
     let (legs, size) = (m.legs(), m.size());
@@ -371,7 +375,8 @@ pub fn nearest_octahedral(m: &Manipulator, options: &NearestOptions) -> Option<N
     found.map(|(set_aside, nearest)| NearestOctahedral { set_aside, ..nearest })
 }
 
-/// The 120 ways to lay six legs round the hexagon of an octahedral platform, leg `order[k]` on side `k`, up to its symmetries that keep base and platform.
+/// The 120 ways to lay six legs round the hexagon of an octahedral platform, leg `order[k]` on side `k`, up to its
+/// symmetries that keep base and platform.
 pub(crate) fn hexagon_orders() -> impl Iterator<Item = [usize; 6]> {
     (0..46656_usize).filter_map(|n| {
         let mut rest = n;

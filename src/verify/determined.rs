@@ -14,10 +14,11 @@ pub(super) fn magnitude(p: &ComplexPose, size: f64) -> f64 {
     p.position.iter().map(|z| z.norm() / size).fold(r, f64::max)
 }
 
-/// Whether joints within rounding of the given ones need not have this pose at all: to first order they reach `e.e = 0`, where it is at infinity.
+/// Whether joints within rounding of the given ones need not have this pose at all: to first order they reach
+/// `e.e = 0`, where it is at infinity.
 ///
-/// With `M` the [`magnitude`] of the pose and `kappa` its condition number in dual quaternions, relative errors `eps` of the joints change `e.e` by up to
-/// `2 eps kappa M` of itself (`docs/theory/leg-maps.md`).
+/// With `M` the [`magnitude`] of the pose and `kappa` its condition number in dual quaternions, relative errors `eps`
+/// of the joints change `e.e` by up to `2 eps kappa M` of itself (`docs/theory/leg-maps.md`).
 pub(super) fn is_beyond_precision(root: &FkRoot, size: f64) -> bool {
     let magnitude = magnitude(&root.pose, size);
     magnitude > FAR && 2.0 * ROUNDED * root.condition.max(1.0) * magnitude >= 1.0

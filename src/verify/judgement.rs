@@ -14,7 +14,8 @@ use synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
 /// | unrelated | a leg vector of B is no combination of those of A |
 /// | undecided | it holds within rounding only, or a singular design is within rounding of plain doubles, or joints are known between bounds only |
 ///
-/// The first three are proved about the exact joints or about doubles as written ([`LegMapOutcome::level`]), except for unrelated platforms whose joints are known between bounds only.
+/// The first three are proved about the exact joints or about doubles as written ([`LegMapOutcome::level`]), except for
+/// unrelated platforms whose joints are known between bounds only.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.

@@ -1,13 +1,15 @@
-//! Decides whether two platforms are kinematically equivalent, by two kinds of evidence: the leg map between them, and the poses that forward kinematics of both,
-//! solved independently, finds.
+//! Decides whether two platforms are kinematically equivalent, by two kinds of evidence: the leg map between them, and
+//! the poses that forward kinematics of both, solved independently, finds.
 //!
-//! It knows `num`, `platform`, `fk` and `synthesis`, and is the only room that sees both of the last two: the map is never asked where the poses are, nor the poses what the map is.
+//! It knows `num`, `platform`, `fk` and `synthesis`, and is the only room that sees both of the last two: the map is
+//! never asked where the poses are, nor the poses what the map is.
 //!
 //! * [`Verdict`]: equivalent, not equivalent, singular, or not decided, and at which level.
 //! * [`Verification`]: the verdict with the map and all samples.
 //! * [`Sample`]: one set of lengths, the poses of both platforms, and how they match.
 //!
-//! Two designs are judged by [`judge`] on exact joints first; then lengths are drawn, mapped, and solved twice, and the two sets of poses are matched one to one.
+//! Two designs are judged by [`judge`] on exact joints first; then lengths are drawn, mapped, and solved twice, and the
+//! two sets of poses are matched one to one.
 
 mod determined;
 mod judgement;

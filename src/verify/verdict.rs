@@ -139,8 +139,8 @@ impl InconclusiveReason {
 /// The verdict on two platforms.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// Proved: there is a regular leg map between the joints as they are. Forward kinematics of both, solved independently at the samples, is evidence besides
-    /// ([`Verification::agreeing`]).
+    /// Proved: there is a regular leg map between the joints as they are. Forward kinematics of both, solved
+    /// independently at the samples, is evidence besides ([`Verification::agreeing`]).
     Equivalent,
     /// There is no leg map, which is proved or shown by a pose; the pose where a sample has one.
     NotEquivalent(Option<Box<Counterexample>>),
@@ -187,8 +187,9 @@ pub struct Verification {
     pub verdict: Verdict,
     /// The algebraic side.
     pub map: LegMapOutcome,
-    /// For each leg of B a bound of how far its squared length is from `A s + c` over the box of the sample poses, units squared, for the joints as doubles; `None` where the map is
-    /// proved, so that there is no difference, and where it is singular.
+    /// For each leg of B a bound of how far its squared length is from `A s + c` over the box of the sample poses,
+    /// units squared, for the joints as doubles; `None` where the map is proved, so that there is no difference, and
+    /// where it is singular.
     pub deviation_bounds: Option<[f64; 6]>,
     /// The numerical side; empty for a singular map, where forward kinematics has nothing to compare.
     pub samples: Vec<Sample>,
@@ -261,7 +262,8 @@ impl Verification {
         self.samples.iter().map(|s| s.matching.worst_distance()).fold(0.0, f64::max)
     }
 
-    /// Numbers of poses of A and of B over all samples that have no partner and were set aside: joints within the rounding of the given ones need not have them.
+    /// Numbers of poses of A and of B over all samples that have no partner and were set aside: joints within the
+    /// rounding of the given ones need not have them.
     #[must_use]
     pub fn beyond_precision(&self) -> [usize; 2] {
         let count = |of: fn(&Sample) -> usize| self.samples.iter().map(of).sum();
@@ -317,9 +319,9 @@ fn set_aside(v: &Verification) -> String {
 
 /// Compares platforms A and B, described in the same two frames and units.
 ///
-/// The leg map `s' = A s + c` is derived from the leg vectors alone. Then for each sample pose the forward
-/// kinematics of A is solved by its best method and that of B by the general one, which knows nothing of
-/// the map, and the complex poses are matched. Poses without partner that joints in double precision do not determine are set aside
+/// The leg map `s' = A s + c` is derived from the leg vectors alone. Then for each sample pose the forward kinematics
+/// of A is solved by its best method and that of B by the general one, which knows nothing of the map, and the complex
+/// poses are matched. Poses without partner that joints in double precision do not determine are set aside
 /// (`docs/theory/leg-maps.md`). A regular map and perfect matchings of the others give `Equivalent`.
 ///
 /// # Errors
@@ -468,7 +470,8 @@ fn take_sample(
         None => pose.squared_lengths(b).ok_or(none)?,
     };
     let failed = |platform| move |error| VerifyError::ForwardKinematics { platform, error };
-    // the two sets are compared with each other: poses that joints in double precision do not determine are set aside there, not counted
+    // the two sets are compared with each other: poses that joints in double precision do not determine are set aside
+    // there, not counted
     let options = &options.pose_count(PoseCounting::Never);
     let solutions_a = solver(None).solve(a, &squares_a, options).map_err(failed("A"))?;
     let solutions_b = Homotopy.solve(b, &squares_b, options).map_err(failed("B"))?;

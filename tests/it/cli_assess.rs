@@ -102,7 +102,8 @@ fn a_design_that_requires_nothing_is_told_so() {
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("assess::nothing_required")));
 }
 
-/// Version 0.1.0 said that the platform joints swing 0.2 degrees less than they may; a pose that its searches missed is 0.2 degrees beyond the limit.
+/// Version 0.1.0 said that the platform joints swing 0.2 degrees less than they may; a pose that its searches missed is
+/// 0.2 degrees beyond the limit.
 #[test]
 fn a_worst_pose_that_searches_miss_is_found_by_cells() {
     let path = "tests/fixtures/adversarial/REP_assess.toml";
@@ -143,7 +144,8 @@ fn without_cells_the_design_is_not_called_met() {
     assert_eq!(doc["regular"]["status"], "undecided");
 }
 
-/// The same excursions listed from the base frame and from home are the same; when home is elsewhere only the latter move.
+/// The same excursions listed from the base frame and from home are the same; when home is elsewhere only the latter
+/// move.
 #[test]
 fn poses_listed_from_home_move_with_it() {
     let folder = tempfile::tempdir().unwrap();
@@ -172,7 +174,8 @@ fn poses_listed_from_home_move_with_it() {
     assert!((margin(high, from_home) - margin(low, from_home)).abs() > 1.0);
 }
 
-/// Over a wide workspace the cells do not decide the stiffness: the answer is undecided, with the least value found and a bound below it, and nothing is called met.
+/// Over a wide workspace the cells do not decide the stiffness: the answer is undecided, with the least value found and
+/// a bound below it, and nothing is called met.
 #[test]
 fn a_stiffness_that_cells_do_not_decide_is_not_called_met() {
     let folder = tempfile::tempdir().unwrap();
@@ -204,7 +207,8 @@ fn text_of_home(path: &std::path::Path) -> String {
     format!("{before}{}", &after[after.find("[hardware]").unwrap()..])
 }
 
-/// The masses are a payload of 300 kg on legs of 1e5 N/mm; `motion` computes the same numbers at home by its own formulas.
+/// The masses are a payload of 300 kg on legs of 1e5 N/mm; `motion` computes the same numbers at home by its own
+/// formulas.
 #[test]
 fn stiffness_and_frequency_have_rows_of_their_own() {
     let folder = tempfile::tempdir().unwrap();
@@ -331,7 +335,8 @@ fn a_list_of_poses_is_judged_at_these_poses_and_not_between_them() {
     assert_eq!(doc["judged"]["met_in_words"], "met");
 }
 
-/// The nearest octahedral platform of two triangles had another characteristic length than the design it was made from, and so another conditioning.
+/// The nearest octahedral platform of two triangles had another characteristic length than the design it was made from,
+/// and so another conditioning.
 #[test]
 fn what_is_made_from_a_design_keeps_its_characteristic_length() {
     let folder = tempfile::tempdir().unwrap();

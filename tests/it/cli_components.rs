@@ -82,7 +82,8 @@ fn every_shipped_design() {
     let integer = |c: &Value| c.as_str().unwrap().trim_start_matches('-').chars().all(|d| d.is_ascii_digit());
     assert!(exact["coefficients"].as_array().unwrap().iter().all(integer));
     assert_eq!(exact["parts"][0]["kind"], "cubic");
-    // the platform without shared joints has the six sides again, exactly, since its joints are on the edges by construction
+    // the platform without shared joints has the six sides again, exactly, since its joints are on the edges by
+    // construction
     let doc = of("rbt-griffis-duffy", &[]);
     let lines = doc["components"].as_array().unwrap();
     assert!(

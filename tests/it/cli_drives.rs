@@ -1,4 +1,5 @@
-//! `equipod build drives` as a process: which drives of a table fit, in which order, the design that it writes, refusals.
+//! `equipod build drives` as a process: which drives of a table fit, in which order, the design that it writes,
+//! refusals.
 
 use std::path::Path;
 

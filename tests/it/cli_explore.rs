@@ -29,7 +29,8 @@ fn shipped(name: &str) -> String {
 /// The command on a shipped design, with joints inside their edges: one branch in place of 729.
 fn command(design: &str, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
-    // the octahedral platform has its optimum where joints are beyond corners: between them the search takes twice as long
+    // the octahedral platform has its optimum where joints are beyond corners: between them the search takes twice as
+    // long
     let extension = if design.ends_with("rbt-octahedral.toml") { "0.3" } else { "0" };
     command
         .args(["explore", design, "--samples", "2", "--extension", extension, "-o"])
@@ -252,7 +253,8 @@ fn the_design_is_not_overwritten() {
     );
 }
 
-/// A result that stands where the user has a file, or in the place of a result that the user has changed, is refused by name before anything is computed.
+/// A result that stands where the user has a file, or in the place of a result that the user has changed, is refused by
+/// name before anything is computed.
 #[test]
 fn files_of_the_user_are_not_replaced_and_those_of_an_earlier_run_are() {
     let temp = tempfile::tempdir().unwrap();
@@ -522,7 +524,8 @@ fn holes_of_a_design_that_is_not_octahedral_are_refused() {
     assert_eq!((out.status.code(), &d["error"]["code"]), (Some(2), &Value::from("explore::holes")));
 }
 
-/// The first result once had three base joints a whole side beyond the corners, a base 2.6 times as wide, and 3.5e-8 mm left between platform joints.
+/// The first result once had three base joints a whole side beyond the corners, a base 2.6 times as wide, and 3.5e-8 mm
+/// left between platform joints.
 #[test]
 #[ignore = "evidence"]
 fn the_first_result_stays_near_its_triangles_and_keeps_a_reserve() {

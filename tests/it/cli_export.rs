@@ -1,4 +1,5 @@
-//! `equipod export` as a process: files, refusals, what a format cannot hold. Programs that are not ours read the files in `tests/exports`.
+//! `equipod export` as a process: files, refusals, what a format cannot hold. Programs that are not ours read the files
+//! in `tests/exports`.
 
 use std::path::Path;
 

@@ -1,4 +1,5 @@
-//! What the program writes about itself: completions, manual pages, schemas, the tables of its manual; colours and closed pipes.
+//! What the program writes about itself: completions, manual pages, schemas, the tables of its manual; colours and
+//! closed pipes.
 
 use std::process::{Command, Stdio};
 

@@ -92,7 +92,8 @@ fn the_straight_way_to_another_pose_ends_where_something_binds() {
     assert_eq!((code, &doc["error"]["code"]), (Some(2), &Value::from("usage::no_effect")));
 }
 
-/// Home is three millimetres too high: the nearest allowed pose is below it, where all six legs are as long as they may be.
+/// Home is three millimetres too high: the nearest allowed pose is below it, where all six legs are as long as they may
+/// be.
 #[test]
 fn a_home_out_of_reach_is_led_back_to_an_allowed_pose() {
     let (code, doc) = asked(&["tests/fixtures/home-too-high.toml"]);

@@ -154,7 +154,8 @@ variables = [\"home_height\"]
     assert!(d["conflict"]["requirements"][1]["alone"].as_f64().unwrap() > 0.0);
 }
 
-/// Conflicts are about what the design asks for: a least `|det A|` that it doesn't ask for would add 4.85 mm to the longest leg.
+/// Conflicts are about what the design asks for: a least `|det A|` that it doesn't ask for would add 4.85 mm to the
+/// longest leg.
 #[test]
 #[ignore = "evidence"]
 fn a_conflict_is_about_what_was_asked_for() {
@@ -169,7 +170,8 @@ fn a_conflict_is_about_what_was_asked_for() {
     assert!((alone - 28.194).abs() < 0.01, "{alone}");
 }
 
-/// Each candidate is a file that `assess` judges as the answer says; with other values than the answer, and without the option there are none.
+/// Each candidate is a file that `assess` judges as the answer says; with other values than the answer, and without the
+/// option there are none.
 #[test]
 #[ignore = "evidence"]
 fn other_local_optima_are_judged_and_written_when_they_are_asked_for() {
@@ -359,7 +361,8 @@ fn three_fold_symmetry_is_no_default_where_the_search_cannot_hold_it() {
     assert_eq!(document(&out)["symmetry"]["three_fold"], "kept");
 }
 
-/// Balls on two sides of the base that leave their joints disjoint ranges: platforms with one offset for both do not exist, others do.
+/// Balls on two sides of the base that leave their joints disjoint ranges: platforms with one offset for both do not
+/// exist, others do.
 #[test]
 #[ignore = "evidence"]
 fn the_default_symmetry_is_given_up_where_only_platforms_without_it_meet_the_requirements() {
@@ -515,8 +518,8 @@ fn a_design_whose_legs_cannot_move_has_its_sizes_chosen() {
     assert!(text.contains("no leg of the design can be replaced"), "{text}");
 }
 
-/// The worst-case inverse condition number of a 6-4 platform with legs 1 to 4 moved along their point-line families. Both platform joints that two legs share stay shared: the families of
-/// this platform keep them.
+/// The worst-case inverse condition number of a 6-4 platform with legs 1 to 4 moved along their point-line families.
+/// Both platform joints that two legs share stay shared: the families of this platform keep them.
 #[test]
 #[ignore = "evidence"]
 fn a_shipped_6_4_platform_is_improved_within_its_replaceable_legs() {
@@ -554,8 +557,8 @@ fn a_shipped_6_4_platform_is_improved_within_its_replaceable_legs() {
     assert!(worst(&old) < 0.95 * objective, "{} {objective}", worst(&old));
 }
 
-/// Version 0.1.0 called the first three infeasible, though each has offsets that meet all limits in exact arithmetic, and "proved" a bound of 0.22362 for the
-/// last, where offsets reach 0.24124.
+/// Version 0.1.0 called the first three infeasible, though each has offsets that meet all limits in exact arithmetic,
+/// and "proved" a bound of 0.22362 for the last, where offsets reach 0.24124.
 #[test]
 #[ignore = "evidence"]
 fn problems_that_leave_next_to_nothing_are_never_infeasible_and_bounds_hold() {
@@ -583,7 +586,8 @@ fn fields(d: &Value) -> BTreeSet<String> {
     all.filter(|key| !["schema_version", "provenance", "warnings"].contains(&key.as_str())).collect()
 }
 
-/// Both searches, a front, and answers without a platform: the same fields, those that the schema requires, null where they do not apply.
+/// Both searches, a front, and answers without a platform: the same fields, those that the schema requires, null where
+/// they do not apply.
 #[test]
 #[ignore = "evidence"]
 fn the_answers_of_both_searches_have_the_fields_of_one_schema() {
@@ -697,7 +701,8 @@ variables = {variables}
     )
 }
 
-/// Legs that would run into the plate of the platform: without the plate the best platform does, with it the one found does not, and `assess` says so of both.
+/// Legs that would run into the plate of the platform: without the plate the best platform does, with it the one found
+/// does not, and `assess` says so of both.
 #[test]
 #[ignore = "evidence"]
 fn legs_keep_clear_of_the_plates_where_the_best_platform_would_not() {
@@ -732,7 +737,8 @@ fn legs_keep_clear_of_the_plates_where_the_best_platform_would_not() {
     assert_eq!(assess(folder.path(), "all/optimised.toml").status.code(), Some(0));
 }
 
-/// Bolts at a right angle to the corners of the plate end too near to its outline wherever the joints are: a wider plate resolves it, by what is missing.
+/// Bolts at a right angle to the corners of the plate end too near to its outline wherever the joints are: a wider
+/// plate resolves it, by what is missing.
 #[test]
 #[ignore = "evidence"]
 fn a_wider_plate_is_a_freedom_that_is_tried() {
@@ -805,8 +811,10 @@ fn a_design_names_its_table_of_drives() {
     );
 }
 
-/// Bolts of a base plate at a right angle to the corners: sharp corners leave them too little room. A workspace and an envelope that are wider than deep ask for a base with sharp corners; without the
-/// plate the best platform has them, and `assess` finds the holes too near to the outline. With the plate the one found has blunter corners, just within the limit, and `assess` proves it.
+/// Bolts of a base plate at a right angle to the corners: sharp corners leave them too little room. A workspace and an
+/// envelope that are wider than deep ask for a base with sharp corners; without the plate the best platform has them,
+/// and `assess` finds the holes too near to the outline. With the plate the one found has blunter corners, just within
+/// the limit, and `assess` proves it.
 #[test]
 #[ignore = "evidence"]
 fn holes_keep_their_distance_from_the_outline_where_the_best_platform_would_not() {
@@ -880,7 +888,8 @@ fn what_a_platform_rides_on_is_named_with_what_would_keep_it_away() {
     assert!(!named, "{r}");
 }
 
-/// A usual hexapod whose legs are too short for its workspace: none of them can be replaced, and other sizes with another height cure it.
+/// A usual hexapod whose legs are too short for its workspace: none of them can be replaced, and other sizes with
+/// another height cure it.
 #[test]
 #[ignore = "evidence"]
 fn a_hexapod_without_families_is_cured_by_its_sizes_and_its_height() {

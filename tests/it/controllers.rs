@@ -192,7 +192,8 @@ platform_joint = { model = "universal", first_axis = [[0, 1, 0], [0, 1, 0], [-0.
     parse_with_cranks(&format!("{text}{universal}"), Format::Toml).unwrap().0
 }
 
-/// Near a singularity the corrections may grow away from a pose to another one: then there is no pose, and never the other one.
+/// Near a singularity the corrections may grow away from a pose to another one: then there is no pose, and never the
+/// other one.
 #[test]
 fn a_pose_of_joints_that_are_not_ideal_is_found_from_itself_or_not_at_all() {
     let design = not_ideal();

@@ -1,4 +1,5 @@
-//! Every command that answers a question gives the answer of the others: designs of all kinds are drawn, and each is put to all of them.
+//! Every command that answers a question gives the answer of the others: designs of all kinds are drawn, and each is
+//! put to all of them.
 
 use std::fmt::Write as _;
 
@@ -86,7 +87,8 @@ struct Drawn {
     from: Option<String>,
 }
 
-/// A platform on the edges of an octahedral one, singular on request; as exact joints, as their doubles, or to so many decimals.
+/// A platform on the edges of an octahedral one, singular on request; as exact joints, as their doubles, or to so many
+/// decimals.
 fn moved(rng: &mut Rng, singular: bool, digits: Option<i32>) -> Option<Drawn> {
     let from = octahedral(rng);
     let original: Design = from.parse().unwrap();
@@ -136,7 +138,8 @@ fn drawn(n: u64) -> Option<Drawn> {
     }
 }
 
-/// The exit code and the answer of a command: neither a panic, nor an internal failure, nor a refusal where the design cannot be the reason, is one.
+/// The exit code and the answer of a command: neither a panic, nor an internal failure, nor a refusal where the design
+/// cannot be the reason, is one.
 fn answered(args: &[&str]) -> (i32, Value) {
     let (code, answer) = asked(args);
     let may_refuse = ["family", "components"].contains(&args[1]);
@@ -209,7 +212,8 @@ fn swept(design: &str) -> Value {
     Value::Null
 }
 
-/// What the page records of the design: that it is singular, as the platform shown first or as the equivalent that the page starts with.
+/// What the page records of the design: that it is singular, as the platform shown first or as the equivalent that the
+/// page starts with.
 fn on_the_page(design: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("page.html");

@@ -42,7 +42,8 @@ fn the_distance_method_and_the_homotopy_certify_the_same_poses() {
 
 #[test]
 fn designs_with_fewer_poses_are_not_called_complete_without_proof() {
-    // lengths that no generic argument covers: base and platform in planes, all joints of the base on a line with two exceptions
+    // lengths that no generic argument covers: base and platform in planes, all joints of the base on a line with two
+    // exceptions
     let topology = catalogue().into_iter().find(|t| t.id() == "T02").unwrap();
     let class = Class::Topology { topology, planar: Planar::Both };
     let member = problem(class, LengthsFrom::Pose, 3, 0).unwrap();

@@ -1,4 +1,5 @@
-//! Agreement is evidence only between computations that share no code: poses stay apart from leg maps, and certificates from solvers.
+//! Agreement is evidence only between computations that share no code: poses stay apart from leg maps, and certificates
+//! from solvers.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

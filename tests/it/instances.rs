@@ -70,7 +70,8 @@ pub(crate) fn conics() -> [Manipulator; 3] {
     ]
 }
 
-/// Two planes that no map relates: five legs in general position and the sixth leg that lies in the span of their vectors.
+/// Two planes that no map relates: five legs in general position and the sixth leg that lies in the span of their
+/// vectors.
 fn planar() -> Manipulator {
     let base = [[0., -3.], [-2., 3.], [-6., 1.], [0., 1.], [-2., -3.], [-5., 3.]];
     let platform = [[-5., 1.], [1., -1.], [2., 4.], [-7., 7.], [-7., -1.], [0., 2.]];

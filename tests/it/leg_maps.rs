@@ -93,7 +93,8 @@ fn the_singular_line_and_the_midpoints() {
     for d2 in [0.6, 1.0, 3.0, 4.5, 7.2] {
         let d1 = 12.0 - 2.0 * d2; // Delta1 / 12 + Delta2 / 6 = 1
         let outcome = map(&o, &rbt_six_six(d1, d2));
-        // singular as the numbers they are, or within rounding of it, which is not a verdict; 0.1.0 said singular by a tolerance
+        // singular as the numbers they are, or within rounding of it, which is not a verdict; 0.1.0 said singular by a
+        // tolerance
         let undecided = matches!(outcome.relation, Relation::Singular | Relation::Undecided);
         assert!(undecided, "{d1} {d2}: {outcome:?}");
         assert!(outcome.inverse_condition < 1e-13 && outcome.determinant.abs() < 1e-13);

@@ -1,4 +1,5 @@
-//! The octahedral design that tests of `optimize` and `explore` begin with; `tests/python/test_package.py` reads the same file.
+//! The octahedral design that tests of `optimize` and `explore` begin with; `tests/python/test_package.py` reads the
+//! same file.
 
 /// Joints and legs alone.
 pub(crate) const DESIGN: &str = include_str!("../fixtures/octahedral-12-6.toml");

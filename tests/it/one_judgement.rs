@@ -1,4 +1,5 @@
-//! One judgement for each question: the commands that ask whether a design is singular, or two are equivalent, say the same word, with the same level and exit code.
+//! One judgement for each question: the commands that ask whether a design is singular, or two are equivalent, say the
+//! same word, with the same level and exit code.
 
 use equipod::methods::manipulator::Level;
 use equipod::methods::num::Rng;
@@ -92,7 +93,8 @@ fn a_joint_off_its_edge_is_refuted_by_all_commands_alike() {
     assert_eq!((code, word.as_str()), (Some(0), "equivalent"));
 }
 
-/// Two legs between the same two points are a platform that can be asked about, whether the points have one name or two.
+/// Two legs between the same two points are a platform that can be asked about, whether the points have one name or
+/// two.
 #[test]
 fn coincident_legs_are_singular_under_one_name_and_under_two() {
     let folder = tempfile::tempdir().unwrap();
@@ -122,7 +124,8 @@ fn coincident_legs_are_singular_under_one_name_and_under_two() {
     }
 }
 
-/// Singular with square roots in its joints: that it moves is proved about these, and not found by tracing their doubles.
+/// Singular with square roots in its joints: that it moves is proved about these, and not found by tracing their
+/// doubles.
 #[test]
 fn exact_joints_prove_that_a_singular_platform_moves() {
     for name in ["exact-midline-sqrt3", "gd-exact-singular"] {
@@ -236,7 +239,8 @@ P6 = { radius = "4*sqrt(2)", angle_deg = 270 }
 "#,
 ];
 
-/// Offsets in twentieths for the points of a pattern; on request such that `det A = 0`, where the pattern can be singular without two joints in one place.
+/// Offsets in twentieths for the points of a pattern; on request such that `det A = 0`, where the pattern can be
+/// singular without two joints in one place.
 fn offsets(pattern: &Pattern, singular: bool, rng: &mut Rng) -> Vec<f64> {
     let mut draw = || 1 + (rng.next_u64() % 18).cast_signed();
     let list = pattern.offsets();
@@ -256,7 +260,8 @@ fn offsets(pattern: &Pattern, singular: bool, rng: &mut Rng) -> Vec<f64> {
     twentieths.into_iter().map(|n| n as f64 / 20.0).collect()
 }
 
-/// `check`, `leg_map` and `verify`, both ways, of a platform made exactly from an octahedral one say what the formula of `det A` says.
+/// `check`, `leg_map` and `verify`, both ways, of a platform made exactly from an octahedral one say what the formula
+/// of `det A` says.
 ///
 /// `EVIDENCE=full` goes through all 728 patterns of the class, every other one on each of the platforms.
 #[test]

@@ -1,4 +1,5 @@
-//! One question, one answer: what the best platform is, asked of the library, of `optimize`, of `explore` and of a sweep. `tests/python/test_package.py` asks the package.
+//! One question, one answer: what the best platform is, asked of the library, of `optimize`, of `explore` and of a
+//! sweep. `tests/python/test_package.py` asks the package.
 
 use equipod::prelude::*;
 use serde_json::Value;

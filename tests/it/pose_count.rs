@@ -36,7 +36,8 @@ fn at_home(m: &Manipulator, p: [f64; 3]) -> SquaredLegLengths {
     Pose { rotation: Rotation3::identity(), position: p.into() }.squared_lengths(m).unwrap()
 }
 
-/// What every answer has to hold to: complete only with as many certified poses as are counted, and never more than that.
+/// What every answer has to hold to: complete only with as many certified poses as are counted, and never more than
+/// that.
 fn holds_to_its_count(found: &FkSolutions) {
     let Some(count) = &found.pose_count else {
         assert!(matches!(found.completeness, Completeness::Proved { .. }), "{:?}", found.completeness);
@@ -69,7 +70,8 @@ fn assert_on(m: &Manipulator, s: &SquaredLegLengths, poses: &[Pose]) {
     }
 }
 
-/// Similar bodies, one twice the other: sixteen poses of planar ones by a theorem, twenty-four of spatial ones by the count alone.
+/// Similar bodies, one twice the other: sixteen poses of planar ones by a theorem, twenty-four of spatial ones by the
+/// count alone.
 #[test]
 fn special_platforms_of_exact_joints_are_complete_modulo_primes() {
     for seed in 0..6 {
@@ -92,7 +94,8 @@ fn special_platforms_of_exact_joints_are_complete_modulo_primes() {
     }
 }
 
-/// The same with joints rounded after a turn: a general platform as written, with 24 more poses far out. Whatever is found of them, the answer says what is missing.
+/// The same with joints rounded after a turn: a general platform as written, with 24 more poses far out. Whatever is
+/// found of them, the answer says what is missing.
 #[test]
 #[ignore = "evidence"]
 fn rounded_special_platforms_are_not_called_complete_with_the_poses_of_the_exact_ones() {
@@ -166,7 +169,8 @@ fn bodies_that_turn_freely_are_seen_and_a_real_pose_is_given() {
     }
 }
 
-/// Designs on which 0.1.0 answered wrongly, as their authors give them: a sphere of poses and a line of poses. `nearly_special` has those with 40 poses.
+/// Designs on which 0.1.0 answered wrongly, as their authors give them: a sphere of poses and a line of poses.
+/// `nearly_special` has those with 40 poses.
 #[test]
 fn designs_that_were_answered_wrongly() {
     let run = |name: &str, command: &[&str]| {

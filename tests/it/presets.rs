@@ -42,7 +42,8 @@ fn the_presets_are_the_files_of_their_folder() {
     }
 }
 
-/// Lines with a figure, up to the key or table they belong to, that say neither where it is from nor that it was chosen.
+/// Lines with a figure, up to the key or table they belong to, that say neither where it is from nor that it was
+/// chosen.
 fn unexplained(text: &str) -> Vec<String> {
     let mut explained = false; // by the comment of the table
     let mut before = "";

@@ -1,4 +1,5 @@
-//! The table of equivalent rearrangements: every design it names by the leg map, by poses, and against the documentation.
+//! The table of equivalent rearrangements: every design it names by the leg map, by poses, and against the
+//! documentation.
 
 use equipod::methods::equivalence::{InconclusiveReason, Verdict, verify};
 use equipod::methods::fk::FkOptions;

@@ -72,7 +72,8 @@ fn the_general_solver_finds_every_reference_root() {
             worst = worst.max(d);
             good &= near.is_some_and(|n| (n.reality == Reality::Real) == *real);
         }
-        // special platforms as rounded have further poses far out, which the reference leaves out: they are counted as missing
+        // special platforms as rounded have further poses far out, which the reference leaves out: they are counted as
+        // missing
         let complete = found.is_complete() || found.missing().is_some_and(|n| n > 0);
         good &= worst < 1e-8 && found.roots.len() >= r.solutions.len() && complete;
         let _ = writeln!(

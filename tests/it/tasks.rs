@@ -1,5 +1,6 @@
-//! The tasks of a newcomer, `docs/tasks.md`, and the guides: every command is run as it stands there, in an empty folder; the commands of the other pages
-//! beside the shipped designs. A design that the answer of a command calls good is given to `equipod assess`, which has to agree.
+//! The tasks of a newcomer, `docs/tasks.md`, and the guides: every command is run as it stands there, in an empty
+//! folder; the commands of the other pages beside the shipped designs. A design that the answer of a command calls good
+//! is given to `equipod assess`, which has to agree.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -85,7 +86,8 @@ fn faults(page: &str, folder: &Path) -> Vec<String> {
     faults
 }
 
-/// Runs a command line in a folder, judges its answer, and returns its exit code and what it shows: the answer as data, unless words for people are asked for.
+/// Runs a command line in a folder, judges its answer, and returns its exit code and what it shows: the answer as data,
+/// unless words for people are asked for.
 fn run(command: &str, words_wanted: bool, folder: &Path, faults: &mut Vec<String>) -> (Option<i32>, String) {
     // quotes are for a shell
     let words: Vec<String> = command.split(' ').map(|w| w.trim_matches('\'').to_owned()).collect();
@@ -109,7 +111,8 @@ fn equipod_in(folder: &Path, words: &[String]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_equipod")).current_dir(folder).args(words).output().unwrap()
 }
 
-/// The answer of a command against what `assess` says of the designs that the answer is about: those that are new, else those that were read.
+/// The answer of a command against what `assess` says of the designs that the answer is about: those that are new, else
+/// those that were read.
 fn judged(words: &[String], folder: &Path) -> (Output, Vec<String>) {
     let before = designs(folder);
     let mut all = words[1..].to_vec();
@@ -130,7 +133,8 @@ fn judged(words: &[String], folder: &Path) -> (Output, Vec<String>) {
     (out, contradictions(&answer, &judged))
 }
 
-/// Designs of a folder and of those below it by their paths, with their texts. What `explore` names the original is the design that it has read.
+/// Designs of a folder and of those below it by their paths, with their texts. What `explore` names the original is the
+/// design that it has read.
 fn designs(folder: &Path) -> BTreeMap<String, String> {
     let mut out = BTreeMap::new();
     let mut open = vec![folder.to_path_buf()];
@@ -162,7 +166,8 @@ fn judges(command: &str) -> bool {
     verbs.iter().any(|verb| of(verb)) && !command.ends_with("--help")
 }
 
-/// Whether an answer calls a design good, by the fields that say so: of a table of requirements, of a search, of a candidate.
+/// Whether an answer calls a design good, by the fields that say so: of a table of requirements, of a search, of a
+/// candidate.
 fn calls_good(answer: &Value) -> bool {
     let met = |v: &Value| v["met"] == true || v["assessment"]["met"] == true || v["fulfilled"] == true;
     let each = |key: &str| answer[key].as_array().is_some_and(|list| list.iter().any(met));
@@ -186,7 +191,8 @@ fn is_refused(design: &str, folder: &Path) -> bool {
     refused
 }
 
-/// Where an answer calls designs good that `assess` refuses: the only one or all of them, or a candidate whose file has its number.
+/// Where an answer calls designs good that `assess` refuses: the only one or all of them, or a candidate whose file has
+/// its number.
 fn contradictions(answer: &Value, judged: &[(String, bool)]) -> Vec<String> {
     let mut out = Vec::new();
     if calls_good(answer) && !judged.is_empty() && judged.iter().all(|(_, good)| !good) {
@@ -289,7 +295,8 @@ fn praise_that_assess_does_not_share_is_found_out() {
     ] {
         assert_eq!(found(none.clone(), &[("x.toml", false)]), 0, "{none}");
     }
-    // the program itself: a design that misses a limit is refused, one without limits is not, and a table of joints is no design
+    // the program itself: a design that misses a limit is refused, one without limits is not, and a table of joints is
+    // no design
     let folder = tempfile::tempdir().unwrap();
     let text = read("designs/rbt-octahedral.toml");
     fs::write(folder.path().join("good.toml"), &text).unwrap();
@@ -330,7 +337,8 @@ const LEFT_OUT: [(&str, &str); 14] = [
     ("equipod explore designs/rbt-octahedral.toml -o DIR", "docs/cli.md has the same"),
 ];
 
-/// Commands that a page asks its reader to type: lines of blocks for a shell, indented lines, and what stands in a sentence with a shipped design.
+/// Commands that a page asks its reader to type: lines of blocks for a shell, indented lines, and what stands in a
+/// sentence with a shipped design.
 fn examples(page: &str) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     let mut block: Option<bool> = None;
@@ -360,7 +368,8 @@ fn examples(page: &str) -> Vec<String> {
     out
 }
 
-/// The pages whose commands are not run by another test: those of `docs` and the first one, without the lists of fields and the tasks.
+/// The pages whose commands are not run by another test: those of `docs` and the first one, without the lists of fields
+/// and the tasks.
 fn pages() -> Vec<(String, String)> {
     let first = read("README.md");
     let (before, own) = first.split_once("\n## Your own hexapod").unwrap();

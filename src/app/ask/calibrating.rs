@@ -15,8 +15,9 @@ use platform::geom::Pose;
 use platform::manipulator::Body;
 
 impl Design {
-    /// The joints and leg offsets of the machine that was built from this design, from poses and lengths that were measured on it: in the frames of the measured poses,
-    /// with standard deviations, and with what says how far to trust them. Offsets of an earlier calibration are taken as nominal.
+    /// The joints and leg offsets of the machine that was built from this design, from poses and lengths that were
+    /// measured on it: in the frames of the measured poses, with standard deviations, and with what says how far to
+    /// trust them. Offsets of an earlier calibration are taken as nominal.
     ///
     /// ```
     /// use equipod::methods::calibration::{CalibrateOptions, CalibrationStatus, Measurement};
@@ -39,7 +40,8 @@ impl Design {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Calibration`]: measurements or options with which nothing can be computed. That measurements do not say everything is an answer.
+    /// [`Error::Calibration`]: measurements or options with which nothing can be computed. That measurements do not say
+    /// everything is an answer.
     pub fn calibrate(
         &self,
         measurements: &[Measurement],
@@ -54,7 +56,8 @@ impl Design {
         LegModel::new(self.manipulator(), self.leg_offsets())
     }
 
-    /// The design with calibrated joints and the table `[calibration]`, in the frames of the measurements or, with `frames`, in its own.
+    /// The design with calibrated joints and the table `[calibration]`, in the frames of the measurements or, with
+    /// `frames`, in its own.
     ///
     /// # Errors
     /// Joints that make no manipulator.
@@ -96,8 +99,8 @@ impl Design {
         Ok(out)
     }
 
-    /// What the calibration of the design does not know of the machine, by its standard deviations and their correlations; zero for joints and offsets of which it says nothing.
-    /// `None` where it has no deviation at all.
+    /// What the calibration of the design does not know of the machine, by its standard deviations and their
+    /// correlations; zero for joints and offsets of which it says nothing. `None` where it has no deviation at all.
     #[must_use]
     pub fn machine_uncertainty(&self) -> Option<MachineUncertainty> {
         let table = self.calibration.as_ref()?;
@@ -115,7 +118,8 @@ impl Design {
         MachineUncertainty::new(&deviations, &matrix)
     }
 
-    /// Poses that may be measured: those of the workspace at which all requirements of the design are met, about `count` and as many random ones looked at.
+    /// Poses that may be measured: those of the workspace at which all requirements of the design are met, about
+    /// `count` and as many random ones looked at.
     pub fn measurable_poses(&self, count: usize, seed: u64) -> Vec<Pose> {
         let home = self.home_or_default();
         let space = self.workspace_or_default().space(&home);

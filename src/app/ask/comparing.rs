@@ -35,7 +35,8 @@ pub struct FigureOptions<'a> {
     pub characteristic_length: f64,
 }
 
-/// Figures of a design over the poses of its workspace, at home where it states none. What a design says nothing about has none; an infinite force stands for a singular pose.
+/// Figures of a design over the poses of its workspace, at home where it states none. What a design says nothing about
+/// has none; an infinite force stands for a singular pose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignFigures {
     /// What `assess` says; `None` where nothing is required.
@@ -101,7 +102,8 @@ pub struct Separation {
     pub radius: [[f64; 2]; 2],
 }
 
-/// What cranks do over the poses. Poses that a rod does not reach count for nothing here; `assess` says that there are some.
+/// What cranks do over the poses. Poses that a rod does not reach count for nothing here; `assess` says that there are
+/// some.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrankFigures {
     /// Least and greatest angle, degrees; `None` where no pose is reached.
@@ -269,7 +271,8 @@ impl Design {
         (0..6).map(of).reduce(f64::max)
     }
 
-    /// The lowest natural frequency at a pose, hertz; `None` without the stiffness of the legs, and where no inertia is held against turns.
+    /// The lowest natural frequency at a pose, hertz; `None` without the stiffness of the legs, and where no inertia is
+    /// held against turns.
     pub fn lowest_frequency(&self, pose: &Pose, masses: &MotionMasses) -> Option<f64> {
         let m = self.manipulator();
         let stiffness = masses.per_second_squared(self.hardware.leg_stiffness?);

@@ -1,4 +1,5 @@
-//! Which drives of a table fit a design: every requirement with the lengths, the force and the speed of the drive as limits, and along motions.
+//! Which drives of a table fit a design: every requirement with the lengths, the force and the speed of the drive as
+//! limits, and along motions.
 
 use std::cmp::Ordering;
 
@@ -23,7 +24,8 @@ pub struct DriveFit {
 }
 
 impl DriveFit {
-    /// Whether the drive fits: proved for every pose of the workspace and without a violation at the instants of the motions; refuted; or `None`.
+    /// Whether the drive fits: proved for every pose of the workspace and without a violation at the instants of the
+    /// motions; refuted; or `None`.
     pub fn fits(&self) -> Option<bool> {
         let along =
             |m: &MotionReport| m.singular.is_none() && m.margins.iter().all(|m| m.margin.standing.is_met());
@@ -46,7 +48,8 @@ impl DriveFit {
         self.assessed.met_with_reserve()
     }
 
-    /// Drives that fit first, then those that are undecided; among them the cheapest first, then the lightest, then as in the table. What has no price or mass comes last.
+    /// Drives that fit first, then those that are undecided; among them the cheapest first, then the lightest, then as
+    /// in the table. What has no price or mass comes last.
     fn order(&self, other: &Self) -> Ordering {
         let rank = |fit: &Self| match fit.fits() {
             Some(true) => 0,
@@ -79,8 +82,9 @@ impl Design {
         DesignUnits { length: &self.units, force: self.force_unit(), mass: self.mass_unit() }
     }
 
-    /// The design with a drive in each leg: its lengths, and what is known of its force, speed and stiffness, become those of `[hardware]`. Where both the drive and the legs of
-    /// the design have masses, those of cylinder and rod are multiplied alike, so that their sum is the mass of the drive; the mass in place of what turns in it stays.
+    /// The design with a drive in each leg: its lengths, and what is known of its force, speed and stiffness, become
+    /// those of `[hardware]`. Where both the drive and the legs of the design have masses, those of cylinder and rod
+    /// are multiplied alike, so that their sum is the mass of the drive; the mass in place of what turns in it stays.
     /// Everything else is as it was.
     pub fn with_drive(&self, drive: &Drive) -> Self {
         let mut out = self.clone();
@@ -102,7 +106,8 @@ impl Design {
         out
     }
 
-    /// Every drive of a table, the one to take first: those that fit by price, then mass. What no drive changes is proved once for all of them.
+    /// Every drive of a table, the one to take first: those that fit by price, then mass. What no drive changes is
+    /// proved once for all of them.
     ///
     /// `metres` is the length of a design unit; without it no forces are computed along motions.
     pub fn fit_drives(
@@ -130,7 +135,8 @@ impl Design {
         all
     }
 
-    /// The lightest drive of a table that is proved to suffice; those without a mass come last. Drives are looked at by their mass until one suffices.
+    /// The lightest drive of a table that is proved to suffice; those without a mass come last. Drives are looked at by
+    /// their mass until one suffices.
     pub fn lightest_drive<'t>(&self, drives: &'t [Drive], seed: u64) -> LightestDrive<'t> {
         let mut order: Vec<&Drive> = drives.iter().collect();
         let mass = |d: &Drive| d.mass.unwrap_or(f64::INFINITY);
@@ -167,8 +173,9 @@ impl Design {
         AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning }
     }
 
-    /// What is proved of some requirements, with as many cells as decide them and no more than a search gets. A lost reserve alone does not end it, as it does where a whole design is judged: whether
-    /// the drive fits is the question.
+    /// What is proved of some requirements, with as many cells as decide them and no more than a search gets. A lost
+    /// reserve alone does not end it, as it does where a whole design is judged: whether the drive fits is the
+    /// question.
     fn proved(&self, required: &Requirements, seed: u64) -> MarginProof {
         let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
         let mut found = MarginProof { bounds: Vec::new(), poses: 0 };

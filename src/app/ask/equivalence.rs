@@ -91,8 +91,9 @@ impl<'a> VerifyOptions<'a> {
     }
 }
 
-/// Are two platforms kinematically equivalent? The leg map says so algebraically, and forward kinematics of both, which knows nothing of
-/// the map, agrees or disagrees at lengths of random poses of `a`. Both are described in the same two frames and units.
+/// Are two platforms kinematically equivalent? The leg map says so algebraically, and forward kinematics of both, which
+/// knows nothing of the map, agrees or disagrees at lengths of random poses of `a`. Both are described in the same two
+/// frames and units.
 ///
 /// ```
 /// use equipod::prelude::*;
@@ -128,8 +129,8 @@ pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result
     Ok(found)
 }
 
-/// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none: decided in exact arithmetic on the joints as the designs say
-/// them, with the level of the proof.
+/// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none:
+/// decided in exact arithmetic on the joints as the designs say them, with the level of the proof.
 ///
 /// # Errors
 /// Designs in different units; a decomposition that does not converge.

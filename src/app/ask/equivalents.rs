@@ -27,14 +27,16 @@ pub struct Original {
     on_edges: [[String; 2]; 6],
     /// The design seen as one of its equivalents, when it is not octahedral itself.
     pub seen: Option<(Pattern, Vec<f64>)>,
-    /// The leg map from the octahedral platform to the design, where they are two: decided as everywhere, on the exact joints.
+    /// The leg map from the octahedral platform to the design, where they are two: decided as everywhere, on the exact
+    /// joints.
     pub map: Option<LegMapOutcome>,
 }
 
 /// What a design has to do with an octahedral platform.
 #[derive(Debug, Clone)]
 pub enum Origins {
-    /// It is one, or made from one by offsets along the sides of its triangles; within rounding or singular, as the map says.
+    /// It is one, or made from one by offsets along the sides of its triangles; within rounding or singular, as the map
+    /// says.
     Of(Box<Original>),
     /// It looks like one that is made so, and is proved not to be equivalent to it.
     Refuted(Box<LegMapOutcome>),
@@ -43,8 +45,8 @@ pub enum Origins {
 }
 
 impl Original {
-    /// The octahedral platform a design is or, without shared joints, is made of by offsets along the sides of two triangles; `None` for
-    /// other designs.
+    /// The octahedral platform a design is or, without shared joints, is made of by offsets along the sides of two
+    /// triangles; `None` for other designs.
     pub fn of(design: &Design) -> Option<Self> {
         match Self::behind(design) {
             Origins::Of(original) => Some(*original),
@@ -88,7 +90,8 @@ impl Original {
         }
     }
 
-    /// A design of Griffis-Duffy type: its joints at the corners are those of the original, leg on side `k` becomes leg `k` of the cycle.
+    /// A design of Griffis-Duffy type: its joints at the corners are those of the original, leg on side `k` becomes leg
+    /// `k` of the cycle.
     fn griffis_duffy(design: &Design) -> Option<Self> {
         let m = design.manipulator();
         let found = GriffisDuffy::recognise(m)?;
@@ -200,7 +203,8 @@ fn free_name(design: &Design, side: usize, second: bool) -> String {
     name
 }
 
-/// Every platform equivalent to an octahedral one: patterns of joints on the sides of its triangles, and the designs they make.
+/// Every platform equivalent to an octahedral one: patterns of joints on the sides of its triangles, and the designs
+/// they make.
 #[derive(Debug, Clone)]
 pub struct Equivalents {
     original: Original,
@@ -234,7 +238,8 @@ impl Equivalents {
         self.family.get_or_init(Family::octahedral)
     }
 
-    /// The platform of a pattern as a design, and the leg map from the octahedral platform to it; one offset for each inner point, as a fraction of its side.
+    /// The platform of a pattern as a design, and the leg map from the octahedral platform to it; one offset for each
+    /// inner point, as a fraction of its side.
     ///
     /// # Errors
     /// Offsets that are too few or too many, not finite, or make no platform.
@@ -246,7 +251,8 @@ impl Equivalents {
         self.original.equivalent(pattern, offsets)
     }
 
-    /// The platform without shared joints at these offsets, one for each side of the hexagon of legs, and the leg map to it.
+    /// The platform without shared joints at these offsets, one for each side of the hexagon of legs, and the leg map
+    /// to it.
     ///
     /// # Errors
     /// Offsets that are not finite or make no platform.
@@ -264,12 +270,14 @@ pub struct NearestDesigns {
     pub found: NearestOctahedral,
     /// The octahedral platform; its corners have the names of the joints that moved there.
     pub octahedral: Design,
-    /// The platform equivalent to it with every leg next to that of the design; its joints on sides are constructed from the corners.
+    /// The platform equivalent to it with every leg next to that of the design; its joints on sides are constructed
+    /// from the corners.
     pub beside: Design,
 }
 
 impl NearestDesigns {
-    /// The nearest octahedral platform of a design; `None` where no way to lay its legs round a hexagon gives a regular platform.
+    /// The nearest octahedral platform of a design; `None` where no way to lay its legs round a hexagon gives a regular
+    /// platform.
     pub fn of(design: &Design, options: &NearestOptions) -> Option<Self> {
         let found = nearest_octahedral(design.manipulator(), options)?;
         let ends = found.ends();

@@ -7,8 +7,8 @@ use machine::manufacture::equivalent_octahedral;
 use platform::manipulator::{Manipulator, Octahedral};
 use synthesis::{LegMapTolerances, leg_map};
 
-/// The octahedral platform that controllers may compute the poses of a design by: that of a design with one joint on each side of two triangles. `None` for a
-/// design that is octahedral itself, and for others.
+/// The octahedral platform that controllers may compute the poses of a design by: that of a design with one joint on
+/// each side of two triangles. `None` for a design that is octahedral itself, and for others.
 pub fn octahedral_of_controllers(design: &Design) -> Option<EquivalentOctahedral> {
     let m = design.manipulator();
     if Octahedral::recognise(&Manipulator::from_legs(m.legs()).ok()?).is_ok() {

@@ -11,8 +11,8 @@ use files::design::{Format, SeriesKind, Warning};
 use platform::geom::InvalidPose;
 
 impl Design {
-    /// Reads a design file, TOML or, where the name ends in `.json`, JSON, and the table of its trajectory where it names one. What is allowed but
-    /// often a slip is in [`warnings`](Self::warnings).
+    /// Reads a design file, TOML or, where the name ends in `.json`, JSON, and the table of its trajectory where it
+    /// names one. What is allowed but often a slip is in [`warnings`](Self::warnings).
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -51,8 +51,8 @@ impl Design {
         Ok(design)
     }
 
-    /// Writes the design, as JSON where the name ends in `.json`, else as TOML with the comments of the file it is from ([`text`](files::design::DesignModel::text)). The file
-    /// appears whole or not at all.
+    /// Writes the design, as JSON where the name ends in `.json`, else as TOML with the comments of the file it is from
+    /// ([`text`](files::design::DesignModel::text)). The file appears whole or not at all.
     ///
     /// # Errors
     /// A file that cannot be written.

@@ -39,7 +39,8 @@ pub struct CheckReport {
     pub conditioning: Conditioning,
     /// Finite poses, real and complex, for generic leg lengths: no lengths have more isolated ones.
     pub pose_count: PoseCount,
-    /// The common points of the legs for generic lengths, by where they are; `None` where the poses are not isolated or not counted.
+    /// The common points of the legs for generic lengths, by where they are; `None` where the poses are not isolated or
+    /// not counted.
     pub common_points: Option<CommonPoints>,
     /// The theorem with the smallest bound on the isolated finite poses, for all lengths.
     pub pose_bound: Theorem,
@@ -252,7 +253,8 @@ impl std::fmt::Display for AssessReport {
 /// Cells over which `det J` is bounded in the search for the largest region without singular poses, at most.
 pub const BOX_CELLS: usize = 30_000;
 
-/// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at most.
+/// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at
+/// most.
 pub(super) const ASSESS_CELLS: usize = 6000;
 
 /// The same for what fewer leave undecided: a search drives margins to zero, where proofs need many.
@@ -290,8 +292,8 @@ pub(super) fn deciding(seed: u64) -> AssessOptions {
 }
 
 impl Design {
-    /// Whether the design is architecturally singular, so that no pose can hold the platform: decided exactly, explained, and how far away a singular
-    /// design is.
+    /// Whether the design is architecturally singular, so that no pose can hold the platform: decided exactly,
+    /// explained, and how far away a singular design is.
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -353,7 +355,8 @@ impl Design {
         })
     }
 
-    /// By how much the design meets its requirements over its whole workspace, and whether that is proved. What 6,000 cells of the workspace leave undecided gets 60,000.
+    /// By how much the design meets its requirements over its whole workspace, and whether that is proved. What 6,000
+    /// cells of the workspace leave undecided gets 60,000.
     ///
     /// # Errors
     /// [`Error::NothingRequired`] where the design requires nothing.
@@ -361,7 +364,8 @@ impl Design {
         self.assess_by(&AssessOptions::default(), None, &mut |_| {})
     }
 
-    /// As [`assess_with`](Self::assess_with), where a number of cells is given; without one as [`assess`](Self::assess).
+    /// As [`assess_with`](Self::assess_with), where a number of cells is given; without one as
+    /// [`assess`](Self::assess).
     ///
     /// # Errors
     /// [`Error::NothingRequired`] where the design requires nothing.
@@ -427,7 +431,8 @@ impl Design {
             .unwrap_or_else(|| least_conditioning(m, &space, options, length))
     }
 
-    /// What [`assess`](Self::assess) decides, with this seed: what every answer that judges a design begins with. `None` where the design requires nothing.
+    /// What [`assess`](Self::assess) decides, with this seed: what every answer that judges a design begins with.
+    /// `None` where the design requires nothing.
     ///
     /// Proofs end where they decide: the proved margins may be smaller than those of `assess`.
     pub fn assessed(&self, seed: u64) -> Option<AssessReport> {
@@ -443,7 +448,8 @@ impl Design {
         self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, &mut |_| {}).ok()
     }
 
-    /// The same with the conditioning by a given length, that of all designs of a comparison; the conditioning also where the design requires nothing.
+    /// The same with the conditioning by a given length, that of all designs of a comparison; the conditioning also
+    /// where the design requires nothing.
     pub fn assessed_beside(&self, seed: u64, length: f64) -> (Option<AssessReport>, LeastConditioning) {
         let options = deciding(seed);
         let found = self.decided_by(&options, length);
@@ -451,7 +457,8 @@ impl Design {
         (found, conditioning.unwrap_or_else(|| self.least_conditioning(&options, length)))
     }
 
-    /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half the size and 30 degrees either way.
+    /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half
+    /// the size and 30 degrees either way.
     pub fn box_options(&self, regions: usize, seed: u64) -> BoxOptions {
         let w = &self.workspace;
         let (region, translation, rotation_deg) = if w.has_box() {
@@ -475,7 +482,8 @@ impl Design {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NotOctahedral`] for a design that is neither octahedral nor made from an octahedral one by offsets along the sides of its triangles.
+    /// [`Error::NotOctahedral`] for a design that is neither octahedral nor made from an octahedral one by offsets
+    /// along the sides of its triangles.
     pub fn equivalents(&self) -> Result<Equivalents, Error> {
         Ok(Equivalents::of(self)?)
     }

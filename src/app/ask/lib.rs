@@ -1,6 +1,7 @@
 //! Asks: one function for each question, which every door calls.
 //!
-//! It knows all rooms below. It computes nothing by itself: each question names the modules that answer it, with their defaults.
+//! It knows all rooms below. It computes nothing by itself: each question names the modules that answer it, with their
+//! defaults.
 //!
 //! * [`Design`]: a platform with names, units, home pose and requirements; its methods are the questions.
 //! * [`Kinematics`]: the questions that need a platform alone.

@@ -107,9 +107,11 @@ pub struct MotionInstant {
     pub time: f64,
     /// Where the platform is and how it moves.
     pub state: MotionState,
-    /// The legs, design units and seconds; of cranks the angles, degrees and seconds, which are not finite where a rod does not reach.
+    /// The legs, design units and seconds; of cranks the angles, degrees and seconds, which are not finite where a rod
+    /// does not reach.
     pub legs: [LegMotion; 6],
-    /// Forces of the drives in force units, or torques of the cranks in force units times design units, and powers in watts; `None` where no masses are known, at a singular pose, and where a rod does not reach.
+    /// Forces of the drives in force units, or torques of the cranks in force units times design units, and powers in
+    /// watts; `None` where no masses are known, at a singular pose, and where a rod does not reach.
     pub drives: Option<([f64; 6], [f64; 6])>,
 }
 
@@ -173,7 +175,8 @@ pub struct MotionMasses {
 }
 
 impl Design {
-    /// What forces are computed from: [what moves with the platform](files::design::DesignModel::moving_payload) and the masses of the legs, where one design unit is so many metres. `None` where nothing is known to.
+    /// What forces are computed from: [what moves with the platform](files::design::DesignModel::moving_payload) and
+    /// the masses of the legs, where one design unit is so many metres. `None` where nothing is known to.
     pub fn motion_masses(&self, metres: f64, load: Option<Load>) -> Option<MotionMasses> {
         let newtons = self.force_unit().newtons();
         let bodies = self.moving_bodies(metres)?;
@@ -258,7 +261,8 @@ impl Design {
         least.into_values().map(timed).collect()
     }
 
-    /// Greatest speed less speed, greatest force less force; of cranks greatest torque less torque. A pose that a rod does not reach has none.
+    /// Greatest speed less speed, greatest force less force; of cranks greatest torque less torque. A pose that a rod
+    /// does not reach has none.
     fn drive_margins(&self, at: &MotionInstant) -> Vec<(Term, f64)> {
         let (hardware, cranks) = (&self.hardware, self.crank_limits());
         let (force, speed) = if self.has_cranks() {

@@ -55,7 +55,8 @@ pub struct Preset {
 }
 
 impl Preset {
-    /// Whether its legs are rods on cranks: such a preset is read by [`parse_with_cranks`] and refused by [`parse`](files::design::parse).
+    /// Whether its legs are rods on cranks: such a preset is read by [`parse_with_cranks`] and refused by
+    /// [`parse`](files::design::parse).
     #[must_use]
     pub fn has_cranks(&self) -> bool {
         parse_with_cranks(self.text, Format::Toml).is_ok_and(|(design, _)| design.has_cranks())

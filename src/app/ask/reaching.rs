@@ -6,8 +6,9 @@ use machine::reach::{FreeRange, NearestPose, NearestPoseOptions, Reach};
 use platform::geom::Pose;
 
 impl Design {
-    /// How far each of the six numbers of a pose (x, y, z, roll, pitch, yaw) may move before a requirement of the design binds or a singular pose is passed, the others staying as they are; `None` where the
-    /// pose itself is not allowed. A control loop keeps a [`Reach`], which is this without the preparation.
+    /// How far each of the six numbers of a pose (x, y, z, roll, pitch, yaw) may move before a requirement of the
+    /// design binds or a singular pose is passed, the others staying as they are; `None` where the pose itself is not
+    /// allowed. A control loop keeps a [`Reach`], which is this without the preparation.
     ///
     /// ```
     /// use equipod::methods::reach::PoseAxis;
@@ -25,7 +26,8 @@ impl Design {
         self.reach(&required).free_ranges(pose)
     }
 
-    /// A pose locally nearest to `asked` among those that meet every requirement; `asked` itself where it does. A radian counts as the characteristic length of the design.
+    /// A pose locally nearest to `asked` among those that meet every requirement; `asked` itself where it does. A
+    /// radian counts as the characteristic length of the design.
     ///
     /// ```
     /// use equipod::methods::reach::NearestPoseOptions;

@@ -28,11 +28,13 @@ const HALF_TURN: f64 = 180.0;
 /// Up to which size a region around home is free, as far as is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeSize {
-    /// Proved: every pose of the region of this size meets all requirements, and none is singular. 0 where nothing is proved.
+    /// Proved: every pose of the region of this size meets all requirements, and none is singular. 0 where nothing is
+    /// proved.
     pub proved: f64,
     /// No violation was found in the regions looked at up to this size; no less than what is proved.
     pub searched: f64,
-    /// What is violated in a region that is larger by a little, with its margin there; `None` where nothing is within what was looked at.
+    /// What is violated in a region that is larger by a little, with its margin there; `None` where nothing is within
+    /// what was looked at.
     pub binding: Option<(Limit, f64)>,
 }
 
@@ -186,7 +188,8 @@ impl Around<'_> {
         }
     }
 
-    /// Halves between the largest size that is proved and the smallest that is violated, from a ray that ended at a violation.
+    /// Halves between the largest size that is proved and the smallest that is violated, from a ray that ended at a
+    /// violation.
     fn largest(&self, ray: &FreeRay, space: &dyn Fn(f64) -> PoseSpace) -> FreeSize {
         let mut found = FreeSize { proved: 0.0, searched: ray.free, binding: ray.binding.map(|l| (l, 0.0)) };
         if !(ray.free > 0.0 && ray.free.is_finite()) {

@@ -139,10 +139,11 @@ pub fn grid_in_words(grid: Option<&Grid>) -> String {
     grid.map_or_else(|| "no grid, its joints stay".into(), Grid::to_string)
 }
 
-/// The joints of a body as the decimals that the holes of the grid are, of which doubles are only near: the third hole of pitch 0.1 is at 0.3.
+/// The joints of a body as the decimals that the holes of the grid are, of which doubles are only near: the third hole
+/// of pitch 0.1 is at 0.3.
 ///
-/// `None` where doubles are the holes (whole pitches), where the pitch is no short decimal, and where the axes of the grid are not those of the body, so
-/// that the coordinates are no decimals.
+/// `None` where doubles are the holes (whole pitches), where the pitch is no short decimal, and where the axes of the
+/// grid are not those of the body, so that the coordinates are no decimals.
 fn decimals(grid: &Grid, joints: &[Point3<f64>]) -> Option<Vec<[String; 3]>> {
     // without an exponent, with the fewest digits
     let places = |x: f64| x.to_string().split_once('.').map_or(0, |(_, digits)| digits.len());
@@ -210,14 +211,16 @@ impl DesignOnHoles {
         if self.found.is_some() { rank(self.assessed.as_ref()) } else { [0, 0] }
     }
 
-    /// Whether the platform on the holes meets its requirements: proved either way, or `None`; `Some(true)` where nothing is required.
+    /// Whether the platform on the holes meets its requirements: proved either way, or `None`; `Some(true)` where
+    /// nothing is required.
     pub fn met(&self) -> Option<bool> {
         self.assessed.as_ref().map_or(Some(true), AssessReport::met)
     }
 }
 
-/// Puts the joints of a platform on the holes that its design states: rounds, chooses again what holes leave free (height of home, axes of joints) where the reserve is not
-/// kept, and begins anew with larger reserves where a limit is violated. The best of all is the answer.
+/// Puts the joints of a platform on the holes that its design states: rounds, chooses again what holes leave free
+/// (height of home, axes of joints) where the reserve is not kept, and begins anew with larger reserves where a limit
+/// is violated. The best of all is the answer.
 ///
 /// # Errors
 /// [`Error`] of a search that cannot be asked; [`NoRounding`] inside where the grids cannot be used.
@@ -308,7 +311,8 @@ fn round_once(
 #[cfg(feature = "optimize")]
 type Fitted = (Design, Option<AssessReport>, Vec<VariableKind>);
 
-/// The design with what its holes leave free chosen again where it misses a limit or a reserve; as it is where that is no better.
+/// The design with what its holes leave free chosen again where it misses a limit or a reserve; as it is where that is
+/// no better.
 #[cfg(feature = "optimize")]
 fn fit(
     design: Design,

@@ -25,8 +25,8 @@ pub enum MotionStart {
 pub struct SelfMotionOptions {
     /// What they begin with.
     pub start: MotionStart,
-    /// Random sections by which all curves over the complex numbers are cut; 0 follows only what hangs together with the
-    /// pose.
+    /// Random sections by which all curves over the complex numbers are cut; 0 follows only what hangs together with
+    /// the pose.
     pub sections: u64,
     /// How finely curves are followed, and the seed.
     pub motion: MotionOptions,

@@ -21,8 +21,8 @@ pub struct SingularPosesOptions {
     pub pose: Pose,
     /// Lengths at which all assembly modes are judged; those of the pose when absent.
     pub lengths: Option<LegLengths>,
-    /// Half widths of a box of poses: positions, design units, and components of the rotation vector, degrees. Absent: the
-    /// workspace of the design.
+    /// Half widths of a box of poses: positions, design units, and components of the rotation vector, degrees. Absent:
+    /// the workspace of the design.
     pub half_widths: Option<[[f64; 3]; 2]>,
     /// Cells of poses that a proof may take.
     pub cells: usize,
@@ -74,8 +74,8 @@ pub struct SingularPosesReport {
 }
 
 impl SingularPosesReport {
-    /// Whether the region asked about is free of singular poses; `None`: undecided. Of a box of no particular size: whether
-    /// some box is.
+    /// Whether the region asked about is free of singular poses; `None`: undecided. Of a box of no particular size:
+    /// whether some box is.
     #[must_use]
     pub fn is_regular(&self) -> Option<bool> {
         match &self.safe {
@@ -84,7 +84,8 @@ impl SingularPosesReport {
         }
     }
 
-    /// det J on straight paths from one mode over poses to another one. Modes count from 1; 0 is the pose in the middle.
+    /// det J on straight paths from one mode over poses to another one. Modes count from 1; 0 is the pose in the
+    /// middle.
     ///
     /// # Errors
     /// The number of a mode that there is not.

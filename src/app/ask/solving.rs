@@ -15,7 +15,8 @@ use num::stream::Stream;
 use platform::geom::Pose;
 use platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
 
-/// Inverse and forward kinematics of a [`Manipulator`], which has no names, units or home; a `Design` has the same methods as its own.
+/// Inverse and forward kinematics of a [`Manipulator`], which has no names, units or home; a `Design` has the same
+/// methods as its own.
 pub trait Kinematics {
     /// Forward kinematics: all finite poses, real and complex, at these leg lengths.
     ///
@@ -79,8 +80,9 @@ impl Kinematics for Manipulator {
 
 #[cfg(feature = "files")]
 impl Design {
-    /// Forward kinematics: all finite poses, real and complex, at the lengths that the legs show; `&LegLengths` or six numbers.
-    /// The joints of a calibrated design are as far apart as a leg shows, less its [offset](files::design::DesignModel::leg_offsets).
+    /// Forward kinematics: all finite poses, real and complex, at the lengths that the legs show; `&LegLengths` or six
+    /// numbers. The joints of a calibrated design are as far apart as a leg shows, less its
+    /// [offset](files::design::DesignModel::leg_offsets).
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -117,7 +119,8 @@ impl Design {
         self.manipulator().fk_with::<&LegLengths>(&distances, options)
     }
 
-    /// Inverse kinematics: the lengths that the legs show at a pose, with the [offsets](files::design::DesignModel::leg_offsets) of a calibration.
+    /// Inverse kinematics: the lengths that the legs show at a pose, with the
+    /// [offsets](files::design::DesignModel::leg_offsets) of a calibration.
     ///
     /// # Errors
     /// [`Error::Overflow`] for a pose so far away that lengths overflow; an offset that makes a length negative.
@@ -221,9 +224,9 @@ impl Solver {
         })
     }
 
-    /// Many lengths on all cores: result `i` belongs to row `i` and comes as soon as it and those before it are there. Rows are taken as
-    /// they are needed, so that a table of millions needs no more memory than a short one. A row that fails leaves the others as they are; results do
-    /// not depend on the number of threads.
+    /// Many lengths on all cores: result `i` belongs to row `i` and comes as soon as it and those before it are there.
+    /// Rows are taken as they are needed, so that a table of millions needs no more memory than a short one. A row that
+    /// fails leaves the others as they are; results do not depend on the number of threads.
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -268,7 +271,8 @@ impl Iterator for Batch {
     }
 }
 
-/// All finite poses with each row of angles of cranks, radians, on all cores and in the order of the rows; as [`Solver::solve_all`].
+/// All finite poses with each row of angles of cranks, radians, on all cores and in the order of the rows; as
+/// [`Solver::solve_all`].
 #[cfg(feature = "files")]
 pub fn solve_angles<I>(
     platform: RotaryPlatform,
@@ -294,7 +298,8 @@ pub struct Tracker {
 }
 
 impl Tracker {
-    /// Continues the pose to these lengths. Where it is lost, or a singularity is in the way, the tracker stays where it was.
+    /// Continues the pose to these lengths. Where it is lost, or a singularity is in the way, the tracker stays where
+    /// it was.
     ///
     /// ```
     /// use equipod::prelude::*;

@@ -8,9 +8,11 @@ use std::path::{Path, PathBuf};
 /// The beginning and the end of the name that a file has until it is whole.
 const PART: (&str, &str) = (".", ".part");
 
-/// A file beside its place, under a name of its own, until [`finish`](Self::finish) puts it there; dropped before that it is gone.
+/// A file beside its place, under a name of its own, until [`finish`](Self::finish) puts it there; dropped before that
+/// it is gone.
 ///
-/// The name `.NAME.RANDOM.part` belongs to nobody else, whatever number a process has and however many machines write into one folder.
+/// The name `.NAME.RANDOM.part` belongs to nobody else, whatever number a process has and however many machines write
+/// into one folder.
 #[derive(Debug)]
 pub struct WholeFile {
     part: tempfile::NamedTempFile,
@@ -41,7 +43,8 @@ impl WholeFile {
         self.part.as_file()
     }
 
-    /// Makes sure that all of it is on the disk, and puts it in its place with the permissions of the file that stood there.
+    /// Makes sure that all of it is on the disk, and puts it in its place with the permissions of the file that stood
+    /// there.
     ///
     /// # Errors
     /// A disk that is full, a target that cannot be replaced.

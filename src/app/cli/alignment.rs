@@ -115,7 +115,8 @@ impl FrameArgs {
 }
 
 impl Second {
-    /// What the first design and this one have to do with each other. A motion that was found is known to rounding only, so that nothing but singular platforms is proved after it.
+    /// What the first design and this one have to do with each other. A motion that was found is known to rounding
+    /// only, so that nothing but singular platforms is proved after it.
     pub(crate) fn judged(&self, a: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
         let given = judge(a, &self.given)?;
         match self.aligned.as_ref().map(|found| &found.given) {
@@ -126,7 +127,8 @@ impl Second {
         }
     }
 
-    /// Some rigid motion was asked for and not found: there is none (`Some(true)`), or it is not decided (`Some(false)`).
+    /// Some rigid motion was asked for and not found: there is none (`Some(true)`), or it is not decided
+    /// (`Some(false)`).
     pub(crate) fn refuted(&self) -> Option<bool> {
         match self.aligned.as_ref()?.given {
             Alignment::Found { .. } => None,

@@ -73,7 +73,8 @@ impl Context {
         Self::new(&Global { json: false, seed: 1, quiet: true }, &ArgMatches::default())
     }
 
-    /// Refuses an option that was typed although it has no effect for `reason`: nothing that was asked for is passed over.
+    /// Refuses an option that was typed although it has no effect for `reason`: nothing that was asked for is passed
+    /// over.
     ///
     /// # Errors
     /// Exit 2, `usage::no_effect`.
@@ -141,7 +142,8 @@ impl Context {
         }
     }
 
-    /// Reads and checks a design file, `-` for standard input; its warnings are shown and kept for the JSON document. Rods on cranks and joints that are not ideal are refused: a command that takes them asks for
+    /// Reads and checks a design file, `-` for standard input; its warnings are shown and kept for the JSON document.
+    /// Rods on cranks and joints that are not ideal are refused: a command that takes them asks for
     /// [`Self::load_with_cranks`].
     ///
     /// # Errors

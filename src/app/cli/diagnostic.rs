@@ -13,7 +13,8 @@ use num::names::changes_direction;
 
 const RENDERER: Renderer = Renderer::styled();
 
-/// An excerpt shows a part of this beginning of its line, so that one long line with many faults is not read whole for each.
+/// An excerpt shows a part of this beginning of its line, so that one long line with many faults is not read whole for
+/// each.
 const MAX_READ: usize = 2000;
 
 /// Shows a failure and all its violations.

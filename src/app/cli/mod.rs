@@ -84,7 +84,8 @@ fn asks_for_licences(words: &[String]) -> bool {
     words.iter().skip(1).filter(|w| !own(w)).eq(["--licences"])
 }
 
-/// `equipod sweep PLAN` is `equipod sweep run PLAN`: what a sweep is asked for most has the shortest name. A plan that is called as a command is `sweep run status`.
+/// `equipod sweep PLAN` is `equipod sweep run PLAN`: what a sweep is asked for most has the shortest name. A plan that
+/// is called as a command is `sweep run status`.
 fn sweep_run_in_full(mut args: Vec<OsString>) -> Vec<OsString> {
     let mut rest = args.iter().enumerate().skip(1);
     while let Some((at, word)) = rest.next() {

@@ -124,7 +124,8 @@ pub(crate) fn document(
     .map_err(|e| Failure::internal(format!("the answer cannot be written as JSON: {e}")))
 }
 
-/// A refusal or failure as a document. It is made of texts and numbers of lines alone: when even that cannot be written, standard error has said it.
+/// A refusal or failure as a document. It is made of texts and numbers of lines alone: when even that cannot be
+/// written, standard error has said it.
 fn write_failure(failure: &Failure, context: Option<&Context>) -> Exit {
     let (provenance, warnings) = context.map_or_else(Default::default, |c| (c.provenance(), c.warnings()));
     let text = document(ErrorAnswer { error: failure.into() }, provenance, warnings).unwrap_or_default();
@@ -143,7 +144,8 @@ impl From<&FileWarning> for WarningRecord {
     }
 }
 
-/// Writes to standard output. A closed pipe (`| head`) ends quietly with the exit code of the answer, any other failure is exit 4.
+/// Writes to standard output. A closed pipe (`| head`) ends quietly with the exit code of the answer, any other failure
+/// is exit 4.
 fn write_out(text: &str, exit: Exit) -> Exit {
     match streams::write_output(text) {
         Ok(()) => exit,

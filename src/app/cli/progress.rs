@@ -162,7 +162,8 @@ impl Interrupt {
         Self::watch_for(None)
     }
 
-    /// The same, and after a limit of time everything is to end: the search earlier, so that what it found can be judged.
+    /// The same, and after a limit of time everything is to end: the search earlier, so that what it found can be
+    /// judged.
     pub(crate) fn watch_for(limit: Option<TimeLimit>) -> Self {
         Self { stop: streams::heeded_stop(), ends: limit.and_then(|TimeLimit(time)| ends_of(time)) }
     }

@@ -1,7 +1,8 @@
 //! The folder of a sweep: what it is of, its parts, their manifests.
 //!
-//! `sweep.json` holds plan, base design and seed. Each shard has a part and, written after it, a manifest with the digest of the part: a shard is done when both are
-//! there and agree. All files are written under other names and renamed, so that what has its name is whole.
+//! `sweep.json` holds plan, base design and seed. Each shard has a part and, written after it, a manifest with the
+//! digest of the part: a shard is done when both are there and agree. All files are written under other names and
+//! renamed, so that what has its name is whole.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, ErrorKind, Write};
@@ -55,7 +56,8 @@ pub(crate) enum ShardState {
 pub(crate) enum PartLook {
     /// All of it: its digest is that of the manifest.
     Whole,
-    /// Its size, which shows what was cut off. For the parts of other jobs, because with as many jobs as shards a look at all by each is a square.
+    /// Its size, which shows what was cut off. For the parts of other jobs, because with as many jobs as shards a look
+    /// at all by each is a square.
     Size,
 }
 
@@ -288,7 +290,8 @@ impl SweepFolder {
         Ok(reader)
     }
 
-    /// Writes the part of a shard from its rows, then its manifest; `None` where `go_on`, which hears of all candidates that are done, ends it.
+    /// Writes the part of a shard from its rows, then its manifest; `None` where `go_on`, which hears of all candidates
+    /// that are done, ends it.
     pub(crate) fn write_part(
         &self,
         sweep: &Sweep,

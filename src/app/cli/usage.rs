@@ -145,7 +145,8 @@ fn find<'a>(program: &'a Command, path: &str) -> Option<&'a Command> {
     path.split(' ').try_fold(program, |c, word| c.find_subcommand(word))
 }
 
-/// The commands that a word stands for: by the last word of their name, by other words for them, or nearly so. Those of `group` come before others.
+/// The commands that a word stands for: by the last word of their name, by other words for them, or nearly so. Those of
+/// `group` come before others.
 fn nearest(word: &str, group: &str) -> Vec<&'static str> {
     let meant = |e: &GuideEntry| {
         let leaf = e.path.rsplit(' ').next().unwrap_or(e.path);

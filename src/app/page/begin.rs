@@ -1,4 +1,5 @@
-//! Designs to begin with, for those who have no file: from the numbers of a data sheet, from twelve points, and the presets.
+//! Designs to begin with, for those who have no file: from the numbers of a data sheet, from twelve points, and the
+//! presets.
 
 use std::fmt::Display;
 

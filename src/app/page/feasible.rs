@@ -21,7 +21,8 @@ pub(super) struct FeasibleRecord {
     high: f64,
     /// Poses of the workspace that are looked at for every platform, at most.
     poses: usize,
-    /// Row by row, the first offset to the right: one of the requirements that are violated, by its code; `null` where none is at these poses.
+    /// Row by row, the first offset to the right: one of the requirements that are violated, by its code; `null` where
+    /// none is at these poses.
     violated: Vec<Option<&'static str>>,
 }
 
@@ -30,7 +31,8 @@ fn requires_nothing(design: &Design, required: &Requirements, home: &Pose) -> bo
     terms.fixed().is_empty() && terms.at(home).is_empty()
 }
 
-/// Requirements on a square of two offsets, with as many poses as `assess` with these numbers looks at before its searches.
+/// Requirements on a square of two offsets, with as many poses as `assess` with these numbers looks at before its
+/// searches.
 pub(super) fn record(
     session: &Session,
     e: &Equivalent,

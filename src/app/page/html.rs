@@ -11,7 +11,8 @@ use files::plot::escape;
 use platform::geom::Pose;
 use records::PoseRecord;
 
-/// The core compiled to WebAssembly, compressed by gzip; `tests/page/README.md` says how it is made and compared with its sources.
+/// The core compiled to WebAssembly, compressed by gzip; `tests/page/README.md` says how it is made and compared with
+/// its sources.
 #[cfg(not(target_arch = "wasm32"))]
 pub const CORE: &[u8] = include_bytes!("core.wasm.gz");
 
@@ -44,13 +45,15 @@ fn script() -> String {
     format!("(() => {{\n\"use strict\";\n{}\n}})();", SCRIPTS.concat())
 }
 
-/// What a content security policy calls an inline script or style with exactly this text (W3C, Content Security Policy Level 3, section 2.3.1).
+/// What a content security policy calls an inline script or style with exactly this text (W3C, Content Security Policy
+/// Level 3, section 2.3.1).
 fn source(text: &str) -> String {
     format!("'sha256-{}'", BASE64.encode(&Sha256::digest(text.as_bytes())))
 }
 
-/// The content security policy of the page, and with `styles` of a page around it, whose policy holds for frames in it too: the one script and the style
-/// sheets by their hashes, WebAssembly, workers from the page itself, no network. An element or attribute that names another script is not run.
+/// The content security policy of the page, and with `styles` of a page around it, whose policy holds for frames in it
+/// too: the one script and the style sheets by their hashes, WebAssembly, workers from the page itself, no network. An
+/// element or attribute that names another script is not run.
 #[must_use]
 pub fn policy(styles: &[&str]) -> String {
     let styles: String = styles.iter().map(|text| format!(" {}", source(text))).collect::<Vec<_>>().concat();
@@ -61,7 +64,8 @@ pub fn policy(styles: &[&str]) -> String {
     )
 }
 
-/// The policy of a page without frames, workers and network: one script and one style sheet by their hashes, and images that stand in the page.
+/// The policy of a page without frames, workers and network: one script and one style sheet by their hashes, and images
+/// that stand in the page.
 #[must_use]
 pub fn strict_policy(script: &str, style: &str) -> String {
     format!(
@@ -80,8 +84,9 @@ const PLANE: usize = 41;
 
 /// The page of a design: one HTML text that needs nothing else, no network.
 ///
-/// `core` is the WebAssembly module, plain or compressed by gzip ([`CORE`] for the one that comes with the library). Without it, and in browsers
-/// that refuse it, the page shows recorded answers: one round of poses, the assembly modes at home, `det A` over two offsets, and the first self-motion.
+/// `core` is the WebAssembly module, plain or compressed by gzip ([`CORE`] for the one that comes with the library).
+/// Without it, and in browsers that refuse it, the page shows recorded answers: one round of poses, the assembly modes
+/// at home, `det A` over two offsets, and the first self-motion.
 #[must_use]
 pub fn page(session: &Session, core: Option<&[u8]>) -> String {
     let data = PageData {
@@ -115,8 +120,8 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
     out + rest
 }
 
-/// The folded notices of what is compiled into the core. The colon of an address in them is a character reference, so that a search of the page for addresses finds
-/// those alone that a browser would follow, of which there are none.
+/// The folded notices of what is compiled into the core. The colon of an address in them is a character reference, so
+/// that a search of the page for addresses finds those alone that a browser would follow, of which there are none.
 #[cfg(not(target_arch = "wasm32"))]
 fn notices() -> String {
     format!(

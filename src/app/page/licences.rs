@@ -9,7 +9,8 @@ const RULE_LENGTH: usize = 100;
 /// What the core is made with and has no star: it is no crate.
 const STANDARD_LIBRARY: &str = "the Rust standard library";
 
-/// The part of the notices that is about the core: its crates with their licences, and the texts that one of them stands over.
+/// The part of the notices that is about the core: its crates with their licences, and the texts that one of them
+/// stands over.
 pub(super) fn notices() -> String {
     let rule = "=".repeat(RULE_LENGTH);
     let mut parts = NOTICES.split(&rule);

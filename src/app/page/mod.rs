@@ -1,8 +1,8 @@
 //! Shows a design to people who have only a browser: one HTML page, and the questions that it asks the core.
 //!
-//! The page computes nothing by itself: every number it shows is the answer of [`Session::answer`] to a request in JSON. In the
-//! browser that function runs as WebAssembly; where there is none, the page replays answers that were recorded when it was written.
-//! Text in, text out: nothing here reads or writes files.
+//! The page computes nothing by itself: every number it shows is the answer of [`Session::answer`] to a request in
+//! JSON. In the browser that function runs as WebAssembly; where there is none, the page replays answers that were
+//! recorded when it was written. Text in, text out: nothing here reads or writes files.
 
 mod begin;
 mod feasible;

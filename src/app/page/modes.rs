@@ -72,8 +72,8 @@ fn solve_with(m: &Manipulator, s: SquaredLegLengths, o: &FkOptions) -> Result<Fk
     solver(None).solve(m, &s, o).map_err(|e| Refusal::new("fk", e))
 }
 
-/// All poses of two platforms, real and complex, with their own leg lengths at a pose; `distance` is the largest of a pair as [`match_poses`] pairs and
-/// measures them, `null` unless each pose has a partner of its own.
+/// All poses of two platforms, real and complex, with their own leg lengths at a pose; `distance` is the largest of a
+/// pair as [`match_poses`] pairs and measures them, `null` unless each pose has a partner of its own.
 pub(super) fn confirm(
     first: &Manipulator,
     second: &Manipulator,
@@ -121,8 +121,9 @@ impl InputsOfPoses {
     }
 }
 
-/// All poses with the lengths given (of cranks the angles in degrees), or with those at a pose; `here` is then the index of the one nearest to that pose, where poses are isolated.
-/// `turn_deg`: by how much the platform is turned from home.
+/// All poses with the lengths given (of cranks the angles in degrees), or with those at a pose; `here` is then the
+/// index of the one nearest to that pose, where poses are isolated. `turn_deg`: by how much the platform is turned from
+/// home.
 pub(super) fn record(
     session: &Session,
     design: &Design,

@@ -22,11 +22,13 @@ pub(super) struct OpeningRecord<'a> {
     /// `"octahedral"`, `"equivalent"`, `"general"`, or `"cranks"` where the legs are rods on cranks.
     kind: &'static str,
     size: f64,
-    /// Whether the platform shown first is: the octahedral original, or the design where there is none. `null` where it is not decided, and for cranks.
+    /// Whether the platform shown first is: the octahedral original, or the design where there is none. `null` where it
+    /// is not decided, and for cranks.
     singular: Option<bool>,
     /// Why it is singular, or why it is not decided.
     reason: Option<String>,
-    /// The same of the design as an equivalent, with the offsets that the page starts with; `null` also where the page starts with another one.
+    /// The same of the design as an equivalent, with the offsets that the page starts with; `null` also where the page
+    /// starts with another one.
     start_singular: Option<bool>,
     home: PoseRecord,
     centre: [f64; 3],

@@ -16,8 +16,8 @@ const TURNS: [f64; 6] = [1.0, 2.0, 1.0, 3.0, 2.0, 1.0];
 const SHARE: f64 = 0.9;
 
 impl Session {
-    /// The pose at the share `at` of a closed round: along the trajectory of the design and back where it has one, else on a curve
-    /// `x_k = 0.9 sin(2 pi n_k at)` through the region of poses, from home to home.
+    /// The pose at the share `at` of a closed round: along the trajectory of the design and back where it has one, else
+    /// on a curve `x_k = 0.9 sin(2 pi n_k at)` through the region of poses, from home to home.
     pub(super) fn along(&self, at: f64) -> Pose {
         let at = if at.is_finite() { at.rem_euclid(1.0) } else { 0.0 };
         let space = self.design.workspace_or_default().space(&self.home);

@@ -32,7 +32,8 @@ impl Equivalent {
         self.pattern.determinant(&self.changed(changes)?).map_err(|e| Refusal::new("offsets", e))
     }
 
-    /// For each offset where `det A` vanishes when the others stay: `det A` is affine in every single one. `None` where it does not depend on it.
+    /// For each offset where `det A` vanishes when the others stay: `det A` is affine in every single one. `None` where
+    /// it does not depend on it.
     pub(super) fn zeros(&self) -> Result<Vec<Option<f64>>, Refusal> {
         (0..self.offsets.len())
             .map(|k| {
@@ -72,7 +73,8 @@ pub(super) fn square(
     Ok(move |k: usize| low + k as f64 / (points as f64 - 1.0) * (high - low))
 }
 
-/// Values on a square of two offsets, row by row with the first offset to the right, and the lines on which they vanish.
+/// Values on a square of two offsets, row by row with the first offset to the right, and the lines on which they
+/// vanish.
 pub(super) fn record(
     e: &Equivalent,
     [i, j]: [usize; 2],

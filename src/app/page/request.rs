@@ -53,7 +53,8 @@ pub(super) enum PageRequest {
     State { pose: PoseRecord, chosen: Option<Chosen> },
     /// Worst conditioning over the poses of the workspace.
     Worst { chosen: Option<Chosen> },
-    /// The requirements of a platform over its whole workspace, as `assess` answers with these numbers; without cells with as many as it takes itself.
+    /// The requirements of a platform over its whole workspace, as `assess` answers with these numbers; without cells
+    /// with as many as it takes itself.
     Assess { which: Which, chosen: Option<Chosen>, points: usize, searches: usize, cells: Option<usize> },
     /// All poses with given leg lengths, or with those of a pose; of cranks with angles in degrees.
     Modes { pose: PoseRecord, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
@@ -61,7 +62,8 @@ pub(super) enum PageRequest {
     Confirm { pose: PoseRecord, chosen: Chosen },
     /// `det A` over two offsets.
     Plane { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize },
-    /// Where over two offsets a requirement is violated in the workspace, at the poses that `assess` with so many points looks at before its searches.
+    /// Where over two offsets a requirement is violated in the workspace, at the poses that `assess` with so many
+    /// points looks at before its searches.
     Feasible { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize, samples: usize },
     /// `det A = 0` over three offsets.
     Surface { chosen: Chosen, axes: [usize; 3], range: [f64; 2], points: usize },
@@ -137,7 +139,8 @@ impl Chosen {
 }
 
 impl Session {
-    /// Opens the design in a JSON text `{"design": TOML, "trajectory": [poses], "start": {"pattern", "offsets"}}`, the last two optional.
+    /// Opens the design in a JSON text `{"design": TOML, "trajectory": [poses], "start": {"pattern", "offsets"}}`, the
+    /// last two optional.
     ///
     /// # Errors
     /// A JSON text `{"error": {"code", "message"}}`.

@@ -50,8 +50,8 @@ pub enum InvalidStart {
 }
 
 impl Session {
-    /// Opens a design. The page of an octahedral design starts with an equivalent without shared joints that meets the requirements of the design where
-    /// a regular one does, that of an equivalent one with the design itself.
+    /// Opens a design. The page of an octahedral design starts with an equivalent without shared joints that meets the
+    /// requirements of the design where a regular one does, that of an equivalent one with the design itself.
     #[must_use]
     pub fn new(design: Design) -> Self {
         // cranks of a design that was read make a platform
@@ -116,7 +116,8 @@ impl Session {
         self.original.as_ref().map_or(&self.design, |o| &o.design)
     }
 
-    /// Whether the requirements of the file are about [`first`](Self::first): those of a platform without shared joints are not about its original.
+    /// Whether the requirements of the file are about [`first`](Self::first): those of a platform without shared joints
+    /// are not about its original.
     pub(super) fn first_is_given(&self) -> bool {
         self.original.as_ref().is_none_or(|o| o.seen.is_none())
     }

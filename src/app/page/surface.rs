@@ -1,4 +1,5 @@
-//! Singular surfaces in space: `det A` over three offsets, and `det J` over the positions of the platform with the orientation it has.
+//! Singular surfaces in space: `det A` over three offsets, and `det J` over the positions of the platform with the
+//! orientation it has.
 
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -96,7 +97,8 @@ pub(super) fn offsets(
 
 /// The positions with the orientation of a pose at which `det J = 0`, about home as far as the sliders of the page go.
 ///
-/// `J` is the Jacobian of the leg lengths with turns times the characteristic length. A position at which a leg has no length is passed over.
+/// `J` is the Jacobian of the leg lengths with turns times the characteristic length. A position at which a leg has no
+/// length is passed over.
 pub(super) fn locus(
     design: &Design,
     home: &Pose,

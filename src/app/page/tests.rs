@@ -66,7 +66,8 @@ fn the_original_of_a_design_without_shared_joints_is_found_with_its_offsets() {
     }
 }
 
-/// What the page offers for saving says where the joints are: the original keeps its exact corners, the equivalent platform is on their edges.
+/// What the page offers for saving says where the joints are: the original keeps its exact corners, the equivalent
+/// platform is on their edges.
 #[test]
 fn saved_designs_keep_constructions() {
     let chosen = json!({"pattern": "S123456", "offsets": [0.25, 0.5, 0.25, 0.5, 0.25, 0.75]});
@@ -162,7 +163,8 @@ fn a_singular_platform_moves_and_a_regular_one_does_not() {
     assert_eq!(moving(EQUIVALENT)["dimension"], json!(0));
 }
 
-/// Every class begins with a regular platform that meets the requirements of the file, where one of the regular ones does.
+/// Every class begins with a regular platform that meets the requirements of the file, where one of the regular ones
+/// does.
 #[test]
 fn the_first_offsets_meet_the_requirements_at_home() {
     let required = "[hardware]\njoint_diameter = 1.4\nbase_swing_deg = 30.0\n";
@@ -560,7 +562,8 @@ fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths()
     }
 }
 
-/// The page and `check` call the same platforms singular: the one shown first, and the equivalent that the page starts with, by the joints of the file.
+/// The page and `check` call the same platforms singular: the one shown first, and the equivalent that the page starts
+/// with, by the joints of the file.
 #[test]
 fn the_page_says_of_the_joints_of_the_file_what_check_says() {
     let opened = |name: &str| {

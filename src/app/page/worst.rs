@@ -28,13 +28,15 @@ struct LeastRecord {
 }
 
 impl Session {
-    /// `sigma_min / sigma_max` of the length-normalised Jacobian of the legs, or of the rods; 0 where a rod does not reach.
+    /// `sigma_min / sigma_max` of the length-normalised Jacobian of the legs, or of the rods; 0 where a rod does not
+    /// reach.
     pub(super) fn inverse_condition(&self, design: &Design, pose: &Pose) -> f64 {
         self.pushing(design, pose)
             .map_or(0.0, |m| inverse_condition(&jacobian(&m, pose, design.characteristic_length())))
     }
 
-    /// What pushes the platform at a pose: the legs of a design of the page, or its rods on the tips of their cranks; `None` where a rod does not reach.
+    /// What pushes the platform at a pose: the legs of a design of the page, or its rods on the tips of their cranks;
+    /// `None` where a rod does not reach.
     pub(super) fn pushing<'a>(&self, design: &'a Design, pose: &Pose) -> Option<Cow<'a, Manipulator>> {
         match &self.cranks {
             None => Some(Cow::Borrowed(design.manipulator())),

@@ -1,4 +1,5 @@
-//! Between numpy arrays and poses and lengths. Poses are 4 x 4 matrices `(R p; 0 1)`, lengths rows of six; the first axis counts.
+//! Between numpy arrays and poses and lengths. Poses are 4 x 4 matrices `(R p; 0 1)`, lengths rows of six; the first
+//! axis counts.
 
 use nalgebra::Matrix4;
 use ndarray::{Array, Array3, ArrayView2, ArrayView3, Dimension, StrideShape};
@@ -23,7 +24,8 @@ impl From<Error> for PoseFault {
     }
 }
 
-/// An argument that is an array of doubles, row by row, as it stands; `None`: it is for numpy to make one of it. A look from here costs less than one from Python.
+/// An argument that is an array of doubles, row by row, as it stands; `None`: it is for numpy to make one of it. A look
+/// from here costs less than one from Python.
 pub(super) fn as_it_stands<'py>(given: &Bound<'py, PyAny>) -> Option<PyReadonlyArrayDyn<'py, f64>> {
     let array = given.cast::<PyArrayDyn<f64>>().ok()?.try_readonly().ok()?;
     // a slice would be given of columns after columns too

@@ -60,7 +60,8 @@ impl NativeDesign {
             .map_err(|why| refused(py, "design::invalid", &why.to_string()))
     }
 
-    /// Refuses rods on cranks where what is asked for is about legs that change their lengths, and names what is asked instead.
+    /// Refuses rods on cranks where what is asked for is about legs that change their lengths, and names what is asked
+    /// instead.
     pub(super) fn only_of_legs(&self, py: Python<'_>, instead: &str) -> PyResult<()> {
         if self.design.has_cranks() { Err(refused_for_cranks(py, instead)) } else { Ok(()) }
     }
@@ -218,7 +219,8 @@ impl NativeDesign {
         self.design.save(path).map_err(|e| raised(py, e))
     }
 
-    /// Leg lengths, or angles of cranks, float64, shape (.., 6), of poses (.., 4, 4); `None`: the poses are no array of doubles, row by row, of this shape. NaN where a rod does not reach.
+    /// Leg lengths, or angles of cranks, float64, shape (.., 6), of poses (.., 4, 4); `None`: the poses are no array of
+    /// doubles, row by row, of this shape. NaN where a rod does not reach.
     fn ik<'py>(
         &self,
         py: Python<'py>,
@@ -279,7 +281,8 @@ impl NativeDesign {
         Ok(Some([kept?, other?, transmission?, left?]))
     }
 
-    /// Speeds of legs, or of cranks in radians per second, by velocity and angular velocity, float64, shape (.., 6, 6), at poses (.., 4, 4); `None` as for `ik`. NaN where a rod does not reach or a crank is singular.
+    /// Speeds of legs, or of cranks in radians per second, by velocity and angular velocity, float64, shape (.., 6, 6),
+    /// at poses (.., 4, 4); `None` as for `ik`. NaN where a rod does not reach or a crank is singular.
     fn jacobian<'py>(
         &self,
         py: Python<'py>,
@@ -390,7 +393,8 @@ impl NativeDesign {
         Ok(NativeTracker(TrackerKind::Legs(Box::new(self.design.tracker(*first)))))
     }
 
-    /// The margins of all requirements at poses (n, 4, 4): names, units and legs or joints of the columns, and float64 of shape (n, columns).
+    /// The margins of all requirements at poses (n, 4, 4): names, units and legs or joints of the columns, and float64
+    /// of shape (n, columns).
     #[allow(clippy::type_complexity)]
     fn margins<'py>(
         &self,
@@ -443,7 +447,8 @@ impl NativeDesign {
         document(AssessAnswer::new(&self.design, &found), &[&self.design], Some(seed))
     }
 
-    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets; the design, `A` and `c`.
+    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets; the design, `A` and
+    /// `c`.
     fn equivalent<'py>(
         &self,
         py: Python<'py>,

@@ -14,7 +14,8 @@ use files::design::Code;
 /// What is wrong with one place of a design.
 type TextFault = (String, usize, usize, String, String);
 
-/// The exception for an error: `DesignError` for bad input, `OSError` for files, `KeyboardInterrupt` for what was interrupted.
+/// The exception for an error: `DesignError` for bad input, `OSError` for files, `KeyboardInterrupt` for what was
+/// interrupted.
 pub(super) fn raised(py: Python<'_>, error: Error) -> PyErr {
     match error {
         Error::Cancelled => PyKeyboardInterrupt::new_err("interrupted"),
@@ -43,7 +44,8 @@ pub(super) fn interrupted() -> bool {
 /// How often a long computation looks for signals.
 const SIGNALS: Duration = Duration::from_millis(100);
 
-/// Computes on a thread of its own while the caller looks for signals. After an interrupt the computation goes on unheard until it ends: it has no place where it could be stopped.
+/// Computes on a thread of its own while the caller looks for signals. After an interrupt the computation goes on
+/// unheard until it ends: it has no place where it could be stopped.
 pub(super) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T, Error> + Send + 'static,

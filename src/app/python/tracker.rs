@@ -73,7 +73,8 @@ impl NativeTracker {
         matrices(&[self.0.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
     }
 
-    /// Continues to six lengths: status, the pose reached, residual, Frobenius ratio, fraction of the way, reason. `None`: the lengths are no array of six doubles.
+    /// Continues to six lengths: status, the pose reached, residual, Frobenius ratio, fraction of the way, reason.
+    /// `None`: the lengths are no array of six doubles.
     #[allow(clippy::type_complexity)]
     fn step<'py>(
         &mut self,
@@ -90,7 +91,8 @@ impl NativeTracker {
         Ok(Some((status, pose, evidence.residual, evidence.frobenius_ratio, fraction, reason)))
     }
 
-    /// Continues through rows of lengths until one is not reached: the poses of those that were, and what became of the next.
+    /// Continues through rows of lengths until one is not reached: the poses of those that were, and what became of the
+    /// next.
     #[allow(clippy::type_complexity)]
     fn follow<'py>(
         &mut self,

@@ -70,7 +70,8 @@ pub struct CalibrationRecord {
     pub unknowns: usize,
     /// The frames of joints, deviations and covariance.
     pub frames: CalibrationFrames,
-    /// The motions from the frames of the measurements to those of the design; null: joints are in the frames of the measurements.
+    /// The motions from the frames of the measurements to those of the design; null: joints are in the frames of the
+    /// measurements.
     pub motions: Option<CarriedFrames>,
     /// How uncertain measurements are.
     pub noise: NoiseRecord,
@@ -88,7 +89,8 @@ pub struct CalibrationRecord {
     pub offsets: Vec<CalibratedOffsetRecord>,
     /// Covariance of the unknowns, squared design units; directions that are not identified have none.
     pub covariance: CovarianceRecord,
-    /// How uncertain poses are that are computed with the machine; null: not all unknowns are identified, or the design has no pose to look at.
+    /// How uncertain poses are that are computed with the machine; null: not all unknowns are identified, or the design
+    /// has no pose to look at.
     pub computed_poses: Option<ComputedPosesRecord>,
     /// Which changes of the machine the measurements see, and how well.
     pub observability: ObservabilityRecord,
@@ -106,7 +108,8 @@ pub struct CalibrationRecord {
     pub chi_square: ChiSquare,
     /// Measurements that do not belong to the others, the farthest first.
     pub outliers: Vec<OutlierRecord>,
-    /// Two legs, from 1, whose measured lengths look exchanged: they are five times nearer to the design when they change places; null: none do.
+    /// Two legs, from 1, whose measured lengths look exchanged: they are five times nearer to the design when they
+    /// change places; null: none do.
     pub exchanged_legs: Option<[usize; 2]>,
 }
 
@@ -188,12 +191,14 @@ pub struct CovarianceRecord {
     pub matrix: Vec<Vec<Number>>,
 }
 
-/// Standard deviations of poses computed from lengths, by what the calibration does not know, with all correlations; the noise of these lengths comes on top.
+/// Standard deviations of poses computed from lengths, by what the calibration does not know, with all correlations;
+/// the noise of these lengths comes on top.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ComputedPosesRecord {
     /// Poses looked at: those of the workspace at which the requirements of the design are met.
     pub poses: usize,
-    /// Root mean square of the distance by which the platform origin of the measurements is off, design units: the median over the poses.
+    /// Root mean square of the distance by which the platform origin of the measurements is off, design units: the
+    /// median over the poses.
     pub position_median: Number,
     /// The greatest of them.
     pub position_greatest: Number,
@@ -387,7 +392,8 @@ pub struct NextPoseRecord {
     pub pose: PoseQuaternionRecord,
     /// Roll, pitch and yaw of it, degrees.
     pub rpy_deg: [Number; 3],
-    /// By what factor the geometric mean of the deviations along the axes of the error ellipsoid becomes smaller with it.
+    /// By what factor the geometric mean of the deviations along the axes of the error ellipsoid becomes smaller with
+    /// it.
     pub shrinks: Number,
     /// The greatest standard deviation of a coordinate or offset after it and those before it, design units.
     pub greatest_deviation: Number,

@@ -25,7 +25,8 @@ pub struct CheckAnswer {
     pub name: String,
     /// How exactly its joints are known.
     pub joints: JointsRecord,
-    /// Null: the design as written is regular, and a singular one lies within rounding of it or within the digits given; or joints are known between bounds only.
+    /// Null: the design as written is regular, and a singular one lies within rounding of it or within the digits
+    /// given; or joints are known between bounds only.
     pub architecturally_singular: Option<bool>,
     /// What the answer is proved about; within rounding: a singular design may have been meant. Null: not decided.
     pub level: Option<Level>,
@@ -61,11 +62,13 @@ pub struct CheckAnswer {
     pub nearest_singular: Option<NearestSingularRecord>,
     /// Finite poses, real and complex, for generic leg lengths.
     pub pose_count: PoseCountRecord,
-    /// The points that six legs have in common, for generic lengths, by where they are; null where the poses are not isolated or not counted.
+    /// The points that six legs have in common, for generic lengths, by where they are; null where the poses are not
+    /// isolated or not counted.
     pub common_points: Option<CommonPoints>,
     /// How many isolated finite poses no lengths exceed, by a theorem.
     pub pose_bound: PoseBoundRecord,
-    /// The line that fits the joints of each body best, base first: a body whose joints all lie on one turns about it. A body with its joints in one place has none.
+    /// The line that fits the joints of each body best, base first: a body whose joints all lie on one turns about it.
+    /// A body with its joints in one place has none.
     pub best_lines: Vec<BestLineRecord>,
     /// Singular values of the normalised leg vectors.
     pub singular_values: [Number; 6],
@@ -221,7 +224,8 @@ fn proof_explanation(a: &Architecture) -> String {
 pub struct JointsRecord {
     /// The least exact of the joints decides.
     pub exactness: ExactnessWord,
-    /// The integers whose square roots generate the field of the exact coordinates, beside the cosines of `divisions`; empty for fractions.
+    /// The integers whose square roots generate the field of the exact coordinates, beside the cosines of `divisions`;
+    /// empty for fractions.
     pub radicands: Vec<u64>,
     /// Numbers `n` whose cosines `cos(360 / n)` degrees belong to the generators: some of 9, 16, 20 and 32.
     pub divisions: Vec<u32>,

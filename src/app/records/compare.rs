@@ -37,7 +37,8 @@ pub struct AccuracyRecord {
     pub rotation_deg: f64,
 }
 
-/// The figures of a design over the poses of its workspace, at home where it states none. Null: the design says nothing about it, or the value is not finite.
+/// The figures of a design over the poses of its workspace, at home where it states none. Null: the design says nothing
+/// about it, or the value is not finite.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FiguresRecord {
     /// Name of the design.
@@ -282,7 +283,8 @@ impl CompareAnswer {
         )
     }
 
-    /// The assumptions about masses, a line for each sentence, with the names of the designs where it does not hold for all.
+    /// The assumptions about masses, a line for each sentence, with the names of the designs where it does not hold for
+    /// all.
     pub fn assumptions(&self) -> Vec<String> {
         let mut sentences: Vec<&String> = Vec::new();
         for sentence in self.designs.iter().flat_map(|d| &d.assumptions) {

@@ -146,7 +146,8 @@ pub struct PlanePairRecord {
     pub base: PlaneCurveRecord,
     /// The curve of the platform.
     pub platform: PlaneCurveRecord,
-    /// Which points belong together: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base, `beta` on the platform.
+    /// Which points belong together: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
+    /// `beta` on the platform.
     pub equations: Bilinear,
 }
 
@@ -344,7 +345,8 @@ pub enum ParametrisationRecord {
         base_frame: Vec<[Number; 3]>,
         /// Origin and axes of the plane of the platform.
         platform_frame: Vec<[Number; 3]>,
-        /// Which points belong together: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base, `beta` on the platform.
+        /// Which points belong together: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
+        /// `beta` on the platform.
         equations: Bilinear,
     },
 }

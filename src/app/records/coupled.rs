@@ -40,7 +40,8 @@ pub struct DriveSolutionRecord {
     pub distances: [f64; 6],
     /// Steps of the fixed point.
     pub steps: u32,
-    /// The greatest ratio of two changes of the corrections, one after the other; 0 where there were none above rounding.
+    /// The greatest ratio of two changes of the corrections, one after the other; 0 where there were none above
+    /// rounding.
     pub factor: Number,
     /// Proved: the platform origin of the pose with exactly these lengths is no farther away, design units.
     pub position_bound: Option<Number>,

@@ -13,7 +13,8 @@ pub struct DrivesAnswer {
     pub name: String,
     /// True: a drive is proved to fit; false: every drive is proved not to; null: neither.
     pub met: Option<bool>,
-    /// The name of the drive to take: the cheapest that is proved to fit, the lightest of equally cheap ones; null: there is none.
+    /// The name of the drive to take: the cheapest that is proved to fit, the lightest of equally cheap ones; null:
+    /// there is none.
     pub chosen: Option<String>,
     /// All drives: those that fit, those that are undecided, those that do not; each by price, then mass.
     pub drives: Vec<DriveRecord>,

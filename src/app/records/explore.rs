@@ -65,10 +65,11 @@ pub struct ExploreGeneralAnswer {
     pub moves: Option<MovesFoundRecord>,
     /// The nearest octahedral platform; null: none was found.
     pub nearest: Option<NearestErrorRecord>,
-    /// Whether the platform equivalent to the nearest octahedral one meets the requirements of the design: true and false are proved; null: undecided, not looked at, or
-    /// nothing is required.
+    /// Whether the platform equivalent to the nearest octahedral one meets the requirements of the design: true and
+    /// false are proved; null: undecided, not looked at, or nothing is required.
     pub nearest_meets_requirements: Option<bool>,
-    /// The comparison of the design with the equivalent found, else of the nearest octahedral platform with its equivalent; null: there is neither.
+    /// The comparison of the design with the equivalent found, else of the nearest octahedral platform with its
+    /// equivalent; null: there is neither.
     pub verify: Option<ComparedRecord>,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
@@ -183,13 +184,16 @@ pub struct ExploreOctahedralAnswer {
     pub reserve: Option<DefaultReserveRecord>,
     /// The comparison of the design with the optimised one; null: there is none.
     pub verify: Option<ComparedRecord>,
-    /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The assessment is then that of this platform.
+    /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The
+    /// assessment is then that of this platform.
     pub holes: Option<OnHolesRecord>,
-    /// What became of the three-fold symmetry of the design; null where it has none, names one, or the search could not break it or did not look at it.
+    /// What became of the three-fold symmetry of the design; null where it has none, names one, or the search could not
+    /// break it or did not look at it.
     pub symmetry: Option<SymmetryRecord>,
     /// The drives of a table, with what the search came to with each; null where no table was given.
     pub drive_search: Option<DriveSearchRecord>,
-    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what came of a search that had it; null where none was looked at.
+    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what
+    /// came of a search that had it; null where none was looked at.
     pub freedoms: Option<Vec<FreedomRecord>>,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
@@ -332,7 +336,8 @@ impl From<&Result<DesignOnHoles, NoRounding>> for OnHolesRecord {
 pub enum ExploreVerdict {
     /// Every branch of offsets is proved to violate the limits, or no start met the requirements together.
     Infeasible,
-    /// No platform without shared joints other than the design itself is equivalent to it: no leg can be replaced, or every platform that its replaceable legs make shares joints.
+    /// No platform without shared joints other than the design itself is equivalent to it: no leg can be replaced, or
+    /// every platform that its replaceable legs make shares joints.
     None,
     /// The platform found misses requirements.
     Violated,

@@ -21,7 +21,8 @@ pub struct ExportAnswer {
     pub formats: Vec<FormatRecord>,
     /// The sizes that were chosen.
     pub sizes: Vec<SizeChoice>,
-    /// Assumptions of the simulator's model about masses and units that the file leaves open; empty where no model was written.
+    /// Assumptions of the simulator's model about masses and units that the file leaves open; empty where no model was
+    /// written.
     pub assumptions: Vec<String>,
 }
 

@@ -76,7 +76,8 @@ pub struct FkOneAnswer {
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
-    /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as doubles, to the platform, and certificates hold for these tips.
+    /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as
+    /// doubles, to the platform, and certificates hold for these tips.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
     /// Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
@@ -85,13 +86,16 @@ pub struct FkOneAnswer {
     /// The legs whose cranks are beyond their limits at these angles, from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
-    /// Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the tips as doubles are so far out that their rounding decides whether there are any.
+    /// Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally long: how
+    /// many finite poses the exactly symmetric platform has, by a theorem. Further poses of the tips as doubles are so
+    /// far out that their rounding decides whether there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub symmetric_finite: Option<usize>,
     /// How the pose was followed, with `--near`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub near: Option<NearRecord>,
-    /// What the corrections of joints that are not ideal came to; the lengths are then those of drives, and no certificate is given of a root.
+    /// What the corrections of joints that are not ideal came to; the lengths are then those of drives, and no
+    /// certificate is given of a root.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveSolutionRecord>,
     /// The exact closure polynomial, with `--method trilateration`.
@@ -157,7 +161,8 @@ pub struct SolvedRecord {
     pub paths: Vec<PathReport>,
     /// Candidates that are no roots.
     pub rejected: Vec<Rejected>,
-    /// Ends of paths without a certificate, near which there may be one pose, several or none: they are not among the solutions.
+    /// Ends of paths without a certificate, near which there may be one pose, several or none: they are not among the
+    /// solutions.
     pub unproved: Vec<SolutionRecord>,
     /// What null stands for, where a number is not finite.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -276,7 +281,8 @@ pub enum SolutionSetRecord {
         dimension: Option<usize>,
         /// What was seen numerically.
         dimension_at_least: usize,
-        /// Whether a relation between the legs proves it for the lengths as written; false where they satisfy the relation within rounding only and have finitely many poses.
+        /// Whether a relation between the legs proves it for the lengths as written; false where they satisfy the
+        /// relation within rounding only and have finitely many poses.
         dimension_established: bool,
         /// Null: not established.
         degree: Option<usize>,
@@ -361,11 +367,13 @@ pub struct RealPoseRecord {
     pub quat_wxyz: [f64; 4],
     /// On which side of the base the platform is; null: its centre is in the plane of the base, there or at home.
     pub mode: Option<SideWord>,
-    /// Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position over the size of the design.
+    /// Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position over the
+    /// size of the design.
     pub distance_from_home: f64,
     /// Whether none of the other real poses listed is nearer to home.
     pub nearest_home: bool,
-    /// Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks: a machine gets to another side only through a pose with crank and rod in one plane with the axis.
+    /// Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks: a machine
+    /// gets to another side only through a pose with crank and rod in one plane with the axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elbow_kept: Option<[bool; 6]>,
 }

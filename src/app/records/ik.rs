@@ -44,9 +44,11 @@ pub struct IkRecord {
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
-    /// The lengths that the legs show, in leg order, design units: the distances of their joints, and the offsets of a calibration; where joints are not ideal the distances alone.
+    /// The lengths that the legs show, in leg order, design units: the distances of their joints, and the offsets of a
+    /// calibration; where joints are not ideal the distances alone.
     pub lengths: [f64; 6],
-    /// The lengths of the drives, where joints are not ideal; `within_limits`, `outside`, `J` and the angles are then those of drives and real axes, and there are no margins.
+    /// The lengths of the drives, where joints are not ideal; `within_limits`, `outside`, `J` and the angles are then
+    /// those of drives and real axes, and there are no margins.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveLengthsRecord>,
     /// Whether all lengths are within `leg_length`, the ends included; null: the design limits none.
@@ -56,29 +58,34 @@ pub struct IkRecord {
     pub outside: Vec<usize>,
     /// How the joints stand at the ends of the legs.
     pub joints: JointAnglesRecord,
-    /// Rows `[u, (R b) x u]` in leg order: speeds of the legs from the velocity of the platform origin and the angular velocity in radians, base frame; null for a leg of length zero.
+    /// Rows `[u, (R b) x u]` in leg order: speeds of the legs from the velocity of the platform origin and the angular
+    /// velocity in radians, base frame; null for a leg of length zero.
     #[serde(rename = "J")]
     pub jacobian: [[Number; 6]; 6],
-    /// Smallest over largest singular value of the Jacobian with moments over the characteristic length of the design: 1 at best, 0 at a singular pose.
+    /// Smallest over largest singular value of the Jacobian with moments over the characteristic length of the design:
+    /// 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
     /// What the flexures do to the platform when they bend, where the design has some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flexures: Option<FlexureRecord>,
-    /// How uncertain the pose is that the calibrated machine computes from its lengths here, where the design has standard deviations of a calibration and joints are ideal.
+    /// How uncertain the pose is that the calibrated machine computes from its lengths here, where the design has
+    /// standard deviations of a calibration and joints are ideal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
     /// The least margin of each kind of requirement at this pose.
     pub margins: Vec<PoseMarginRecord>,
 }
 
-/// How the joints stand, in leg order, measured from their axes: `base_axes` and `platform_axes` of the design, else the legs at home.
+/// How the joints stand, in leg order, measured from their axes: `base_axes` and `platform_axes` of the design, else
+/// the legs at home.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JointAnglesRecord {
     /// Angles between legs and the axes of their base joints.
     pub base_swing_deg: [Number; 6],
     /// Angles between legs and the axes of their platform joints.
     pub platform_swing_deg: [Number; 6],
-    /// Both angles of each universal joint at the base: `u = Rx(first) Ry(second) n` in the frame of the joint, with z along its axis n and x across it.
+    /// Both angles of each universal joint at the base: `u = Rx(first) Ry(second) n` in the frame of the joint, with z
+    /// along its axis n and x across it.
     pub base_universal_deg: [[Number; 2]; 6],
     /// The same at the platform, in its frame, for the direction from base to platform.
     pub platform_universal_deg: [[Number; 2]; 6],

@@ -1,10 +1,11 @@
-//! Every answer of the program as plain data: what `--json` prints, what the page and other programs read, and what the schemas describe.
+//! Every answer of the program as plain data: what `--json` prints, what the page and other programs read, and what the
+//! schemas describe.
 //!
 //! An answer of a command is a type whose name ends in `Answer`. Its parts are values of the library, which write
 //! themselves (feature `serde` of their packages), or records: views that name joints, count legs from 1, or join
 //! several values. The same value is printed as text by the command, as JSON by [`Document`], and described by
-//! [`schema()`]: no field is written in two places. `.ci/generate` writes the tables of the documents and the records of
-//! Python from the schemas. Only what the program reads from its own folders is `Deserialize`.
+//! [`schema()`]: no field is written in two places. `.ci/generate` writes the tables of the documents and the records
+//! of Python from the schemas. Only what the program reads from its own folders is `Deserialize`.
 //!
 //! Numbers that may be infinite or not a number are `null` in JSON: [`Number`]s, or doubles under [`num::nullable`].
 //! A truth that may be undecided is an `Option<bool>` and `null` where it is.
@@ -100,7 +101,8 @@ pub use self::verify::*;
 pub use self::written::*;
 pub use num::Number;
 
-/// The version of the dialect: a later version of the program may add fields to every object, and words to lists of words, under the same one.
+/// The version of the dialect: a later version of the program may add fields to every object, and words to lists of
+/// words, under the same one.
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// One JSON document: an answer between what all answers have.

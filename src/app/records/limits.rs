@@ -23,7 +23,8 @@ pub struct LimitsAnswer {
     pub axes: Vec<FreeRangeRecord>,
     /// The straight way to the pose of `--to`; null: none was asked for, or it begins at a pose that is not allowed.
     pub way: Option<StraightWayRecord>,
-    /// The allowed pose nearest to that of `--to`, or to that of `--at` where it is not allowed; null: all that was asked for is allowed, or no allowed pose was found.
+    /// The allowed pose nearest to that of `--to`, or to that of `--at` where it is not allowed; null: all that was
+    /// asked for is allowed, or no allowed pose was found.
     pub nearest_allowed: Option<NearestAllowedRecord>,
     /// How large the workspace is around home; null: `--workspace` was not given, or home is not allowed.
     pub workspace: Option<WorkspaceSizeRecord>,
@@ -34,7 +35,8 @@ pub struct LimitsAnswer {
 /// How large the workspace is around home.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorkspaceSizeRecord {
-    /// Volume of the positions that straight ways from home at its orientation reach, design units cubed; an estimate from the ways that were followed.
+    /// Volume of the positions that straight ways from home at its orientation reach, design units cubed; an estimate
+    /// from the ways that were followed.
     pub volume: f64,
     /// The share by which the estimates from every second way and from the others differ.
     pub volume_doubt: f64,
@@ -44,7 +46,8 @@ pub struct WorkspaceSizeRecord {
     pub ends: Vec<RayEndRecord>,
     /// Radius of the largest ball of positions around home, at the orientation of home, design units.
     pub ball_radius: FreeSizeRecord,
-    /// Half widths of the largest box of positions found around home, at the orientation of home, along the axes of the base frame, design units: those proved to be free.
+    /// Half widths of the largest box of positions found around home, at the orientation of home, along the axes of the
+    /// base frame, design units: those proved to be free.
     pub box_proved: [f64; 3],
     /// The same: those in which no violation was found.
     pub box_searched: [f64; 3],
@@ -52,7 +55,8 @@ pub struct WorkspaceSizeRecord {
     pub box_binds: Option<LimitRecord>,
     /// Turns about x, y and z of the base frame through the platform origin, at home.
     pub turns: Vec<FreeTurnRecord>,
-    /// Largest angle up to which the platform may turn about every axis of the xy plane of the base at the position of home, degrees.
+    /// Largest angle up to which the platform may turn about every axis of the xy plane of the base at the position of
+    /// home, degrees.
     pub tilt_deg: FreeSizeRecord,
     /// Largest angle up to which it may turn about every axis there, degrees.
     pub turn_deg: FreeSizeRecord,
@@ -74,7 +78,8 @@ pub struct RayEndRecord {
 /// Up to which size a region around home is free.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeSizeRecord {
-    /// Proved: all poses of the region of this size meet all requirements that depend on the pose, and none is singular; 0: nothing is proved.
+    /// Proved: all poses of the region of this size meet all requirements that depend on the pose, and none is
+    /// singular; 0: nothing is proved.
     pub proved: f64,
     /// No violation was found in regions up to this size.
     pub searched: f64,
@@ -234,7 +239,8 @@ pub struct NearestAllowedRecord {
     pub characteristic_length: f64,
     /// What keeps it from being nearer.
     pub binds: Vec<LimitRecord>,
-    /// Whether no small step leads nearer, as far as margins are smooth: then it is locally nearest. False: the search ended before that was so.
+    /// Whether no small step leads nearer, as far as margins are smooth: then it is locally nearest. False: the search
+    /// ended before that was so.
     pub stationary: bool,
     /// Whether the straight way from home to it violates nothing.
     pub straight_from_home: bool,

@@ -1,4 +1,5 @@
-//! Answers about the affine map between the squared leg lengths of two designs, and the frames in which they are compared.
+//! Answers about the affine map between the squared leg lengths of two designs, and the frames in which they are
+//! compared.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,7 +42,8 @@ pub struct MapRecord {
     /// The determinant of A.
     #[serde(rename = "det")]
     pub determinant: Number,
-    /// The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact arithmetic; null elsewhere, and for numbers too long to be read.
+    /// The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact arithmetic;
+    /// null elsewhere, and for numbers too long to be read.
     pub det_exact: Option<String>,
     /// Rows of A as exact numbers; null where `det_exact` is.
     #[serde(rename = "A_exact")]
@@ -49,11 +51,13 @@ pub struct MapRecord {
     /// The constant terms as exact numbers; null where `det_exact` is.
     #[serde(rename = "c_exact")]
     pub constants_exact: Option<[String; 6]>,
-    /// For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the share t), the t at which det A vanishes while the other legs stay, as an exact number;
-    /// null for other legs and where there is none; null as a whole where `det_exact` is.
+    /// For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the share t), the t
+    /// at which det A vanishes while the other legs stay, as an exact number; null for other legs and where there is
+    /// none; null as a whole where `det_exact` is.
     pub singular_shares: Option<[Option<String>; 6]>,
-    /// det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the other legs as they stand: TO is singular where it is zero, and only there; null where there is no such leg, and
-    /// where `det_exact` is.
+    /// det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the other legs as
+    /// they stand: TO is singular where it is zero, and only there; null where there is no such leg, and where
+    /// `det_exact` is.
     pub det_of_shares: Option<String>,
     /// The largest of the residuals.
     pub residual: Number,

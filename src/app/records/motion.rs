@@ -35,7 +35,8 @@ pub struct MotionAnswer {
 pub struct StiffnessRecord {
     /// The pose.
     pub pose: PoseQuaternionRecord,
-    /// `J^T diag(k) J`: force and torque about the platform origin for a shift of it and a small turn, base frame; force units, design units and radians.
+    /// `J^T diag(k) J`: force and torque about the platform origin for a shift of it and a small turn, base frame;
+    /// force units, design units and radians.
     #[serde(rename = "K")]
     pub matrix: [[Number; 6]; 6],
     /// Least stiffness against a force through the platform origin, force units per design unit; 0 at a singular pose.
@@ -51,7 +52,8 @@ pub struct StiffnessRecord {
 pub struct NaturalMotionRecord {
     /// Its frequency.
     pub frequency_hz: Number,
-    /// Its shape: shift of the platform origin in design units and rotation vector in radians, base frame, for which `v^T M v` is 1 in kilograms and design units.
+    /// Its shape: shift of the platform origin in design units and rotation vector in radians, base frame, for which
+    /// `v^T M v` is 1 in kilograms and design units.
     pub shape: [Number; 6],
 }
 
@@ -222,7 +224,8 @@ pub struct CrankMotionRecord {
     pub speed_deg: Extreme,
     /// Acceleration of the greatest size, degrees per second squared.
     pub acceleration_deg: Extreme,
-    /// Torque of the greatest size about the axis, force units times design units; null: no masses are known, or torques are not determined. Cranks and rods count as massless.
+    /// Torque of the greatest size about the axis, force units times design units; null: no masses are known, or
+    /// torques are not determined. Cranks and rods count as massless.
     pub torque: Option<Extreme>,
     /// Root of the mean square of the torque over time.
     pub rms_torque: Option<Number>,

@@ -34,7 +34,8 @@ pub struct NearRecord {
     pub distance: Number,
     /// The angle the platform turned by.
     pub angle_deg: Number,
-    /// How uncertain the pose reached is, where the design has standard deviations of a calibration and joints are ideal.
+    /// How uncertain the pose reached is, where the design has standard deviations of a calibration and joints are
+    /// ideal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
 }
@@ -52,7 +53,8 @@ pub enum NearWord {
 }
 
 impl NearRecord {
-    /// The record of an outcome that began at `start` and reached a pose with this inverse condition number of the Jacobian.
+    /// The record of an outcome that began at `start` and reached a pose with this inverse condition number of the
+    /// Jacobian.
     #[must_use]
     pub fn new(start: &Pose, outcome: &NearOutcome, inverse_condition: f64) -> Self {
         let e = outcome.evidence();

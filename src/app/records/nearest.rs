@@ -43,7 +43,8 @@ pub struct NearestRecord {
     pub rms_displacement: Number,
     /// The largest displacement over the size of the design.
     pub relative_displacement: Number,
-    /// The largest difference of leg lengths between the design and the platform beside it, over the poses of the workspace.
+    /// The largest difference of leg lengths between the design and the platform beside it, over the poses of the
+    /// workspace.
     pub largest_length_deviation: Number,
     /// The leg, from 1.
     pub deviating_leg: usize,

@@ -7,7 +7,8 @@ use sha2::{Digest, Sha256};
 
 use ask::Design;
 
-/// What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a machine in it.
+/// What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a
+/// machine in it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct ProvenanceRecord {
     /// The version of the program.
@@ -25,7 +26,8 @@ pub struct ProvenanceRecord {
 pub struct DesignSourceRecord {
     /// The name of the design.
     pub name: String,
-    /// The file it was read from, as it was named; null: it was made in memory, and its text is what it would be saved as.
+    /// The file it was read from, as it was named; null: it was made in memory, and its text is what it would be saved
+    /// as.
     pub path: Option<String>,
     /// SHA-256 of the bytes of that file or text, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
@@ -42,7 +44,8 @@ pub struct FileSourceRecord {
     pub sha256: String,
 }
 
-/// A design in memory, by the text that it would be saved as: that of its file, where it was read from TOML and not changed.
+/// A design in memory, by the text that it would be saved as: that of its file, where it was read from TOML and not
+/// changed.
 impl From<&Design> for DesignSourceRecord {
     fn from(design: &Design) -> Self {
         Self { name: design.name.clone(), path: None, sha256: sha256(design.text().as_bytes()) }
@@ -50,7 +53,8 @@ impl From<&Design> for DesignSourceRecord {
 }
 
 impl ProvenanceRecord {
-    /// That of an answer about designs in memory; `seed` is the one of the options it was computed with, `None` where they have none.
+    /// That of an answer about designs in memory; `seed` is the one of the options it was computed with, `None` where
+    /// they have none.
     #[must_use]
     pub fn of(designs: &[&Design], seed: Option<u64>) -> Self {
         let designs = designs.iter().copied().map(DesignSourceRecord::from).collect();

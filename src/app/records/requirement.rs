@@ -103,14 +103,15 @@ pub struct AssessAnswer {
     pub name: String,
     /// What it is in this answer.
     pub role: DesignRoleWord,
-    /// True: every margin and det J are proved, for all poses that `judged` names; false: a violation or a change of sign of det J is proved by its pose;
-    /// null: neither.
+    /// True: every margin and det J are proved, for all poses that `judged` names; false: a violation or a change of
+    /// sign of det J is proved by its pose; null: neither.
     pub met: Option<bool>,
     /// The verdict in a sentence whose subject is the design.
     pub explanation: String,
     /// The poses judged.
     pub judged: JudgedPosesRecord,
-    /// The same of the reserves: true: every margin is proved to keep its reserve; false: one does not, at the pose given; null: neither.
+    /// The same of the reserves: true: every margin is proved to keep its reserve; false: one does not, at the pose
+    /// given; null: neither.
     pub reserve_kept: Option<bool>,
     /// The least of each kind.
     pub requirements: Vec<MarginRecord>,
@@ -120,13 +121,15 @@ pub struct AssessAnswer {
     pub regular: RegularityRecord,
     /// The same in a sentence.
     pub regular_explanation: String,
-    /// Where the Jacobian is conditioned worst among the poses looked at: a number found, without a limit and without a proof.
+    /// Where the Jacobian is conditioned worst among the poses looked at: a number found, without a limit and without a
+    /// proof.
     pub conditioning: LeastConditioningRecord,
     /// Poses looked at.
     pub poses: usize,
     /// Cells over which margins were bounded.
     pub cells: usize,
-    /// The lightest drive of the table that the design names with which its requirements are met; null: it names none, or the answer is about something else.
+    /// The lightest drive of the table that the design names with which its requirements are met; null: it names none,
+    /// or the answer is about something else.
     pub lightest_drive: Option<LightestDriveRecord>,
     /// Assumptions about masses that the file leaves open, a sentence each; absent where no force, torque or
     /// natural frequency is judged, and where the answer around this one has the list.
@@ -275,7 +278,8 @@ impl From<JudgedPoses> for JudgedPosesRecord {
 /// The worst conditioned pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LeastConditioningRecord {
-    /// Smallest over largest singular value of the Jacobian with unit lines and moments over the characteristic length: 1 at best, 0 at a singular pose.
+    /// Smallest over largest singular value of the Jacobian with unit lines and moments over the characteristic length:
+    /// 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
     /// Where.
     pub pose: PoseQuaternionRecord,

@@ -31,17 +31,20 @@ pub struct RotaryIkRecord {
     pub angles_deg: Option<[f64; 6]>,
     /// The first rod that does not reach; null: all do.
     pub out_of_reach: Option<OutOfReachRecord>,
-    /// Whether all angles are within their limits, the ends included; null: a rod does not reach, or the design limits no angle.
+    /// Whether all angles are within their limits, the ends included; null: a rod does not reach, or the design limits
+    /// no angle.
     pub within_limits: Option<bool>,
     /// The legs whose cranks are beyond their limits, from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// The cranks in leg order; none where a rod does not reach.
     pub cranks: Vec<CrankRecord>,
-    /// Rows in leg order: speeds of the cranks, radians per second, from the velocity of the platform origin and the angular velocity in radians, base frame; null where a crank is singular, or a rod does not reach.
+    /// Rows in leg order: speeds of the cranks, radians per second, from the velocity of the platform origin and the
+    /// angular velocity in radians, base frame; null where a crank is singular, or a rod does not reach.
     #[serde(rename = "J")]
     pub jacobian: Option<[[Number; 6]; 6]>,
-    /// Smallest over largest singular value of the Jacobian of the rods on the tips, with moments over the characteristic length of the design: 1 at best, 0 at a singular pose; null: a rod does not reach.
+    /// Smallest over largest singular value of the Jacobian of the rods on the tips, with moments over the
+    /// characteristic length of the design: 1 at best, 0 at a singular pose; null: a rod does not reach.
     pub inverse_condition: Option<Number>,
     /// The torques of the cranks that hold each load at rest, where the design has loads.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -70,9 +73,11 @@ pub struct CrankRecord {
     pub other_angle_deg: f64,
     /// What remains of the limits of the angle, negative beyond them; null: none.
     pub limit_margin_deg: Option<f64>,
-    /// `u . (n x t)` of the unit vectors u along the rod, n along the axis and t along the crank, from -1 to 1: how directly the crank moves its rod. At 0 crank and rod are in one plane with the axis and the crank is singular.
+    /// `u . (n x t)` of the unit vectors u along the rod, n along the axis and t along the crank, from -1 to 1: how
+    /// directly the crank moves its rod. At 0 crank and rod are in one plane with the axis and the crank is singular.
     pub transmission: f64,
-    /// How far the crank is from the angle at which both sides are one, which is singular: half the difference of both angles.
+    /// How far the crank is from the angle at which both sides are one, which is singular: half the difference of both
+    /// angles.
     pub to_singular_deg: f64,
     /// The tip of the crank, base frame.
     pub tip: [f64; 3],

@@ -35,7 +35,8 @@ pub struct RoundAnswer {
     pub assessment: Option<AssessAnswer>,
     /// Which of them the rule takes; null: none meets the requirements.
     pub chosen: Option<RoundingWay>,
-    /// Where none meets the requirements, the one that misses them least, by the greatest violation as a share of what is limited; null otherwise.
+    /// Where none meets the requirements, the one that misses them least, by the greatest violation as a share of what
+    /// is limited; null otherwise.
     pub least_missed: Option<RoundingWay>,
     /// The rounded design: the one chosen, or the one that misses the requirements least.
     pub design: Option<DesignRecord>,
@@ -275,7 +276,8 @@ pub struct RoundedJointRecord {
     pub body: Body,
     /// Its name.
     pub joint: String,
-    /// The hole: counted along the axes of the grid, or its circle and its number on it; null: the joint stays where it was.
+    /// The hole: counted along the axes of the grid, or its circle and its number on it; null: the joint stays where it
+    /// was.
     pub cell: Option<[i64; 2]>,
     /// How it moved, frame of the body.
     pub moved: [Number; 3],

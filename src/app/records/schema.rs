@@ -13,7 +13,8 @@ use super::{
     ViewAnswer,
 };
 
-/// Names of answers with the function that writes their schema: commands by their own names, those of a group as `singular-poses`, `error` for refusals, `help` for --help.
+/// Names of answers with the function that writes their schema: commands by their own names, those of a group as
+/// `singular-poses`, `error` for refusals, `help` for --help.
 type Table = &'static [(&'static str, fn(&mut SchemaGenerator) -> schemars::Schema)];
 
 const ANSWERS: Table = &[
@@ -75,7 +76,8 @@ pub fn schema_names() -> impl Iterator<Item = &'static str> {
     ANSWERS.iter().map(|(name, _)| *name)
 }
 
-/// The JSON Schema (draft 2020-12) of the documents that a command writes with `--json`; `None` for a name that is not one of [`schema_names`].
+/// The JSON Schema (draft 2020-12) of the documents that a command writes with `--json`; `None` for a name that is not
+/// one of [`schema_names`].
 ///
 /// Objects are open: later versions may add keys to them.
 #[must_use]
@@ -94,5 +96,26 @@ pub fn schema(of: &str) -> Option<Map<String, Value>> {
     root.insert("description".into(), open.into());
     root.insert("$ref".into(), format!("#/$defs/{name}").into());
     root.insert("$defs".into(), Value::Object(definitions));
+    root.values_mut().for_each(unwrap_descriptions);
     Some(root)
+}
+
+/// Puts each paragraph of a description on one line: where lines of the sources end says nothing.
+fn unwrap_descriptions(schema: &mut Value) {
+    match schema {
+        Value::Object(fields) => {
+            for (key, value) in fields {
+                match value {
+                    Value::String(text) if key == "description" => {
+                        let paragraphs: Vec<String> =
+                            text.split("\n\n").map(|p| p.replace('\n', " ")).collect();
+                        *text = paragraphs.join("\n\n");
+                    }
+                    _ => unwrap_descriptions(value),
+                }
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(unwrap_descriptions),
+        _ => {}
+    }
 }

@@ -80,7 +80,8 @@ impl From<PoseVerdict> for MotionEvidenceWord {
     }
 }
 
-/// The surroundings of an isolated pose, in displacements `(t / size, c)`: translation over the size, axis times tangent of half the angle.
+/// The surroundings of an isolated pose, in displacements `(t / size, c)`: translation over the size, axis times
+/// tangent of half the angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IsolatedRecord {
     /// Every pose with these lengths within this distance lies within `within`.

@@ -14,7 +14,8 @@ pub struct SingularitiesAnswer {
     pub name: String,
     /// The unit of its lengths.
     pub units: String,
-    /// Whether the workspace of the design, or the region of `--box`, about the pose is free of singular poses; null where neither is given.
+    /// Whether the workspace of the design, or the region of `--box`, about the pose is free of singular poses; null
+    /// where neither is given.
     pub regular: Option<RegularityRecord>,
     /// The pose asked about.
     pub pose: JudgedPoseRecord,

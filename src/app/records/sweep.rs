@@ -77,7 +77,8 @@ pub struct SweepManifestRecord {
     pub sha256: String,
     /// How long it took; the part does not depend on it.
     pub seconds: Number,
-    /// How much of that went into the part, its digest, and bringing it to the disk; for the rest the candidates were computed, or waited for.
+    /// How much of that went into the part, its digest, and bringing it to the disk; for the rest the candidates were
+    /// computed, or waited for.
     pub writing_seconds: Number,
 }
 

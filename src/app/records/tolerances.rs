@@ -46,7 +46,8 @@ pub struct TolerancesAnswer {
     pub poses: BudgetPosesRecord,
 }
 
-/// Standard deviations of poses computed from lengths with the calibrated machine; the noise of these lengths comes on top.
+/// Standard deviations of poses computed from lengths with the calibrated machine; the noise of these lengths comes on
+/// top.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CalibratedPosesRecord {
     /// Whether the design file has correlations.
@@ -70,7 +71,8 @@ pub struct DeviationRecord {
     pub independent: Number,
     /// The pose.
     pub pose: PoseQuaternionRecord,
-    /// Covariance of the shift of the tool point (design units) and the rotation vector (degrees) at the pose, base frame.
+    /// Covariance of the shift of the tool point (design units) and the rotation vector (degrees) at the pose, base
+    /// frame.
     pub covariance: [[Number; 6]; 6],
 }
 

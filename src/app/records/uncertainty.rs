@@ -28,7 +28,8 @@ impl CorrelationsWord {
     }
 }
 
-/// How uncertain a pose is that is computed from lengths with the calibrated machine, by what the calibration does not know, to first order; the noise of these lengths comes on top.
+/// How uncertain a pose is that is computed from lengths with the calibrated machine, by what the calibration does not
+/// know, to first order; the noise of these lengths comes on top.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseUncertaintyRecord {
     /// Whether the design file has correlations.

@@ -16,16 +16,19 @@ pub struct VerifyAnswer {
     pub verdict: VerdictWord,
     /// One sentence with the numbers that decided.
     pub explanation: String,
-    /// Whether the verdict is proved, in exact arithmetic on the leg vectors; `level` of the map says about which joints.
+    /// Whether the verdict is proved, in exact arithmetic on the leg vectors; `level` of the map says about which
+    /// joints.
     pub proved: bool,
     /// The algebraic side; that of the designs as they are given where no motion was found.
     pub map: MapRecord,
-    /// For each leg of B a bound of how far its squared length is from A s + c at all poses of `sampling`, design units squared, whatever the tolerance of the map; null where the map is proved, so that
-    /// there is no difference, where it is singular, and where no motion was found.
+    /// For each leg of B a bound of how far its squared length is from A s + c at all poses of `sampling`, design units
+    /// squared, whatever the tolerance of the map; null where the map is proved, so that there is no difference, where
+    /// it is singular, and where no motion was found.
     pub deviation_bounds: Option<[Number; 6]>,
     /// The largest distance of matched poses over all samples; null where none were compared.
     pub worst_distance: Option<Number>,
-    /// Poses without partner that were set aside: the rounding of the joints decides whether they exist. Absent where no motion was found.
+    /// Poses without partner that were set aside: the rounding of the joints decides whether they exist. Absent where
+    /// no motion was found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_precision: Option<BeyondPrecisionRecord>,
     /// The numerical side.

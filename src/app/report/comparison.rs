@@ -18,7 +18,8 @@ pub struct Comparison {
     pub thumbnails: Vec<String>,
 }
 
-/// What the figures are about, and a row for every design. A click on the title of a column sorts by it where the page has the script.
+/// What the figures are about, and a row for every design. A click on the title of a column sorts by it where the page
+/// has the script.
 pub(super) fn section(comparison: &Comparison, sortable: bool) -> Markup {
     let columns = comparison.answer.columns();
     let titles = ["design".to_owned()].into_iter().chain(columns.iter().map(FigureColumn::heading));

@@ -1,7 +1,9 @@
-//! Shows a folder of results as one HTML page: inputs, verdicts with their evidence, pictures, and where every file comes from.
+//! Shows a folder of results as one HTML page: inputs, verdicts with their evidence, pictures, and where every file
+//! comes from.
 //!
-//! Pure text in, text out. Nothing is computed here: every number of the page stands in one of the files, which are named with their SHA-256 so that a reader
-//! can tell whether the page belongs to them, or in the comparison of the designs among them.
+//! Pure text in, text out. Nothing is computed here: every number of the page stands in one of the files, which are
+//! named with their SHA-256 so that a reader can tell whether the page belongs to them, or in the comparison of the
+//! designs among them.
 
 mod comparison;
 mod kind;

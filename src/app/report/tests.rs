@@ -114,7 +114,8 @@ const PIECES: [&str; 16] = [
     "name",
 ];
 
-/// Tags with their attributes; text between them is not looked at. What a browser takes for a tag begins with `<` and a letter, `/`, `!` or `?`.
+/// Tags with their attributes; text between them is not looked at. What a browser takes for a tag begins with `<` and a
+/// letter, `/`, `!` or `?`.
 fn tags(html: &str) -> Vec<(String, Vec<(String, String)>)> {
     let mut out = Vec::new();
     let mut rest = html;
@@ -150,7 +151,8 @@ fn tags(html: &str) -> Vec<(String, Vec<(String, String)>)> {
     out
 }
 
-/// The tags and attributes of the page itself, links within it, to the files beside it, and pictures that are data: nothing else.
+/// The tags and attributes of the page itself, links within it, to the files beside it, and pictures that are data:
+/// nothing else.
 fn only_its_own(html: &str) -> Result<(), String> {
     const TAGS: [&str; 29] = [
         "!DOCTYPE", "html", "head", "meta", "title", "style", "body", "main", "section", "h1", "h2", "h3",

@@ -1,7 +1,7 @@
 //! An answer as people read it: lines, facts and tables, rendered as terminal text, Markdown and HTML.
 //!
-//! [`Sheet`] holds the content. [`answers`] makes a sheet of each answer, once; the command line, the report, the page and
-//! notebooks render it. It knows the records of answers, and nothing of files, terminals or pages.
+//! [`Sheet`] holds the content. [`answers`] makes a sheet of each answer, once; the command line, the report, the page
+//! and notebooks render it. It knows the records of answers, and nothing of files, terminals or pages.
 
 /// Adds a formatted line to a sheet.
 macro_rules! say {

@@ -138,7 +138,8 @@ impl<'a> SweepCandidate<'a> {
         self.whole.get_or_init(|| make().map(driven)).as_ref().map_err(Clone::clone)
     }
 
-    /// The squared leg lengths of the candidate: those that vary, those at the pose that varies, those of the design (moved to the equivalent platform), or those at home.
+    /// The squared leg lengths of the candidate: those that vary, those at the pose that varies, those of the design
+    /// (moved to the equivalent platform), or those at home.
     ///
     /// # Errors
     /// Why there are none.
@@ -271,7 +272,8 @@ fn placed<'a>(sweep: &'a Sweep, values: &[SweepCell]) -> Result<PlacedPattern<'a
 }
 
 impl SweepCandidate<'_> {
-    /// The text of the candidate as a design file: that of the base design with other numbers or, for an equivalent platform, one of its own.
+    /// The text of the candidate as a design file: that of the base design with other numbers or, for an equivalent
+    /// platform, one of its own.
     ///
     /// # Errors
     /// Why there is none.

@@ -1,10 +1,13 @@
-//! Designs with many real poses: pairs of conjugate complex poses are led together by moving joints and lengths, until they meet and go on as two real ones.
+//! Designs with many real poses: pairs of conjugate complex poses are led together by moving joints and lengths, until
+//! they meet and go on as two real ones.
 //!
-//! The method is Dietmaier's (1998), who found a platform with 40 real poses: the derivatives of all poses with respect to joints and squared lengths are known from the leg
-//! equations, a step brings one pair of complex poses together as far as it can while no two real ones come nearer to each other than a bound (a conic
-//! program: linear but for the length of the step), and all poses are computed again. A pair has one real number `q`, the sum of squared differences of all entries of its two poses, which is
-//! negative for conjugates and positive for real poses. It goes through zero smoothly where they meet, though the poses themselves have infinite derivatives there, so
-//! that the same step leads a pair together, through the double pose, and apart again.
+//! The method is Dietmaier's (1998), who found a platform with 40 real poses: the derivatives of all poses with respect
+//! to joints and squared lengths are known from the leg equations, a step brings one pair of complex poses together as
+//! far as it can while no two real ones come nearer to each other than a bound (a conic program: linear but for the
+//! length of the step), and all poses are computed again. A pair has one real number `q`, the sum of squared
+//! differences of all entries of its two poses, which is negative for conjugates and positive for real poses. It goes
+//! through zero smoothly where they meet, though the poses themselves have infinite derivatives there, so that the same
+//! step leads a pair together, through the double pose, and apart again.
 
 use nalgebra::{DVector, Matrix3, Matrix6, Vector3, Vector6};
 use num_complex::Complex64;
@@ -27,8 +30,8 @@ const SHORTER: f64 = 0.5;
 const LONGER: f64 = 1.5;
 /// A pair is given up as well when a spell of steps does not shrink its imaginary part squared to this share.
 const SPELL_SHRINKS: f64 = 0.5;
-/// Steps of a spell: few at first, since from another place a pair that hardly moves here may meet in some steps, and twice as many each time no pair can be led
-/// together, up to the most.
+/// Steps of a spell: few at first, since from another place a pair that hardly moves here may meet in some steps, and
+/// twice as many each time no pair can be led together, up to the most.
 const SHORTEST_SPELL: usize = 3;
 const LONGEST_SPELL: usize = 40;
 /// Squared distance that real poses are to keep; those that are nearer may not come nearer still.
@@ -37,7 +40,8 @@ const APART: f64 = 0.3;
 const WITHIN: f64 = 10.0;
 /// The largest share of its distance that a pair of real poses loses at a step.
 const LOST: f64 = 0.5;
-/// Shares of the most that two real poses without distance could gain at a step, of which they gain the first that is possible for all.
+/// Shares of the most that two real poses without distance could gain at a step, of which they gain the first that is
+/// possible for all.
 const PARTING: [f64; 4] = [0.5, 0.25, 0.1, 0.0];
 /// How far, in units of the length of the step, a step may fall short of what it was asked for.
 const RESIDUAL: f64 = 1e-4;
@@ -118,7 +122,8 @@ impl ClimbFreedoms {
         Some((moved, SquaredLegLengths::try_new(squares).ok()?))
     }
 
-    /// How a pose moves with each of them: turns `w` (`dR = [w]x R`) and shifts in units of the size. `None` at a singular pose.
+    /// How a pose moves with each of them: turns `w` (`dR = [w]x R`) and shifts in units of the size. `None` at a
+    /// singular pose.
     ///
     /// With `d = R b + p - a` the leg equation `d.d = s` gives `2 d.(dp + w x R b) = ds + 2 d.da - 2 (R^T d).db`.
     fn derivatives(&self, m: &Manipulator, pose: &ComplexPose) -> Option<Vec<Vector6<Complex64>>> {
@@ -158,8 +163,8 @@ impl ClimbFreedoms {
     }
 }
 
-/// The derivatives of `sum f(entry)^2` over rotation and position (in units of the size) of a pose, where `f` takes a real number from the entries and
-/// `at` has the values of `f` there.
+/// The derivatives of `sum f(entry)^2` over rotation and position (in units of the size) of a pose, where `f` takes a
+/// real number from the entries and `at` has the values of `f` there.
 fn slope(
     pose: &ComplexPose,
     moves: &[Vector6<Complex64>],
@@ -223,7 +228,8 @@ impl ClimbFreedoms {
         v
     }
 
-    /// The step of a length at most `radius` that goes farthest along `aim`, while pairs of real poses keep their distance and those that are too near part.
+    /// The step of a length at most `radius` that goes farthest along `aim`, while pairs of real poses keep their
+    /// distance and those that are too near part.
     fn step(&self, aim: &DVector<f64>, kept: &[PosePair], radius: f64) -> Option<DVector<f64>> {
         PARTING.iter().find_map(|parting| self.step_parting(aim, kept, radius, *parting))
     }
@@ -355,7 +361,8 @@ struct SingularClimb {
 }
 
 impl SingularClimb {
-    /// The platform after a step; `None` where poses get lost, real ones become complex, or real ones come too near to each other.
+    /// The platform after a step; `None` where poses get lost, real ones become complex, or real ones come too near to
+    /// each other.
     fn at(&self, by: &DVector<f64>) -> Option<Stand> {
         let (m, s) = self.freedoms.moved(&self.here, by)?;
         let there = Stand::new(m, s, self.seed)?;
@@ -420,7 +427,8 @@ impl SingularClimb {
         false
     }
 
-    /// The first step, from long to short, after which there are more real poses, or the pair is nearer to being real; with the pose of the pair there.
+    /// The first step, from long to short, after which there are more real poses, or the pair is nearer to being real;
+    /// with the pose of the pair there.
     fn forward(
         &mut self,
         aim: &DVector<f64>,
@@ -546,7 +554,8 @@ mod tests {
         }
     }
 
-    /// A step goes as far as it may along what is aimed at, and where a pair of real poses would come too near, along what does not bring it nearer.
+    /// A step goes as far as it may along what is aimed at, and where a pair of real poses would come too near, along
+    /// what does not bring it nearer.
     #[test]
     fn a_step_keeps_near_real_poses_apart() {
         let (m, _) = octahedral();

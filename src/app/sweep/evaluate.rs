@@ -99,7 +99,8 @@ impl Sweep {
         self.plan.quantities().any(|q| matches!(q, FreeQuantity::Pattern | FreeQuantity::Offset(_)))
     }
 
-    /// The row of candidate `k`; `None` where the plan does not keep it. What cannot be computed is a row with its error.
+    /// The row of candidate `k`; `None` where the plan does not keep it. What cannot be computed is a row with its
+    /// error.
     pub fn row(&self, k: u64) -> Option<Vec<SweepCell>> {
         let mut row = Vec::with_capacity(self.columns.len());
         self.row_onto(k, &mut row).then_some(row)
@@ -132,7 +133,8 @@ impl Sweep {
         true
     }
 
-    /// Whether the pattern of a candidate leaves offsets unused, so that the same platform stands at another place: where those of a block have their first values.
+    /// Whether the pattern of a candidate leaves offsets unused, so that the same platform stands at another place:
+    /// where those of a block have their first values.
     fn repeats(&self, k: u64, values: &[SweepCell]) -> bool {
         let pattern =
             self.plan.quantities().zip(values).find_map(|(quantity, value)| match (quantity, value) {

@@ -1,20 +1,24 @@
-//! Figures of a platform over many poses, for many platforms: each is what its definition says, and poses that cannot be the worst are passed over.
+//! Figures of a platform over many poses, for many platforms: each is what its definition says, and poses that cannot
+//! be the worst are passed over.
 
 use nalgebra::{Matrix6, Point3};
 
 use platform::geom::{Pose, segment_distance};
 use platform::manipulator::{Leg, Manipulator, inverse_condition, jacobian_of_legs};
 
-/// What rounding may take from the bounds below, as a share: they are products of some tens of operations, of matrices with condition numbers below `1 / ILL`.
+/// What rounding may take from the bounds below, as a share: they are products of some tens of operations, of matrices
+/// with condition numbers below `1 / ILL`.
 const ROUNDING: f64 = 1e-9;
 /// Below this the inverse has too few digits for a bound.
 const ILL: f64 = 1e-6;
 
-/// The least `sigma_6 / sigma_1` of the Jacobian over the poses, and the number of the first pose that has it; `None` without poses.
+/// The least `sigma_6 / sigma_1` of the Jacobian over the poses, and the number of the first pose that has it; `None`
+/// without poses.
 ///
-/// With `|.|` the Frobenius norm, `1 / (|J| |J^-1|)` is never above it and at most six times below, and `1 / (|(J^T J)^4| |(J J^T)^-4|)^(1/8)` at most 1.26 times.
-/// Poses are taken in the order of the first bound, those from the first one on whose bound exceeds the least value found are passed over, and so is any other
-/// whose second bound exceeds it.
+/// With `|.|` the Frobenius norm, `1 / (|J| |J^-1|)` is never above it and at most six times below, and
+/// `1 / (|(J^T J)^4| |(J J^T)^-4|)^(1/8)` at most 1.26 times. Poses are taken in the order of the first bound, those
+/// from the first one on whose bound exceeds the least value found are passed over, and so is any other whose second
+/// bound exceeds it.
 pub(super) fn worst_conditioning(
     legs: &[Leg; 6],
     poses: &[Pose],

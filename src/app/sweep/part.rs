@@ -23,12 +23,13 @@ use num::Purpose;
 /// Rows that are held before they are written.
 const ROWS: usize = 1 << 14;
 
-/// Bytes of the dictionary of a column in a group of rows, at most: 1024 numbers. A column with more different values is written plainly from there on, since a table of
-/// values that hardly repeat makes the file larger and takes most of the time of writing.
+/// Bytes of the dictionary of a column in a group of rows, at most: 1024 numbers. A column with more different values
+/// is written plainly from there on, since a table of values that hardly repeat makes the file larger and takes most of
+/// the time of writing.
 const DICTIONARY: usize = 1 << 13;
 
-/// Cells of a column that are looked at to tell whether anything repeats in it, one of each of so many equal parts of the column. Among so
-/// many of 1024 numbers there is a repetition in all but some of ten thousand cases.
+/// Cells of a column that are looked at to tell whether anything repeats in it, one of each of so many equal parts of
+/// the column. Among so many of 1024 numbers there is a repetition in all but some of ten thousand cases.
 const LOOKED_AT: usize = 128;
 
 /// The key under which the columns are described.
@@ -139,9 +140,9 @@ impl WaitingColumn {
         true
     }
 
-    /// Whether a table of values or a compressor may find something: of the numbers that are looked at two have equal lower halves, as
-    /// equal numbers have them, and whole numbers. Numbers that are computed hardly ever do, and then both are half of the time of
-    /// writing for nothing.
+    /// Whether a table of values or a compressor may find something: of the numbers that are looked at two have equal
+    /// lower halves, as equal numbers have them, and whole numbers. Numbers that are computed hardly ever do, and then
+    /// both are half of the time of writing for nothing.
     fn repeats(&self) -> bool {
         let WaitingValues::Numbers(values) = &self.values else { return true };
         let each = values.len() / LOOKED_AT;
@@ -156,7 +157,8 @@ impl WaitingColumn {
         halves.windows(2).any(|w| w[0] == w[1])
     }
 
-    /// Writes the cells and forgets them; the room for the next ones stays. `full` are the levels of a column without empty cells. `false` for a column of another type.
+    /// Writes the cells and forgets them; the room for the next ones stays. `full` are the levels of a column without
+    /// empty cells. `false` for a column of another type.
     fn write(&mut self, to: &mut ColumnWriter<'_>, full: &[i16]) -> Result<bool, ParquetError> {
         let levels = Some(if self.levels.is_empty() { full } else { &self.levels });
         match (&mut self.values, to) {
@@ -203,8 +205,8 @@ pub struct PartWriter<W: Write + Send> {
 }
 
 impl<W: Write + Send> PartWriter<W> {
-    /// Begins a file with these columns and, as its metadata, these keys and values. There is room for so many rows from the start, as
-    /// far as a group has them.
+    /// Begins a file with these columns and, as its metadata, these keys and values. There is room for so many rows
+    /// from the start, as far as a group has them.
     ///
     /// # Errors
     /// Those of the file.
@@ -526,7 +528,8 @@ mod tests {
         assert_eq!([200, 5000, ROWS].map(|n| described(n, &computed)), [plain; 3]);
         // with few rows nothing is known
         assert_eq!(described(LOOKED_AT - 1, &computed), (false, Compression::SNAPPY, true));
-        // in turn, with lengths that have factors in common with everything here and with nothing; whole numbers; the same number always
+        // in turn, with lengths that have factors in common with everything here and with nothing; whole numbers; the
+        // same number always
         for turn in [2, 64, 127, 128, 625, 1000, 1009, 1024] {
             let repeated = |k: usize| computed(k % turn);
             assert_eq!(

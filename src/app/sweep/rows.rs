@@ -16,8 +16,8 @@ pub type SweepRow = Vec<SweepCell>;
 /// Candidates that a thread takes at a time, at most: many are done in some microseconds each.
 const AT_ONCE: u64 = 32;
 
-/// What they may take together: below the first more are taken, above the second fewer, so that slow candidates are spread over all
-/// threads, and an interrupt waits for few of them.
+/// What they may take together: below the first more are taken, above the second fewer, so that slow candidates are
+/// spread over all threads, and an interrupt waits for few of them.
 const TOGETHER: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(20)];
 
 /// How many candidates are taken next, after so many took this time. Rows do not depend on it.
@@ -31,8 +31,8 @@ fn next_at_once(n: u64, took: Duration) -> u64 {
     }
 }
 
-/// What came of some candidates that follow one another: the rows that are kept, in one piece, which takes less time than rows that
-/// are allocated and freed one by one.
+/// What came of some candidates that follow one another: the rows that are kept, in one piece, which takes less time
+/// than rows that are allocated and freed one by one.
 #[derive(Debug, PartialEq)]
 pub struct RowChunk {
     /// How many candidates they are, kept or not.
@@ -80,7 +80,8 @@ impl Sweep {
     }
 }
 
-/// The candidates of shard `shard` of `shards`: the ranges of all shards are as equal as they can be, and follow one another.
+/// The candidates of shard `shard` of `shards`: the ranges of all shards are as equal as they can be, and follow one
+/// another.
 pub fn shard_range(count: u64, shard: u64, shards: u64) -> Range<u64> {
     let at = |s: u64| (u128::from(count) * u128::from(s) / u128::from(shards)) as u64;
     at(shard)..at(shard + 1)

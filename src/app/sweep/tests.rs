@@ -221,7 +221,8 @@ fn margins_have_a_column_for_each_kind_of_requirement() {
     }
 }
 
-/// det J of an equivalent platform is that of the original times det A: the same poses are singular, and the two bounds hold one number for all candidates.
+/// det J of an equivalent platform is that of the original times det A: the same poses are singular, and the two bounds
+/// hold one number for all candidates.
 #[test]
 #[ignore = "evidence"]
 fn equivalent_platforms_have_one_region_without_singular_poses_and_tolerances_of_their_own() {

@@ -9,7 +9,8 @@ use super::violation::Findings;
 use super::{DesignModel, Format, Warning, parse_with_cranks, toml_text};
 use platform::manipulator::{Body, InvalidManipulator, Manipulator};
 
-/// The text a design was read from, and what is slippery in it. Two designs that say the same are equal however they are written.
+/// The text a design was read from, and what is slippery in it. Two designs that say the same are equal however they
+/// are written.
 #[derive(Clone, Default)]
 pub struct Written {
     /// `None` for designs that are from no TOML text.
@@ -122,9 +123,10 @@ impl From<NotBuilt> for JointError {
 }
 
 impl DesignModel {
-    /// Moves a joint: its name, with the body before it where both have one of this name (`"base.P1"`), and its new coordinates in the frame of its body.
-    /// Everything else stays, lengths included, and so do the comments of the [`text`](Self::text). A construction of this joint gives way to the three numbers; joints that
-    /// are constructed from this one follow it.
+    /// Moves a joint: its name, with the body before it where both have one of this name (`"base.P1"`), and its new
+    /// coordinates in the frame of its body. Everything else stays, lengths included, and so do the comments of the
+    /// [`text`](Self::text). A construction of this joint gives way to the three numbers; joints that are constructed
+    /// from this one follow it.
     ///
     /// ```
     /// # mod equipod { pub mod methods { pub use equipod_files::design; } }
@@ -184,8 +186,9 @@ impl DesignModel {
         })
     }
 
-    /// The TOML text the design was read from, comments and all, with the joints that were [moved](Self::set_joint) since; [`to_toml`](Self::to_toml) where it
-    /// was read from none, or where the text no longer says what the design is because something else was changed.
+    /// The TOML text the design was read from, comments and all, with the joints that were [moved](Self::set_joint)
+    /// since; [`to_toml`](Self::to_toml) where it was read from none, or where the text no longer says what the design
+    /// is because something else was changed.
     #[must_use]
     pub fn text(&self) -> String {
         let kept = self.written.toml.as_ref().filter(|text| {

@@ -1,7 +1,7 @@
 //! Which known word a person meant.
 
-/// Similarity of Jaro and Winkler, 1 for equal words, upper and lower case apart; 0 for a word too long for a slip of the pen, since the
-/// comparison is quadratic.
+/// Similarity of Jaro and Winkler, 1 for equal words, upper and lower case apart; 0 for a word too long for a slip of
+/// the pen, since the comparison is quadratic.
 pub fn likeness(given: &str, known: &str) -> f64 {
     if given.len() > 100 {
         return 0.0;

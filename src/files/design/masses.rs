@@ -1,4 +1,5 @@
-//! Bodies of a design that move: the platform with its payload, its plate, and the legs; what is assumed of them, and the loads that follow.
+//! Bodies of a design that move: the platform with its payload, its plate, and the legs; what is assumed of them, and
+//! the loads that follow.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -32,7 +33,8 @@ impl JudgedForces {
 }
 
 impl DesignModel {
-    /// The payload and the legs vibrate; `None` where the file states nothing that moves, no stiffness of legs or no known unit of length.
+    /// The payload and the legs vibrate; `None` where the file states nothing that moves, no stiffness of legs or no
+    /// known unit of length.
     ///
     /// Without names of units forces are newtons and masses kilograms.
     #[must_use]
@@ -43,15 +45,16 @@ impl DesignModel {
         Some(VibratingMasses { bodies, leg: self.hardware.leg_stiffness? * newtons / metres })
     }
 
-    /// [What moves with the platform](Self::moving_payload) and the legs, where one design unit is so many metres: the masses of `motion`, of natural frequencies and of simulators.
-    /// `None` where nothing is known to move with the platform. [`mass_assumptions`](Self::mass_assumptions) says what is assumed.
+    /// [What moves with the platform](Self::moving_payload) and the legs, where one design unit is so many metres: the
+    /// masses of `motion`, of natural frequencies and of simulators. `None` where nothing is known to move with the
+    /// platform. [`mass_assumptions`](Self::mass_assumptions) says what is assumed.
     #[must_use]
     pub fn moving_bodies(&self, metres: f64) -> Option<MovingBodies> {
         Some(self.bodies_with(&self.moving_payload()?, metres))
     }
 
-    /// The bodies of a file that does not say what moves: a platform of so many kilograms with its centre in the middle of its joints and
-    /// [the inertia of a ball](Self::moving_payload), and the legs as the file has them.
+    /// The bodies of a file that does not say what moves: a platform of so many kilograms with its centre in the middle
+    /// of its joints and [the inertia of a ball](Self::moving_payload), and the legs as the file has them.
     pub(crate) fn assumed_bodies(&self, kilograms: f64, metres: f64) -> MovingBodies {
         let mass = kilograms / self.mass_unit().kilograms();
         self.bodies_with(&self.unshaped(mass, self.platform_middle(), self.ball(mass)), metres)
@@ -83,7 +86,8 @@ impl DesignModel {
         self.payload.map_or_else(|| Vector3::new(0.0, 0.0, -GRAVITY), |payload| payload.gravity)
     }
 
-    /// Inertia of a ball whose radius of gyration is the root mean square distance of the platform joints from their middle.
+    /// Inertia of a ball whose radius of gyration is the root mean square distance of the platform joints from their
+    /// middle.
     fn ball(&self, mass: f64) -> Matrix3<f64> {
         let joints = self.manipulator.platform_joints();
         let middle = self.platform_middle();
@@ -157,17 +161,20 @@ impl DesignModel {
         self.plate(body)?.rigid(self.plates.of(body)?, metres)
     }
 
-    /// Mass of the plate of a body without its holes, kilograms; `None` where its density or the unit of length is not known.
+    /// Mass of the plate of a body without its holes, kilograms; `None` where its density or the unit of length is not
+    /// known.
     #[must_use]
     pub fn plate_mass(&self, body: Body) -> Option<f64> {
         self.rigid_plate(body).map(|plate| plate.mass)
     }
 
-    /// The payload moves with the platform: as the file states it, with the plate of the platform where the file says that it comes on top; the plate alone where the file has no
-    /// payload and the mass of the plate is known.
+    /// The payload moves with the platform: as the file states it, with the plate of the platform where the file says
+    /// that it comes on top; the plate alone where the file has no payload and the mass of the plate is known.
     ///
-    /// With masses `m` and `n`, centres `c` and `d`, inertias `I` and `J`: mass `m + n`, centre `(m c + n d) / (m + n)`, inertia `I + J` and `m n / (m + n) (e . e - e e^T)` with
-    /// `e = c - d`. A payload without inertia has that of a ball whose radius of gyration is the root mean square distance of the platform joints from their middle.
+    /// With masses `m` and `n`, centres `c` and `d`, inertias `I` and `J`: mass `m + n`, centre
+    /// `(m c + n d) / (m + n)`, inertia `I + J` and `m n / (m + n) (e . e - e e^T)` with `e = c - d`. A payload without
+    /// inertia has that of a ball whose radius of gyration is the root mean square distance of the platform joints from
+    /// their middle.
     #[must_use]
     pub fn moving_payload(&self) -> Option<Payload> {
         let plate = || {

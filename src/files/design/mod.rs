@@ -1,4 +1,5 @@
-//! Reads and writes design files: a manipulator with its joint names, home pose, workspace and options, as TOML or JSON.
+//! Reads and writes design files: a manipulator with its joint names, home pose, workspace and options, as TOML or
+//! JSON.
 //!
 //! Everything here is pure: text in, [`DesignModel`] or a list of [`Violation`]s out, and back to text. The
 //! format is described key by key in `docs/design-files.md`.
@@ -103,16 +104,19 @@ impl std::str::FromStr for Format {
 /// ```
 ///
 /// # Errors
-/// All violations found, in the order of the text: a text with syntax errors is not examined further. A design whose legs are rods on cranks is one ([`Code::Rotary`]): what holds for legs that
-/// change their lengths does not hold for it, and [`parse_with_cranks`] reads it; so is one whose joints are not ideal ([`Code::NotIdeal`]).
+/// All violations found, in the order of the text: a text with syntax errors is not examined further. A design whose
+/// legs are rods on cranks is one ([`Code::Rotary`]): what holds for legs that change their lengths does not hold for
+/// it, and [`parse_with_cranks`] reads it; so is one whose joints are not ideal ([`Code::NotIdeal`]).
 pub fn parse(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
     read(text, format, false)
 }
 
 /// Reads a design from text, also one whose legs are rods on cranks (`drive = "rotary"`), or whose joints are not ideal
-/// ([`Hardware::is_coupled`](machine::requirements::Hardware::is_coupled)), so that the lengths of its drives are not the distances of its joints.
+/// ([`Hardware::is_coupled`](machine::requirements::Hardware::is_coupled)), so that the lengths of its drives are not
+/// the distances of its joints.
 ///
-/// The base joints of such a design are the centres of its cranks: [`DesignModel::manipulator`] joins them to the platform and says nothing of the rods. Ask [`DesignModel::rotary`] for cranks and rods.
+/// The base joints of such a design are the centres of its cranks: [`DesignModel::manipulator`] joins them to the
+/// platform and says nothing of the rods. Ask [`DesignModel::rotary`] for cranks and rods.
 ///
 /// # Errors
 /// All violations found.

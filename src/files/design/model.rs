@@ -59,7 +59,8 @@ pub struct DesignModel {
     pub drive_table: Option<String>,
     /// What has to remain of each limit.
     pub reserves: Reserves,
-    /// Where the joints of base and platform can be put; `None`: anywhere. At least one plate has a grid where holes are stated.
+    /// Where the joints of base and platform can be put; `None`: anywhere. At least one plate has a grid where holes
+    /// are stated.
     pub holes: Option<[Option<Grid>; 2]>,
     /// Unit of forces; `None` where the file names none.
     pub force_units: Option<ForceUnit>,
@@ -93,7 +94,8 @@ pub struct CalibrationTable {
     pub offsets: [f64; 6],
     /// Standard deviations of the offsets, design units.
     pub offset_deviations: Option<[f64; 6]>,
-    /// Standard deviations of the coordinates of the base joints, in joint order; `None` for joints about which nothing is said.
+    /// Standard deviations of the coordinates of the base joints, in joint order; `None` for joints about which nothing
+    /// is said.
     pub base_deviations: Vec<Option<Vector3<f64>>>,
     /// Those of the platform joints.
     pub platform_deviations: Vec<Option<Vector3<f64>>>,
@@ -135,12 +137,14 @@ impl CalibratedNumber {
     }
 }
 
-/// Correlations of the numbers of a calibration. They have no unit; numbers that are not listed are off each for itself.
+/// Correlations of the numbers of a calibration. They have no unit; numbers that are not listed are off each for
+/// itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlations {
     /// What rows and columns are about.
     pub unknowns: Vec<CalibratedNumber>,
-    /// The lower triangle with the diagonal, which is 1: row `i` has `i + 1` numbers. The matrix is positive semidefinite up to rounding.
+    /// The lower triangle with the diagonal, which is 1: row `i` has `i + 1` numbers. The matrix is positive
+    /// semidefinite up to rounding.
     pub triangle: Vec<Vec<f64>>,
 }
 
@@ -299,7 +303,8 @@ impl DesignModel {
         Ok(self)
     }
 
-    /// The same with the source and all tables of another design that say what is required: what a rearrangement of its legs does not change.
+    /// The same with the source and all tables of another design that say what is required: what a rearrangement of its
+    /// legs does not change.
     #[must_use]
     pub fn with_tables_of(mut self, other: &Self) -> Self {
         self.source.clone_from(&other.source);
@@ -382,7 +387,8 @@ impl DesignModel {
         self.constructions.cranks.as_ref().map(|cranks| cranks.drives).unwrap_or_default()
     }
 
-    /// Joints and legs. Where the legs are rods on [cranks](Self::rotary) the base joints are the centres of the cranks.
+    /// Joints and legs. Where the legs are rods on [cranks](Self::rotary) the base joints are the centres of the
+    /// cranks.
     #[must_use]
     pub fn manipulator(&self) -> &Manipulator {
         &self.manipulator
@@ -407,8 +413,9 @@ impl DesignModel {
 
     /// The joints of a body as exactly as they are known, in joint order.
     ///
-    /// A joint of three plain numbers is the three doubles. One that is constructed is what its construction says: fractions, sums of square roots, or bounds; the
-    /// coordinates in [`Self::manipulator`] are the doubles nearest to them.
+    /// A joint of three plain numbers is the three doubles. One that is constructed is what its construction says:
+    /// fractions, sums of square roots, or bounds; the coordinates in [`Self::manipulator`] are the doubles nearest to
+    /// them.
     ///
     /// ```
     /// # mod equipod { pub mod methods { pub use equipod_files::design; } pub mod prelude { pub use platform::manipulator::Body; } }
@@ -463,26 +470,30 @@ impl DesignModel {
         self.constructions.exact(body, body.of((m.base_joints(), m.platform_joints())))
     }
 
-    /// The length that rotations are multiplied with where they are compared with translations, as in every inverse condition number of the Jacobian: that of `[optimize]`, else the RMS distance
-    /// of the platform's leg ends from their centroid.
+    /// The length that rotations are multiplied with where they are compared with translations, as in every inverse
+    /// condition number of the Jacobian: that of `[optimize]`, else the RMS distance of the platform's leg ends from
+    /// their centroid.
     #[must_use]
     pub fn characteristic_length(&self) -> f64 {
         self.optimize.characteristic_length.unwrap_or_else(|| self.manipulator.platform_rms_radius())
     }
 
-    /// What is said of the joints beside three numbers each and of home beside plain numbers, without a home that has been given another pose since.
+    /// What is said of the joints beside three numbers each and of home beside plain numbers, without a home that has
+    /// been given another pose since.
     pub(super) fn current_constructions(&self) -> Constructions {
         let mut constructions = self.constructions.clone();
         constructions.home = self.written_home().cloned();
         constructions
     }
 
-    /// The home pose as it was written, where an expression gives a number of it and no other pose has been given since.
+    /// The home pose as it was written, where an expression gives a number of it and no other pose has been given
+    /// since.
     pub(super) fn written_home(&self) -> Option<&WrittenHome> {
         self.constructions.home.as_ref().filter(|written| self.home == Some(written.pose))
     }
 
-    /// The constructions have been resolved: home follows from them, and so do the coordinates of the manipulator, which get what they are where they are not the doubles.
+    /// The constructions have been resolved: home follows from them, and so do the coordinates of the manipulator,
+    /// which get what they are where they are not the doubles.
     pub(super) fn set_constructions(&mut self, constructions: Constructions) {
         self.constructions = constructions;
         if let Some(home) = &self.constructions.home {
@@ -571,13 +582,15 @@ impl DesignModel {
         })
     }
 
-    /// Offsets of the calibration, design units, zero without one: each leg shows the distance of its joints and its offset.
+    /// Offsets of the calibration, design units, zero without one: each leg shows the distance of its joints and its
+    /// offset.
     #[must_use]
     pub fn leg_offsets(&self) -> [f64; 6] {
         self.calibration.as_ref().map_or([0.0; 6], |table| table.offsets)
     }
 
-    /// The plate of a body as a solid, where the file says something of it; the legs are on the side on which they are at home.
+    /// The plate of a body as a solid, where the file says something of it; the legs are on the side on which they are
+    /// at home.
     #[must_use]
     pub fn plate(&self, body: Body) -> Option<PlateSolid> {
         let home = self.home_or_default();
@@ -676,7 +689,8 @@ pub enum Combination {
 pub struct SearchTable {
     /// What may be chosen; empty: the offsets.
     pub variables: Vec<VariableKind>,
-    /// The symmetry that the platform has to keep; when absent the three-fold one of a design that has it, as long as a platform with it meets the requirements.
+    /// The symmetry that the platform has to keep; when absent the three-fold one of a design that has it, as long as a
+    /// platform with it meets the requirements.
     pub symmetry: Option<KeptSymmetry>,
     /// Objectives with weights, or in the order of their levels; empty: the worst-case conditioning.
     pub objectives: Vec<(Objective, f64)>,

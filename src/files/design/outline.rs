@@ -1,10 +1,12 @@
-//! The text of a design from the few numbers that its maker has in mind: sizes of a symmetric hexapod, or the corners of two triangles.
+//! The text of a design from the few numbers that its maker has in mind: sizes of a symmetric hexapod, or the corners
+//! of two triangles.
 
 use std::fmt::Write as _;
 
 use thiserror::Error;
 
-/// The sizes by which makers describe a hexapod: the joints of each body stand in three pairs on a circle, and legs join neighbouring pairs.
+/// The sizes by which makers describe a hexapod: the joints of each body stand in three pairs on a circle, and legs
+/// join neighbouring pairs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HexapodSizes {
     /// Radii of the circles of the base and platform joints, design units.
@@ -29,7 +31,8 @@ impl HexapodSizes {
     /// Whether the sizes can be those of a hexapod.
     ///
     /// # Errors
-    /// The first size that cannot be; spreads that make the hexagons similar are no size at fault, but give no hexapod that its legs hold.
+    /// The first size that cannot be; spreads that make the hexagons similar are no size at fault, but give no hexapod
+    /// that its legs hold.
     pub fn check(&self) -> Result<(), InvalidOutline> {
         let [base, platform] = self.radius;
         for (what, x) in
@@ -90,8 +93,8 @@ impl HexapodSizes {
         if k == 0 { half } else { PLATFORM_TURN_DEG - half }
     }
 
-    /// This angle, where its cosine and sine are no sums of square roots: they are then written as decimals, since poses of joints that are known between bounds only are not
-    /// counted.
+    /// This angle, where its cosine and sine are no sums of square roots: they are then written as decimals, since
+    /// poses of joints that are known between bounds only are not counted.
     fn inexact_angle(self, k: usize) -> Option<f64> {
         let angle = self.angle(k);
         (self.spread_deg[k] > 0.0 && angle % 15.0 != 0.0).then_some(angle)
@@ -126,7 +129,8 @@ impl HexapodSizes {
     }
 }
 
-/// The design file of an octahedral platform in TOML, without leg lengths: each corner of the base is joined to two corners of the platform.
+/// The design file of an octahedral platform in TOML, without leg lengths: each corner of the base is joined to two
+/// corners of the platform.
 pub fn octahedral_toml(corners: &[[[f64; 3]; 3]; 2], name: &str, units: &str, height: f64) -> String {
     let mut out =
         String::from("# An octahedral platform: three joints on each body, two legs at each joint.\n");
@@ -184,7 +188,8 @@ mod tests {
                 let radius = sizes(spread).radius[k];
                 assert!(joints.iter().all(|p| (p.coords.norm() - radius).abs() < 1e-9), "{spread:?}");
             }
-            // the pair of the base that legs 1 and 2 leave is around the x axis, and each leg goes to the pair beside it
+            // the pair of the base that legs 1 and 2 leave is around the x axis, and each leg goes to the pair beside
+            // it
             let [a, b] = [m.legs()[1].base, m.legs()[1].platform].map(|p| p.y.atan2(p.x).to_degrees());
             assert!(
                 (a - spread[0] / 2.0).abs() < 1e-9 && (b - 60.0 + spread[1] / 2.0).abs() < 1e-9,

@@ -778,7 +778,8 @@ fn plates_that_cannot_be_are_refused_at_their_place() {
     assert!(found.iter().any(|v| v.message.contains("mass of a plate needs a known unit")), "{found:?}");
 }
 
-/// The axes of joints are the normal of their plane, one vector, or a list with normals in it; what is read is written as vectors.
+/// The axes of joints are the normal of their plane, one vector, or a list with normals in it; what is read is written
+/// as vectors.
 #[test]
 fn axes_are_normals_vectors_or_both() {
     let with = |base: &str, platform: &str| {

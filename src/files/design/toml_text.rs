@@ -9,8 +9,8 @@ use super::violation::Findings;
 
 /// Reads the text; syntax errors go to the report and make this `None`.
 ///
-/// After a fault the parser goes on where it can, and an open bracket then makes every later line wrong. Of neighbouring
-/// faulty lines only the first is therefore reported; a fault after good lines is reported again.
+/// After a fault the parser goes on where it can, and an open bracket then makes every later line wrong. Of
+/// neighbouring faulty lines only the first is therefore reported; a fault after good lines is reported again.
 pub(super) fn read(text: &str, report: &mut Findings<'_>) -> Option<Node> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut faults = Vec::new();

@@ -77,7 +77,8 @@ pub fn read(text: &str, format: Format, report: &mut Findings<'_>) -> Option<Nod
     root
 }
 
-/// Names and texts with characters that change the direction of text: on a drawing, in a table or on a page something else would be shown than what is written.
+/// Names and texts with characters that change the direction of text: on a drawing, in a table or on a page something
+/// else would be shown than what is written.
 fn refuse_directions(node: &Node, report: &mut Findings<'_>) {
     let mut refuse = |text: &str, span: &Span| {
         if let Some(c) = text.chars().find(|c| changes_direction(*c)) {

@@ -90,10 +90,10 @@ impl Workspace {
         }
     }
 
-    /// All sampled poses: the home pose (the centre) first, then the grid with the last axis fastest, then the
-    /// single poses, then those of the trajectory. `grid` points are spread evenly from -1 to 1 on each axis of the cube
-    /// ([`PoseSpace::pose`]) that has a half width above 0; two points are the corners, one point is the centre alone. The centre is
-    /// not repeated.
+    /// All sampled poses: the home pose (the centre) first, then the grid with the last axis fastest, then the single
+    /// poses, then those of the trajectory. `grid` points are spread evenly from -1 to 1 on each axis of the cube
+    /// ([`PoseSpace::pose`]) that has a half width above 0; two points are the corners, one point is the centre alone.
+    /// The centre is not repeated.
     #[must_use]
     pub fn sample(&self, home: &Pose) -> Vec<Pose> {
         let space = self.space(home);
@@ -136,7 +136,8 @@ impl DesignModel {
         self.home.unwrap_or_else(|| default_home(self.manipulator()))
     }
 
-    /// The workspace of the design; where it has none a box about home, 15 % of the size to each side and 10 degrees about each axis.
+    /// The workspace of the design; where it has none a box about home, 15 % of the size to each side and 10 degrees
+    /// about each axis.
     #[must_use]
     pub fn workspace_or_default(&self) -> Workspace {
         if !self.workspace.is_empty() {

@@ -28,7 +28,8 @@ impl Writer for Hal {
     }
 }
 
-/// The home pose as the reader of tables knows it: position in millimetres, angles of `R = Rz(C) Ry(B) Rx(A)` in degrees.
+/// The home pose as the reader of tables knows it: position in millimetres, angles of `R = Rz(C) Ry(B) Rx(A)` in
+/// degrees.
 pub(super) fn home_words(export: &Export) -> String {
     let (roll, pitch, yaw) = export.home.rotation.euler_angles();
     let p = export.home.position * export.unit.millimetres;

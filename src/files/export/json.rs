@@ -131,7 +131,8 @@ struct ExportedLeg<'a> {
     rod_length: Option<f64>,
 }
 
-/// How uncertain calibrated joints and leg offsets are. Two numbers with deviations `d`, `e` and correlation `r` have the covariance `r d e`.
+/// How uncertain calibrated joints and leg offsets are. Two numbers with deviations `d`, `e` and correlation `r` have
+/// the covariance `r d e`.
 #[derive(Debug, Serialize)]
 struct UncertaintyRecord<'a> {
     unknowns: &'a [String],

@@ -1,13 +1,13 @@
 //! Writes a design as files for the programs that come next: CAD, simulators, machine controls, tables, drawings.
 //!
-//! [`Export`] holds everything the formats need, worked out once: plates around the joints, legs at home, the length unit.
-//! A [`Writer`] turns it into the text of one or more files; it is pure, and the same input gives the same bytes. Every file states its
-//! frames and its unit.
+//! [`Export`] holds everything the formats need, worked out once: plates around the joints, legs at home, the length
+//! unit. A [`Writer`] turns it into the text of one or more files; it is pure, and the same input gives the same bytes.
+//! Every file states its frames and its unit.
 //!
-//! Frames, all right-handed. *Base*: the frame of the base joints of the design. *Platform*: that of the platform joints; at the pose `(R, p)`
-//! a point is `x_base = R x_platform + p`. *Plate*: origin on the lower face of the plate, in the foot of the body's origin; third axis along the
-//! normal of the plate, which points to positive z of the body; where the plate is parallel to the x-y plane of the body, plate coordinates
-//! `(u, v)` are the body's `(x, y)`.
+//! Frames, all right-handed. *Base*: the frame of the base joints of the design. *Platform*: that of the platform
+//! joints; at the pose `(R, p)` a point is `x_base = R x_platform + p`. *Plate*: origin on the lower face of the plate,
+//! in the foot of the body's origin; third axis along the normal of the plate, which points to positive z of the body;
+//! where the plate is parallel to the x-y plane of the body, plate coordinates `(u, v)` are the body's `(x, y)`.
 
 mod controller;
 mod csv;

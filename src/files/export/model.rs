@@ -91,9 +91,11 @@ pub struct ExportCranks {
     pub home_angles: [f64; 6],
     /// Greatest torque of a crank, newton metres, where the design limits it.
     pub greatest_torque: Option<f64>,
-    /// How far the joints at the tips let rods lean out of the planes of their cranks, radians, where the design limits it.
+    /// How far the joints at the tips let rods lean out of the planes of their cranks, radians, where the design limits
+    /// it.
     pub tip_swing: Option<f64>,
-    /// How far the joints at the platform let rods swing from their directions at home, radians, where the design limits it.
+    /// How far the joints at the platform let rods swing from their directions at home, radians, where the design
+    /// limits it.
     pub platform_swing: Option<f64>,
 }
 
@@ -162,7 +164,8 @@ impl ExportCalibration {
         })
     }
 
-    /// The covariance of all legs, design units squared: rows and columns by legs, of each the base joint, the platform joint and the offset. What is not uncertain has zeros.
+    /// The covariance of all legs, design units squared: rows and columns by legs, of each the base joint, the platform
+    /// joint and the offset. What is not uncertain has zeros.
     #[must_use]
     pub fn of_legs(&self, pairs: &[(usize, usize); 6]) -> DMatrix<f64> {
         let numbers = (0..6).flat_map(|leg| {
@@ -206,13 +209,15 @@ pub struct Export {
     pub home: Pose,
     /// Base and platform.
     pub bodies: [ExportBody; 2],
-    /// Legs in leg order; where they are rods on cranks, the rods at home from the tips of the cranks, whose centres are the joints of the base.
+    /// Legs in leg order; where they are rods on cranks, the rods at home from the tips of the cranks, whose centres
+    /// are the joints of the base.
     pub legs: [ExportLeg; 6],
     /// The cranks of the legs; `None` where these change their lengths.
     pub cranks: Option<ExportCranks>,
     /// Legs whose joints are not ideal; `None` where drives are as long as the distances of their joints.
     pub coupled: Option<CoupledLegs>,
-    /// What the length that each leg shows is longer than the distance of its joints, design units, where the design was calibrated.
+    /// What the length that each leg shows is longer than the distance of its joints, design units, where the design
+    /// was calibrated.
     pub leg_offsets: Option<[f64; 6]>,
     /// What a calibration does not know, where the design says it.
     pub calibration: Option<ExportCalibration>,
@@ -363,8 +368,8 @@ impl Export {
     /// The files of a format.
     ///
     /// # Errors
-    /// What the format cannot express: [`Unsupported::Cranks`] for rods on cranks, where it does not [take them](Writer::takes_cranks), and [`Unsupported::NotIdeal`] for joints that
-    /// are not ideal.
+    /// What the format cannot express: [`Unsupported::Cranks`] for rods on cranks, where it does not [take
+    /// them](Writer::takes_cranks), and [`Unsupported::NotIdeal`] for joints that are not ideal.
     pub fn files(&self, writer: &dyn Writer) -> Result<Vec<ExportedFile>, Unsupported> {
         if self.cranks.is_some() && !writer.takes_cranks() {
             return Err(Unsupported::Cranks);
@@ -393,7 +398,8 @@ impl Export {
         self.legs.map(|l| (pose.transform(&self.bodies[1].joints[l.platform].at) - l.foot).norm())
     }
 
-    /// Lengths that the legs show at a pose, design units: [`lengths_at`](Self::lengths_at) with the offsets of a calibration.
+    /// Lengths that the legs show at a pose, design units: [`lengths_at`](Self::lengths_at) with the offsets of a
+    /// calibration.
     #[must_use]
     pub fn shown_at(&self, pose: &Pose) -> [f64; 6] {
         let (lengths, offsets) = (self.lengths_at(pose), self.leg_offsets.unwrap_or_default());

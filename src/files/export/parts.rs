@@ -8,7 +8,8 @@ use super::{Export, ExportBody, Plate};
 use machine::requirements::Housing;
 use platform::manipulator::Body;
 
-/// Legs whose lengths differ by less than this share of the size are of one kind: above what searches leave of a symmetry, a hundredth of a micrometre in a metre.
+/// Legs whose lengths differ by less than this share of the size are of one kind: above what searches leave of a
+/// symmetry, a hundredth of a micrometre in a metre.
 pub(super) const SAME_LENGTH: f64 = 1e-8;
 /// Kinds of joint by body.
 const JOINTS: [&str; 2] = ["base joint", "platform joint"];
@@ -105,7 +106,8 @@ impl PartLine {
 impl Export {
     /// The bill of materials: plates, joints, drives by kind, payload.
     ///
-    /// Legs are of one kind where their lengths at home agree; the least and greatest lengths are those at the poses of the workspace that are listed, of all legs of the kind.
+    /// Legs are of one kind where their lengths at home agree; the least and greatest lengths are those at the poses of
+    /// the workspace that are listed, of all legs of the kind.
     #[must_use]
     pub fn parts(&self) -> Vec<PartLine> {
         let mm = self.unit.millimetres;
@@ -158,7 +160,8 @@ impl Export {
         out
     }
 
-    /// Rods by length, and how many of each; without a length where cylinders leave them no room at home, or legs are rods on cranks.
+    /// Rods by length, and how many of each; without a length where cylinders leave them no room at home, or legs are
+    /// rods on cranks.
     fn rods(&self) -> Vec<(Option<f64>, usize)> {
         let mut out: Vec<(Option<f64>, usize)> = Vec::new();
         for kind in self.leg_kinds() {
@@ -191,7 +194,8 @@ impl Export {
         Body::BOTH.map(|body| self.joint_of(body, leg))
     }
 
-    /// The joints of a body by what they are, with their names; legs that share a joint may have different ones about one centre.
+    /// The joints of a body by what they are, with their names; legs that share a joint may have different ones about
+    /// one centre.
     pub(super) fn joint_kinds<'b>(&self, body: &'b ExportBody) -> Vec<(JointSort, Vec<&'b str>)> {
         let mut kinds: Vec<(JointSort, Vec<&'b str>)> = Vec::new();
         for (k, joint) in body.joints.iter().enumerate() {

@@ -26,8 +26,10 @@ pub struct PlateHole {
 
 /// A plate with parallel faces around the joints of a body, on the far side of the joints from the legs.
 ///
-/// Where the design says how high the joints stand, the face is that far from the lowest of them. Otherwise each ball of diameter `D` sits on the edge of a hole of diameter `d`: its centre, exactly the joint centre, is `sqrt(D^2 - d^2)/2` above the
-/// face. Where the joints do not lie in a plane, the plate is parallel to the largest triangle of joints and posts carry the higher ones.
+/// Where the design says how high the joints stand, the face is that far from the lowest of them. Otherwise each ball
+/// of diameter `D` sits on the edge of a hole of diameter `d`: its centre, exactly the joint centre, is
+/// `sqrt(D^2 - d^2)/2` above the face. Where the joints do not lie in a plane, the plate is parallel to the largest
+/// triangle of joints and posts carry the higher ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plate {
     /// Origin of the plate frame in the frame of the body.
@@ -54,7 +56,8 @@ pub struct Plate {
     pub outline: Outline,
 }
 
-/// Diameters of clearance holes for metric threads, millimetres: nominal diameter, then the fine, the medium and the coarse series (ISO 273:1979).
+/// Diameters of clearance holes for metric threads, millimetres: nominal diameter, then the fine, the medium and the
+/// coarse series (ISO 273:1979).
 const CLEARANCE_HOLES: [(f64, [f64; 3]); 14] = [
     (1.6, [1.7, 1.8, 2.0]),
     (2.0, [2.2, 2.4, 2.6]),
@@ -97,7 +100,8 @@ impl std::fmt::Display for ClearanceHole {
 }
 
 impl Plate {
-    /// The plate of a body with these joints across `normal`; `towards_legs` is the mean direction of the legs from the body, in its frame.
+    /// The plate of a body with these joints across `normal`; `towards_legs` is the mean direction of the legs from the
+    /// body, in its frame.
     pub(super) fn under(
         joints: &[ExportedJoint],
         normal: &Vector3<f64>,
@@ -186,7 +190,8 @@ impl Plate {
         if self.legs_above { (self.thickness, self.thickness + hole.post) } else { (-hole.post, 0.0) }
     }
 
-    /// `self` when its seats keep clear of each other, and its bolt holes of all holes and of the outline; seats keep clear of the outline because no hole is wider than twice the margin.
+    /// `self` when its seats keep clear of each other, and its bolt holes of all holes and of the outline; seats keep
+    /// clear of the outline because no hole is wider than twice the margin.
     ///
     /// # Errors
     /// [`Unsupported::SeatsOverlap`], [`Unsupported::HolesMeet`].

@@ -10,7 +10,8 @@ use crate::design::DesignModel;
 use machine::requirements::{Hardware, MovingBodies, PlateDesign, seat_height};
 use platform::manipulator::Body;
 
-/// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that [`Export::choices`](super::Export::choices) states.
+/// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that
+/// [`Export::choices`](super::Export::choices) states.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct ExportOptions {
@@ -67,7 +68,8 @@ impl ExportOptions {
         self
     }
 
-    /// Diameter of the circle in which the centre of each hole has to lie, design units: twice the radius that `build tolerances` allows all joints.
+    /// Diameter of the circle in which the centre of each hole has to lie, design units: twice the radius that
+    /// `build tolerances` allows all joints.
     #[must_use]
     pub fn hole_places(mut self, diameter: f64) -> Self {
         self.hole_places = Some(diameter);
@@ -299,8 +301,9 @@ impl LegSizes {
     }
 }
 
-/// What moves: as the design says, its platform as heavy as `given` with the same shape where that is said. Without a mass, Froude scaling: with masses as lengths cubed and times as
-/// their square roots, platforms of all sizes move alike.
+/// What moves: as the design says, its platform as heavy as `given` with the same shape where that is said. Without a
+/// mass, Froude scaling: with masses as lengths cubed and times as their square roots, platforms of all sizes move
+/// alike.
 ///
 /// # Errors
 /// [`NoExport::BadSize`].

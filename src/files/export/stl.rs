@@ -14,7 +14,8 @@ use machine::requirements::on_circle;
 #[derive(Debug)]
 pub(super) struct Stl;
 
-/// Chords in a full circle: the outline is off by less than 0.03 % of its corner radius, a hole by less than 0.13 % of its radius.
+/// Chords in a full circle: the outline is off by less than 0.03 % of its corner radius, a hole by less than 0.13 % of
+/// its radius.
 const OUTLINE_CHORDS: usize = 128;
 const HOLE_CHORDS: usize = 64;
 
@@ -39,7 +40,8 @@ impl Writer for Stl {
     }
 }
 
-/// Triangles of the plate and its posts in the frame of the body, design units, with their corners counter-clockwise seen from outside.
+/// Triangles of the plate and its posts in the frame of the body, design units, with their corners counter-clockwise
+/// seen from outside.
 fn triangles(plate: &Plate) -> Vec<[Point3<f64>; 3]> {
     let outer = plate.outline.polygon(OUTLINE_CHORDS);
     let circle = |at: &Point2<f64>, diameter: f64, turn: f64| -> Vec<Point2<f64>> {

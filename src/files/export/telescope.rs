@@ -5,9 +5,11 @@ use super::{Export, ExportLeg, Unsupported};
 
 /// Cylinder and rod along the line of a leg, from the centre of its base joint, design units.
 ///
-/// The cylinder begins at the ball of the base joint, is hollow from `floor` to its end, the `mouth`, and its bore is as wide as the rod, which ends at the ball of the platform joint.
-/// The rod is the longest one that fits when the leg is in: it reaches the floor at the least length, or fills the bore where the leg may be shorter than cylinder and joint are.
-/// A rod that is not thinner than its cylinder cannot run in it: there is no bore, and the rod begins at the mouth at home.
+/// The cylinder begins at the ball of the base joint, is hollow from `floor` to its end, the `mouth`, and its bore is
+/// as wide as the rod, which ends at the ball of the platform joint. The rod is the longest one that fits when the leg
+/// is in: it reaches the floor at the least length, or fills the bore where the leg may be shorter than cylinder and
+/// joint are. A rod that is not thinner than its cylinder cannot run in it: there is no bore, and the rod begins at the
+/// mouth at home.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Telescope {
     /// Where the cylinder begins.
@@ -20,7 +22,8 @@ pub(super) struct Telescope {
     pub(super) rod: f64,
     /// From the end of the rod to the centre of the platform joint.
     pub(super) tip: f64,
-    /// Least and greatest length of the leg: the limits of the design, else those over the poses of workspace and trajectory that are listed; home is among them.
+    /// Least and greatest length of the leg: the limits of the design, else those over the poses of workspace and
+    /// trajectory that are listed; home is among them.
     pub(super) range: [f64; 2],
     /// Lengths closer than this are the same.
     same: f64,
@@ -32,12 +35,14 @@ impl Telescope {
         length - self.tip - self.rod
     }
 
-    /// How much of the rod is inside the cylinder at the greatest length; negative where the rod would leave it, zero where that is less than legs of a kind may differ.
+    /// How much of the rod is inside the cylinder at the greatest length; negative where the rod would leave it, zero
+    /// where that is less than legs of a kind may differ.
     pub(super) fn held(&self) -> f64 {
         self.settled(self.mouth - self.tail(self.range[1]))
     }
 
-    /// Room between the cylinder and the ball of the platform joint at the least length; negative where they would meet, zero as for [`Telescope::held`].
+    /// Room between the cylinder and the ball of the platform joint at the least length; negative where they would
+    /// meet, zero as for [`Telescope::held`].
     pub(super) fn room(&self) -> f64 {
         self.settled(self.range[0] - self.tip - self.mouth)
     }
@@ -78,7 +83,8 @@ pub(super) fn kind_suffix(k: usize, count: usize) -> String {
     if count == 1 { String::new() } else { format!(", kind {}", k + 1) }
 }
 
-/// Whether there is something of a cylinder between the balls of a leg, and of its rod: `head` is where the ball of the platform joint begins.
+/// Whether there is something of a cylinder between the balls of a leg, and of its rod: `head` is where the ball of the
+/// platform joint begins.
 pub(super) fn has_room(foot: f64, mouth: f64, head: f64) -> bool {
     foot < mouth && mouth < head
 }

@@ -307,7 +307,8 @@ fn a_simulation_has_six_actuators_and_five_loops() {
     let text = text_of(&limited, "mjcf", "platform.xml");
     let home = limited.legs[0].length();
     let range = format!(" range=\"{} {}\"/>", real((198.0 - home) * 1e-3), real((298.0 - home) * 1e-3));
-    // six slides, the twelve hinges of base joints that swing by so much from the leg at home, and six tendons for the swing at the platform
+    // six slides, the twelve hinges of base joints that swing by so much from the leg at home, and six tendons for the
+    // swing at the platform
     assert_eq!((text.matches(" range=").count(), text.contains(&range)), (24, true));
     assert_eq!(text.matches("<spatial name=\"swing").count(), 6);
     // what is seen and measured: a camera on the platform, ground below it, three sensors a drive and the pose
@@ -344,7 +345,8 @@ fn exchange_files_name_only_entities_they_hold() {
     let posts: usize =
         export.bodies.iter().map(|b| b.plate().unwrap().holes.iter().filter(|h| h.post > 0.0).count()).sum();
     let kinds = export.leg_kinds().len();
-    // base, platform and six legs in the whole; two plates, six joints on each, posts; cylinder and rod of each kind of leg
+    // base, platform and six legs in the whole; two plates, six joints on each, posts; cylinder and rod of each kind of
+    // leg
     assert_eq!(text.matches("NEXT_ASSEMBLY_USAGE_OCCURRENCE").count(), 2 + 6 + 2 + 12 + posts + 2 * kinds);
     assert!(text.contains("AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"));
 }
@@ -472,7 +474,8 @@ fn rods_stay_in_their_cylinders_over_the_stroke() {
         }
         assert!(text_of(&export, "step", "platform.step").contains("'rod'"));
     }
-    // a stroke that no rod in one piece has, and a rod as wide as its cylinder: both are said, and the files are written
+    // a stroke that no rod in one piece has, and a rod as wide as its cylinder: both are said, and the files are
+    // written
     let mut long = design(SYMMETRIC);
     long.hardware.leg_length = Some(LengthLimits::Range(200.0, 900.0));
     let export = export_with(&long, &ExportOptions::default());
@@ -517,7 +520,8 @@ fn labels(svg: &str, class: &str) -> Vec<(f64, f64, String)> {
         .collect()
 }
 
-/// Two labels that meet, by the mean width of the fonts: 0.6 of the size of nine pixels, from 0.72 of it above the line to 0.22 below.
+/// Two labels that meet, by the mean width of the fonts: 0.6 of the size of nine pixels, from 0.72 of it above the line
+/// to 0.22 below.
 fn meeting(labels: &[(f64, f64, String)]) -> Option<(String, String)> {
     let span = |l: &(f64, f64, String)| {
         [l.0, l.0 + 0.6 * 9.0 * l.2.chars().count() as f64, l.1 - 0.72 * 9.0, l.1 + 0.22 * 9.0]
@@ -628,7 +632,8 @@ fn the_same_design_gives_the_same_bytes_and_every_file_says_its_unit() {
     for format in ExportFormat::ALL.map(ExportFormat::writer) {
         let (one, two) = (export(OCTAHEDRAL), export(OCTAHEDRAL));
         assert_eq!(format.files(&one), format.files(&two), "{}", format.name());
-        // of the C for controllers one file says what the numbers of the design are in; the others have no place of their own
+        // of the C for controllers one file says what the numbers of the design are in; the others have no place of
+        // their own
         let says_it = |name: &str| format.name() != "c" || name == "equipod_design.h";
         for file in format.files(&one).unwrap().iter().filter(|file| says_it(&file.name)) {
             assert!(file.text.contains("mm") || file.text.contains(" m;"), "{}", file.name);

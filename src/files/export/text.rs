@@ -68,7 +68,8 @@ pub(super) fn xml_comment(text: &str) -> String {
     out
 }
 
-/// A field of a CSV table (RFC 4180) on one line. A text that a spreadsheet would take for a formula begins with an apostrophe, which makes it a text there.
+/// A field of a CSV table (RFC 4180) on one line. A text that a spreadsheet would take for a formula begins with an
+/// apostrophe, which makes it a text there.
 pub fn csv_field(text: &str) -> String {
     let mut text: String = one_line(text).chars().filter(|c| !changes_direction(*c)).collect();
     if text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err() {

@@ -15,7 +15,8 @@ fn meet(a: &Point2<f64>, b: &Point2<f64>, c: &Point2<f64>, d: &Point2<f64>) -> b
     !apart(a, b, c, d) && !apart(c, d, a, b)
 }
 
-/// Joins the holes to the outer polygon by pairs of edges there and back; returns one closed walk over the indices of `points`.
+/// Joins the holes to the outer polygon by pairs of edges there and back; returns one closed walk over the indices of
+/// `points`.
 fn bridged(points: &[Point2<f64>], loops: &[Vec<usize>]) -> Vec<usize> {
     let mut walk = loops.first().cloned().unwrap_or_default();
     let rightmost = |l: &Vec<usize>| -> usize {
@@ -50,8 +51,8 @@ fn bridged(points: &[Point2<f64>], loops: &[Vec<usize>]) -> Vec<usize> {
     walk
 }
 
-/// Triangles that fill `outer` (counter-clockwise) without `holes` (clockwise), counter-clockwise, by cutting ears; indices count the points of
-/// `outer`, then those of the holes.
+/// Triangles that fill `outer` (counter-clockwise) without `holes` (clockwise), counter-clockwise, by cutting ears;
+/// indices count the points of `outer`, then those of the holes.
 pub(super) fn triangulate(outer: &[Point2<f64>], holes: &[Vec<Point2<f64>>]) -> Vec<[usize; 3]> {
     let mut points = outer.to_vec();
     let mut loops = vec![(0..outer.len()).collect::<Vec<_>>()];

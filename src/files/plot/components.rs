@@ -51,9 +51,9 @@ const GRID: usize = 181;
 
 /// The curves of replaceable joints in two planes, one pair below the other.
 ///
-/// A point of the curve on the left (base) and the point of the curve on the right (platform) with the same letter are the
-/// ends of a leg that may replace one of the design's. Joints are filled and carry their leg numbers, corresponding points
-/// are hollow. Seen from the positive side of each plane's axes; one scale for both directions of a panel.
+/// A point of the curve on the left (base) and the point of the curve on the right (platform) with the same letter are
+/// the ends of a leg that may replace one of the design's. Joints are filled and carry their leg numbers, corresponding
+/// points are hollow. Seen from the positive side of each plane's axes; one scale for both directions of a panel.
 #[must_use]
 pub fn component_curves(figure: &CurveFigure) -> String {
     let width = 2.0 * SIDE + 3.0 * MARGIN;

@@ -40,7 +40,8 @@ const HEIGHT: f64 = 496.0;
 /// Lines of the curves; their marks differ too.
 const LINES: [&str; ConvergenceFigure::MOST_CURVES] = ["level", "below", "virtual", "leg"];
 
-/// Two panels over the logarithm of the time: the value itself, and by how much (relative, logarithmic) it falls short of the best of all curves.
+/// Two panels over the logarithm of the time: the value itself, and by how much (relative, logarithmic) it falls short
+/// of the best of all curves.
 #[must_use]
 pub fn convergence_chart(figure: &ConvergenceFigure) -> String {
     let width = LEFT + 2.0 * PANEL.0 + BETWEEN + 24.0;

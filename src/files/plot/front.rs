@@ -31,8 +31,8 @@ const TOP: f64 = 62.0;
 const GAP: f64 = 110.0;
 const BELOW: f64 = 92.0;
 
-/// One panel for each pair of objectives, members numbered from 1 in their order. The arrows at the axes point to what is better; a stepped line bounds
-/// what the members of a front of two objectives dominate.
+/// One panel for each pair of objectives, members numbered from 1 in their order. The arrows at the axes point to what
+/// is better; a stepped line bounds what the members of a front of two objectives dominate.
 #[must_use]
 pub fn pareto_front(figure: &FrontFigure) -> String {
     let n = figure.axes.len();

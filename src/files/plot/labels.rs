@@ -46,7 +46,8 @@ impl PageBox {
 /// Two points on the page.
 type Segment = [(f64, f64); 2];
 
-/// What a text takes at most in the fonts of the style, as shares of their size: digits, small letters and capitals of the widest of them, and the rest as wide as high.
+/// What a text takes at most in the fonts of the style, as shares of their size: digits, small letters and capitals of
+/// the widest of them, and the rest as wide as high.
 fn width(text: &str, size: f64) -> f64 {
     let share = |c: char| match c {
         'M' | 'W' | 'm' | 'w' | '@' | '%' => 1.0,
@@ -145,7 +146,8 @@ impl Labels {
             && !drawn.any(|leader| place.is_crossed(leader))
     }
 
-    /// Puts a label on the first of these points where it covers no text and no mark, its middle at the point; else beside the first of them.
+    /// Puts a label on the first of these points where it covers no text and no mark, its middle at the point; else
+    /// beside the first of them.
     pub(super) fn put_on(&mut self, points: &[(f64, f64)], text: &str) {
         let wide = width(text, self.size);
         let start = |p: &(f64, f64)| (p.0 - 0.5 * wide, p.1 + 0.5 * (ASCENT - DESCENT) * self.size);
@@ -158,7 +160,8 @@ impl Labels {
         }
     }
 
-    /// Puts a label beside a point, beyond a radius around it: at the first distance and in the first direction where it covers no text and no leader, and its own leader crosses no text; near the point no mark either.
+    /// Puts a label beside a point, beyond a radius around it: at the first distance and in the first direction where
+    /// it covers no text and no leader, and its own leader crosses no text; near the point no mark either.
     pub(super) fn put_beside(&mut self, point: (f64, f64), radius: f64, text: &str) {
         let (wide, size) = (width(text, self.size), self.size);
         let side = |d: f64| 0.5 * (d.signum() * f64::from(u8::from(d != 0.0)) - 1.0);

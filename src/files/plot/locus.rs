@@ -1,7 +1,7 @@
 //! All values of a squared virtual length in the complex plane while one leg length varies.
 //!
-//! Values are followed from step to step: what belongs together, and where values meet on the real axis. Pieces of curves are
-//! joined to strokes, so that the document is no longer than it must be.
+//! Values are followed from step to step: what belongs together, and where values meet on the real axis. Pieces of
+//! curves are joined to strokes, so that the document is no longer than it must be.
 
 use super::style::{PixelAxis, Svg};
 
@@ -37,8 +37,8 @@ const OUTLIERS: usize = 50;
 /// The second panel is wider by this part of the range of real poses on each side.
 const AROUND: f64 = 0.35;
 
-/// The plane with one curve a value, coloured by the length: heavy where the pose is real, start hollow, end filled, double values on the
-/// axis as diamonds. Two panels: nearly all values, and the neighbourhood of those of real poses.
+/// The plane with one curve a value, coloured by the length: heavy where the pose is real, start hollow, end filled,
+/// double values on the axis as diamonds. Two panels: nearly all values, and the neighbourhood of those of real poses.
 #[must_use]
 pub fn locus_chart(figure: &LocusFigure) -> String {
     let steps: Vec<SidesOfAxis> = figure.steps.iter().map(sides).collect();
@@ -360,8 +360,8 @@ fn nearest(p: &(f64, f64), others: &[(f64, f64)]) -> Option<usize> {
     clear.then_some(best)
 }
 
-/// Values without a partner: two neighbours on the axis of one step and one above in the other. The square of half their difference is
-/// smooth through the meeting and changes sign there, so that it is found by interpolation.
+/// Values without a partner: two neighbours on the axis of one step and one above in the other. The square of half
+/// their difference is smooth through the meeting and changes sign there, so that it is found by interpolation.
 fn meet(
     two: &SidesOfAxis,
     one: &SidesOfAxis,

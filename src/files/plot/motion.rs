@@ -45,7 +45,8 @@ fn frames(figure: &MotionFigure) -> Vec<Pose> {
     out
 }
 
-/// An animated picture; viewers without animation, and readers who ask for less motion, see the first pose and faint others.
+/// An animated picture; viewers without animation, and readers who ask for less motion, see the first pose and faint
+/// others.
 #[must_use]
 pub fn motion(m: &Manipulator, figure: &MotionFigure) -> String {
     let frames = frames(figure);

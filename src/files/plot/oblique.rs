@@ -1,4 +1,5 @@
-//! Platforms in oblique projection: the horizontal plane runs to the right and, foreshortened by one half, into the depth.
+//! Platforms in oblique projection: the horizontal plane runs to the right and, foreshortened by one half, into the
+//! depth.
 
 use nalgebra::{Point3, Vector3};
 
@@ -139,7 +140,8 @@ impl Bodies {
         self.base.iter().chain(&self.platform).copied()
     }
 
-    /// Base first, then what is farther below it: the platform is drawn last, so that it never hides behind a leg. `first` is the class of the first leg.
+    /// Base first, then what is farther below it: the platform is drawn last, so that it never hides behind a leg.
+    /// `first` is the class of the first leg.
     pub(super) fn draw(&self, svg: &mut Svg, first: &str, at: impl Fn((f64, f64)) -> (f64, f64)) {
         let place = |points: &[(f64, f64)]| points.iter().map(|p| at(*p)).collect::<Vec<_>>();
         svg.polygon("base", &place(&self.base));

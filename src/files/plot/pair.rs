@@ -29,7 +29,8 @@ const MARGIN: f64 = 28.0;
 const MIDDLE: f64 = 190.0;
 const TOP: f64 = 92.0;
 
-/// Both platforms in oblique projection in the base frame of the first, to the same scale. Joints that legs share are rings.
+/// Both platforms in oblique projection in the base frame of the first, to the same scale. Joints that legs share are
+/// rings.
 #[must_use]
 pub fn platform_pair(platforms: [&Manipulator; 2], figure: &PairFigure) -> String {
     let frame = BaseFrame::of(platforms[0]);

@@ -35,7 +35,8 @@ const TOP: f64 = 84.0;
 const BETWEEN: f64 = 76.0;
 const HEIGHT: f64 = 460.0;
 
-/// Two panels over the number of the step: the value, and the logarithm of the violation; refused steps are hollow and not joined.
+/// Two panels over the number of the step: the value, and the logarithm of the violation; refused steps are hollow and
+/// not joined.
 #[must_use]
 pub fn steps_chart(figure: &StepsFigure) -> String {
     let width = LEFT + 2.0 * PANEL.0 + BETWEEN + 24.0;

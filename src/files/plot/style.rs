@@ -34,8 +34,9 @@ text.halo{fill:#fff;stroke:#fff;stroke-width:4px;stroke-linejoin:round}";
 /// The class of text that stands on a white outline of itself.
 const HALO: &str = "halo";
 
-/// Fills of the limits that end a workspace, one for each kind, by its code: the same in every picture. Pale tones after a palette for colour-blind readers (P. Tol,
-/// 2021), dark and light by turns so that neighbours differ in grey print too.
+/// Fills of the limits that end a workspace, one for each kind, by its code: the same in every picture. Pale tones
+/// after a palette for colour-blind readers (P. Tol, 2021), dark and light by turns so that neighbours differ in grey
+/// print too.
 pub const LIMIT_FILLS: [(&str, &str); 34] = [
     ("leg_too_short", "#4477aa"),
     ("leg_too_long", "#ee9988"),
@@ -88,7 +89,8 @@ pub fn escape(text: &str) -> String {
     out
 }
 
-/// The text as it is written: characters that XML 1.0 does not know, or that change the direction of a text, are replaced.
+/// The text as it is written: characters that XML 1.0 does not know, or that change the direction of a text, are
+/// replaced.
 pub fn visible(text: &str) -> String {
     let hides = |c: char| c.is_control() && !matches!(c, '\t' | '\n' | '\r') || changes_direction(c);
     text.chars().map(|c| if hides(c) { '\u{fffd}' } else { c }).collect()
@@ -126,7 +128,8 @@ impl Svg {
         let _ = writeln!(self.out, "<style>{css}</style>");
     }
 
-    /// Text; with the class `halo` on a white outline, which is a text of its own below it: some viewers do not know `paint-order`.
+    /// Text; with the class `halo` on a white outline, which is a text of its own below it: some viewers do not know
+    /// `paint-order`.
     pub(super) fn text(&mut self, class: &str, at: (f64, f64), text: &str) {
         self.placed_text(class, at, "", text);
     }

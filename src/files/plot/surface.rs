@@ -1,10 +1,12 @@
 //! Surfaces by marching tetrahedra.
 //!
-//! Each cell of a grid in space is cut into the six tetrahedra about one of its diagonals, the same one in all cells, so that neighbours share
-//! their faces. A tetrahedron is crossed by the surface `f = level` in no piece, a triangle or a quadrangle; corners of the pieces are
-//! interpolated linearly on the edges of the tetrahedra and named by them, so that nothing depends on comparing coordinates.
+//! Each cell of a grid in space is cut into the six tetrahedra about one of its diagonals, the same one in all cells,
+//! so that neighbours share their faces. A tetrahedron is crossed by the surface `f = level` in no piece, a triangle or
+//! a quadrangle; corners of the pieces are interpolated linearly on the edges of the tetrahedra and named by them, so
+//! that nothing depends on comparing coordinates.
 //!
-//! Source: B. Payne, A. Toga, Surface mapping brain function on 3D models (1990), who cut cells into tetrahedra for this purpose.
+//! Source: B. Payne, A. Toga, Surface mapping brain function on 3D models (1990), who cut cells into tetrahedra for
+//! this purpose.
 
 use std::collections::BTreeMap;
 
@@ -59,7 +61,8 @@ impl ValueBox {
         out
     }
 
-    /// The surface `f = level`. A tetrahedron with a value that is not finite is passed over: there the surface has a hole.
+    /// The surface `f = level`. A tetrahedron with a value that is not finite is passed over: there the surface has a
+    /// hole.
     pub fn surface(&self, level: f64) -> TriangleSurface {
         let mut out = TriangleSurface::default();
         let mut known: BTreeMap<(usize, usize), usize> = BTreeMap::new();
@@ -132,7 +135,8 @@ mod tests {
         let surface = grid(|p| p.iter().map(|x| x * x).sum::<f64>() + 1e-3 * p[0]).surface(0.5);
         for v in &surface.vertices {
             let [x, y, z] = v.map(at);
-            // linear between points 0.1 apart: the error is below the square of the diagonal of a cell over eight, times the second derivative
+            // linear between points 0.1 apart: the error is below the square of the diagonal of a cell over eight,
+            // times the second derivative
             assert!((x * x + y * y + z * z + 1e-3 * x - 0.5).abs() < 0.25 * 0.03, "{v:?}");
         }
         let edges = edges(&surface);

@@ -44,7 +44,8 @@ const MOST_LINES: usize = 600;
 /// Lines of equal value.
 const LEVELS: usize = 9;
 
-/// Colours of a scale from low to high: viridis (van der Walt, Smith 2015), even in lightness and safe for colour-blind readers.
+/// Colours of a scale from low to high: viridis (van der Walt, Smith 2015), even in lightness and safe for colour-blind
+/// readers.
 const COLOURS: [[f64; 3]; 6] = [
     [68.0, 1.0, 84.0],
     [65.0, 68.0, 135.0],
@@ -62,7 +63,8 @@ fn colour(share: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", mix(0).round() as u8, mix(1).round() as u8, mix(2).round() as u8)
 }
 
-/// At most so many of `n` things, one of each of equal parts. Which one changes from part to part: every second point of a sequence that fills a cube fills half of it.
+/// At most so many of `n` things, one of each of equal parts. Which one changes from part to part: every second point
+/// of a sequence that fills a cube fills half of it.
 fn thinned(n: usize, most: usize) -> Vec<usize> {
     if n <= most {
         return (0..n).collect();
@@ -185,7 +187,8 @@ impl Cells {
     }
 }
 
-/// The mean of the third column over the cells of the first two, as colours and, when asked for, lines of equal value; without a third column the number of rows.
+/// The mean of the third column over the cells of the first two, as colours and, when asked for, lines of equal value;
+/// without a third column the number of rows.
 pub fn swept_field(figure: &SweptFigure, lines: bool) -> String {
     let (x, y) = (&figure.columns[0], &figure.columns[1]);
     let (across, up) = (Cells::of(&x.values), Cells::of(&y.values));
@@ -270,7 +273,8 @@ pub fn swept_histogram(figure: &SweptFigure) -> String {
     svg.finish()
 }
 
-/// Rows of which none is better in both of the first two columns; `gain`: whether large values are good. In the order of the first column.
+/// Rows of which none is better in both of the first two columns; `gain`: whether large values are good. In the order
+/// of the first column.
 pub(crate) fn best_rows(figure: &SweptFigure, gain: [bool; 2]) -> Vec<usize> {
     let worth =
         |k: usize, c: usize| if gain[c] { figure.columns[c].values[k] } else { -figure.columns[c].values[k] };
@@ -289,7 +293,8 @@ pub(crate) fn best_rows(figure: &SweptFigure, gain: [bool; 2]) -> Vec<usize> {
     rows
 }
 
-/// Points over the first two columns, coloured by the third; with `gain` the front of rows of which none is better in both. The title of a point is what stands behind it.
+/// Points over the first two columns, coloured by the third; with `gain` the front of rows of which none is better in
+/// both. The title of a point is what stands behind it.
 pub fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> String {
     let (x, y) = (&figure.columns[0], &figure.columns[1]);
     let (rx, ry) = (roomy(&x.values), roomy(&y.values));

@@ -75,8 +75,9 @@ fn bounds(figure: &ThreeViewFigure) -> [(f64, f64); 3] {
     out
 }
 
-/// The drawing: silhouettes of all parts, one over the other. All views have the same scale; the overall dimensions stand at each view.
-/// Joints, origins and legs have their names and numbers beside them, none over another text as long as the page has room.
+/// The drawing: silhouettes of all parts, one over the other. All views have the same scale; the overall dimensions
+/// stand at each view. Joints, origins and legs have their names and numbers beside them, none over another text as
+/// long as the page has room.
 #[must_use]
 pub fn three_views(figure: &ThreeViewFigure) -> String {
     let bounds = bounds(figure);

@@ -64,8 +64,9 @@ const RIGHT: f64 = 604.0;
 const TOP: f64 = 56.0;
 const BOTTOM: f64 = 576.0;
 
-/// Regions beyond the workspace in the colour of the limit that is missed most, the workspace white, its boundary a heavy line. What lies inside all limits but
-/// does not hang together with home within the slice is dotted; the workspace required is a dashed line over it.
+/// Regions beyond the workspace in the colour of the limit that is missed most, the workspace white, its boundary a
+/// heavy line. What lies inside all limits but does not hang together with home within the slice is dotted; the
+/// workspace required is a dashed line over it.
 #[must_use]
 pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
     let x = PixelAxis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };

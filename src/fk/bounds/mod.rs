@@ -1,6 +1,7 @@
 //! Proved upper bounds on the number of isolated finite poses of special designs, for all lengths.
 //!
-//! Statements and proofs: `docs/theory/completeness.md`. What a design has is decided exactly, on joints of a field of square roots or on the doubles as they are.
+//! Statements and proofs: `docs/theory/completeness.md`. What a design has is decided exactly, on joints of a field of
+//! square roots or on the doubles as they are.
 
 mod shared;
 
@@ -16,7 +17,8 @@ pub fn pose_bound(m: &Manipulator) -> Theorem {
     special.into_iter().flatten().min_by_key(|theorem| theorem.bound()).unwrap_or(Theorem::SixLegs)
 }
 
-/// The smallest bound below 40 that the position of the joints gives beside those that legs share ([`class_bound`]), if any.
+/// The smallest bound below 40 that the position of the joints gives beside those that legs share ([`class_bound`]), if
+/// any.
 ///
 /// The work of some milliseconds where there is one, of a fraction of one where there is none.
 pub(super) fn special_bound(m: &Manipulator) -> Option<Theorem> {

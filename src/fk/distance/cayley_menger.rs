@@ -11,8 +11,9 @@ use super::scalar::Scalar;
 ///                                    | 1   s(in,j1) ..  s(in,jn) |,
 /// ```
 ///
-/// without the factor `2 (-1/2)^n` that others give it. For three points `-D = 16 area^2 = 4 |u x v|^2`, for four `D = 288 volume^2 =
-/// 8 det(u, v, w)^2`; for five points in space it vanishes. `like` tells the ring. Expanded by cofactors: for a handful of points.
+/// without the factor `2 (-1/2)^n` that others give it. For three points `-D = 16 area^2 = 4 |u x v|^2`, for four
+/// `D = 288 volume^2 = 8 det(u, v, w)^2`; for five points in space it vanishes. `like` tells the ring. Expanded by
+/// cofactors: for a handful of points.
 #[must_use]
 pub fn bideterminant<const N: usize, S: Scalar>(
     like: &S,
@@ -82,7 +83,8 @@ pub struct Tetrahedron<S> {
 /// `sigma = 1` when `u, v, p_l - p_i` are right-handed, `-1` when they are left-handed. Source: Porta, Thomas, eq. (5).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrilateratedPoint<S> {
-    /// `A`, four times the Gram determinant of the triangle: zero when it is collinear, or isotropic over the complex numbers, and then there is no trilateration.
+    /// `A`, four times the Gram determinant of the triangle: zero when it is collinear, or isotropic over the complex
+    /// numbers, and then there is no trilateration.
     pub a: S,
     /// `B`.
     pub b: S,
@@ -120,15 +122,16 @@ impl<S: Scalar> Tetrahedron<S> {
 }
 
 impl<S: Scalar> TrilateratedPoint<S> {
-    /// `omega = (B, C, root) / A` for a square root of the radicand, whose sign is the orientation: the coordinates of `p_l - p_i` in
-    /// `u, v, u x v` (eq. 6). `None` when the base is degenerate, `A = 0` or a divisor of zero.
+    /// `omega = (B, C, root) / A` for a square root of the radicand, whose sign is the orientation: the coordinates of
+    /// `p_l - p_i` in `u, v, u x v` (eq. 6). `None` when the base is degenerate, `A = 0` or a divisor of zero.
     #[must_use]
     pub fn coordinates(&self, root: &S) -> Option<[S; 3]> {
         Some([self.b.over(&self.a)?, self.c.over(&self.a)?, root.over(&self.a)?])
     }
 
-    /// The squared length of `Q omega` for `omega` in the frame `Q = [u v u x v]` of a triangle: `Q^T Q` from its squared sides
-    /// `s_ij, s_ik, s_jk` (eq. 7, with the difference of two coordinate vectors for the squared distance of two points).
+    /// The squared length of `Q omega` for `omega` in the frame `Q = [u v u x v]` of a triangle: `Q^T Q` from its
+    /// squared sides `s_ij, s_ik, s_jk` (eq. 7, with the difference of two coordinate vectors for the squared distance
+    /// of two points).
     #[must_use]
     pub fn squared_length(omega: &[S; 3], [ij, ik, jk]: [&S; 3]) -> S {
         // u.v = (s_ij + s_ik - s_jk) / 2, |u x v|^2 = s_ij s_ik - (u.v)^2
@@ -153,14 +156,15 @@ pub enum Base {
 }
 
 impl Base {
-    /// Decides from the squared sides: collinear when `A` is below `2^-40` of the square of the largest side's square, that is when the
-    /// height is below about a millionth of the longest side.
+    /// Decides from the squared sides: collinear when `A` is below `2^-40` of the square of the largest side's square,
+    /// that is when the height is below about a millionth of the longest side.
     #[must_use]
     pub fn of(sides: [f64; 3]) -> Self {
         if Self::fatness(sides) > 2f64.powi(-40) { Self::Proper } else { Self::Collinear }
     }
 
-    /// `A` over the square of the largest squared side, `4 (height / longest side)^2`: 3 for an equilateral triangle, 0 for a collinear one or a point.
+    /// `A` over the square of the largest squared side, `4 (height / longest side)^2`: 3 for an equilateral triangle, 0
+    /// for a collinear one or a point.
     #[must_use]
     pub fn fatness([ij, ik, jk]: [f64; 3]) -> f64 {
         let largest = ij.max(ik).max(jk);

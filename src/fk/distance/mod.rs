@@ -1,8 +1,10 @@
-//! Finds poses from distances alone, without unknown rotations: Cayley-Menger determinants, trilateration, closure conditions.
+//! Finds poses from distances alone, without unknown rotations: Cayley-Menger determinants, trilateration, closure
+//! conditions.
 //!
-//! Where joints are shared, a few additional distances between the bodies (virtual legs) make every joint reachable by trilateration;
-//! as many known distances remain, and say what the additional ones are: the closures. Theory: `docs/theory/trilateration.md`. Source:
-//! Porta, Thomas, *Yet another approach to the Gough-Stewart platform forward kinematics*.
+//! Where joints are shared, a few additional distances between the bodies (virtual legs) make every joint reachable by
+//! trilateration; as many known distances remain, and say what the additional ones are: the closures. Theory:
+//! `docs/theory/trilateration.md`. Source: Porta, Thomas, *Yet another approach to the Gough-Stewart platform forward
+//! kinematics*.
 
 mod cayley_menger;
 mod exact;

@@ -4,8 +4,8 @@ use std::fmt::Debug;
 
 use num_complex::Complex64;
 
-/// A commutative ring with as much division as it has: floating-point numbers, or exact algebras in which squared distances are
-/// elements.
+/// A commutative ring with as much division as it has: floating-point numbers, or exact algebras in which squared
+/// distances are elements.
 ///
 /// Constants are made beside an element, because the elements of an algebra know which one they belong to.
 pub trait Scalar: Clone + Debug {

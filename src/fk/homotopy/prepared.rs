@@ -1,8 +1,8 @@
 //! The homotopy prepared for one design: its poses at generic lengths, once, and from there paths in the lengths alone.
 //!
-//! Generic lengths have as many poses, `N`, as isolated poses can be at any. `N` certified distinct poses at the lengths asked for
-//! are all there are, and no pose lies on a curve of poses besides: a curve would have isolated poses of generic lengths near it, which would have more than `N`
-//! (docs/theory/completeness.md).
+//! Generic lengths have as many poses, `N`, as isolated poses can be at any. `N` certified distinct poses at the
+//! lengths asked for are all there are, and no pose lies on a curve of poses besides: a curve would have isolated poses
+//! of generic lengths near it, which would have more than `N` (docs/theory/completeness.md).
 
 use num_complex::Complex64;
 
@@ -28,14 +28,16 @@ const SAME_POSE: f64 = 1e-6;
 pub(super) struct PreparedHomotopy {
     manipulator: Manipulator,
     pub(super) start: LengthStart,
-    /// The bound that the start poses reach, which does not depend on the lengths; that of any six legs where they reach none.
+    /// The bound that the start poses reach, which does not depend on the lengths; that of any six legs where they
+    /// reach none.
     theorem: Theorem,
     /// The number of start poses by the count, where no theorem proves it.
     count: Option<PoseCount>,
 }
 
 impl PreparedHomotopy {
-    /// `None` unless the start poses are known to be all: as many certified ones as a theorem allows, or as the count says.
+    /// `None` unless the start poses are known to be all: as many certified ones as a theorem allows, or as the count
+    /// says.
     pub(super) fn new(m: &Manipulator, o: &FkOptions) -> Option<Self> {
         let (from, to) = generic_lengths(m, o.seed)?;
         let quick = o.pose_count(PoseCounting::Never);

@@ -146,7 +146,8 @@ fn prepared_designs_have_the_poses_of_unprepared_ones() {
     assert!(followed >= 18, "{followed} of 20 without the general treatment");
 }
 
-/// A Griffis-Duffy platform whose joints are doubles exactly: zigzag between two triangles, joints moved along the edges.
+/// A Griffis-Duffy platform whose joints are doubles exactly: zigzag between two triangles, joints moved along the
+/// edges.
 fn griffis_duffy(rng: &mut Rng) -> Manipulator {
     let mut triangle = || {
         [(); 3]
@@ -213,7 +214,8 @@ fn special_lengths_get_the_general_treatment() {
     assert_eq!(prepared.solve(&s, &o).unwrap(), Homotopy.solve(&m, &s, &o).unwrap());
 }
 
-/// Legs with joints in whole numbers that are perpendicular to the velocities of one twist at the identity: the pose is singular exactly.
+/// Legs with joints in whole numbers that are perpendicular to the velocities of one twist at the identity: the pose is
+/// singular exactly.
 fn exactly_singular(
     rng: &mut Rng,
     base: [usize; 6],
@@ -254,8 +256,8 @@ fn simple_poses_and_a_proved_double_one_are_a_complete_answer() {
     assert!(whole >= 8, "{whole}");
 }
 
-/// Platforms with a mirror plane at poses with it, in whole numbers: an odd twist changes no length to first order, so that the equations along it have an odd function of its
-/// parameter, and the pose counts three times.
+/// Platforms with a mirror plane at poses with it, in whole numbers: an odd twist changes no length to first order, so
+/// that the equations along it have an odd function of its parameter, and the pose counts three times.
 #[test]
 #[ignore = "evidence"]
 fn exact_triple_roots_are_proved_and_counted_three_times() {

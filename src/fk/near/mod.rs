@@ -1,9 +1,10 @@
 //! Follows one real pose from a known one, for control loops.
 //!
 //! The known pose `P0` is an exact solution for its own squared lengths `s(P0)`. The solver moves the squared lengths
-//! along the straight line from `s(P0)` to those asked for and follows the pose, in segments so short that a Kantorovich
-//! test, with bounds of every rounding, proves each of them free of singularities: the answer is the continuous continuation of `P0`, never
-//! another assembly mode, for every choice of joints and lengths within their radii. Theory: `docs/theory/near-pose.md`.
+//! along the straight line from `s(P0)` to those asked for and follows the pose, in segments so short that a
+//! Kantorovich test, with bounds of every rounding, proves each of them free of singularities: the answer is the
+//! continuous continuation of `P0`, never another assembly mode, for every choice of joints and lengths within their
+//! radii. Theory: `docs/theory/near-pose.md`.
 
 mod local;
 mod outcome;
@@ -68,7 +69,8 @@ pub struct NearSolver {
     /// Base joints relative to `origin` and platform joints relative to `centre`, in units of `unit`.
     base: [[f64; 3]; 6],
     platform: [[f64; 3]; 6],
-    /// How far, at most, the ends of the legs are from their doubles, Euclidean norms in units of `unit`: on the base and on the platform.
+    /// How far, at most, the ends of the legs are from their doubles, Euclidean norms in units of `unit`: on the base
+    /// and on the platform.
     loose: [[f64; 6]; 2],
     origin: Vector3<f64>,
     centre: Vector3<f64>,
@@ -198,7 +200,8 @@ impl NearSolver {
         }
     }
 
-    /// Squared lengths in the solver's units, and how far from these those asked for may be: three roundings and what two doubles hold beyond one.
+    /// Squared lengths in the solver's units, and how far from these those asked for may be: three roundings and what
+    /// two doubles hold beyond one.
     fn target(&self, s: &SquaredLegLengths) -> ([f64; 6], [f64; 6]) {
         let scale = (self.unit * self.unit).recip();
         let target = s.get().map(|s| s * scale);
@@ -208,8 +211,8 @@ impl NearSolver {
         (target, error)
     }
 
-    /// `steps` plain Newton steps on the leg equations from `start`, without a test of where they lead: for a start so near to the pose that a
-    /// step squares its error. `None` when `start` is not a pose or singular.
+    /// `steps` plain Newton steps on the leg equations from `start`, without a test of where they lead: for a start so
+    /// near to the pose that a step squares its error. `None` when `start` is not a pose or singular.
     #[must_use]
     pub fn newton_steps(&self, s: &SquaredLegLengths, start: &Pose, steps: u32) -> Option<Pose> {
         let (target, _) = self.target(s);

@@ -11,7 +11,8 @@ pub struct NearEvidence {
     pub residual: f64,
     /// `6 / (|J|_F |J^-1|_F)` at the pose, `J` the matrix of unnormalised leg lines
     /// ([`plucker_matrix`](platform::manipulator::plucker_matrix)) with the RMS radius of the platform as
-    /// characteristic length: 1 at best, 0 at a singularity. Cheaper than the inverse condition number, and never below that of the same matrix.
+    /// characteristic length: 1 at best, 0 at a singularity. Cheaper than the inverse condition number, and never below
+    /// that of the same matrix.
     pub frobenius_ratio: f64,
     /// Segments the straight line of squared lengths was divided into; 1: the start lies in the Kantorovich ball.
     pub segments: u32,

@@ -1,10 +1,14 @@
-//! The three angles of the corners: poses known roughly made exact, and poses at lengths at which two pairs `(s15, s34)` coincide, from those at lengths beside these.
+//! The three angles of the corners: poses known roughly made exact, and poses at lengths at which two pairs
+//! `(s15, s34)` coincide, from those at lengths beside these.
 //!
-//! With two leg lengths each corner of the platform is on a circle about a side of the base, and the corners have three distances: three equations in three angles, of low degree, which keep the digits that
-//! the closures in two distances lose by cancellation.
+//! With two leg lengths each corner of the platform is on a circle about a side of the base, and the corners have three
+//! distances: three equations in three angles, of low degree, which keep the digits that the closures in two distances
+//! lose by cancellation.
 //!
-//! Where `P4 P5` is parallel to `P1 P3`, as at home and at every pure translation from there when the platform triangle has its sides parallel to those of the base, the
-//! four points lie in a plane, so that a pair of distances belongs to two places of `P6`: a double root of the octic, though the poses are regular, and simple zeros of the three equations.
+//! Where `P4 P5` is parallel to `P1 P3`, as at home and at every pure translation from there when the platform triangle
+//! has its sides parallel to those of the base, the four points lie in a plane, so that a pair of distances belongs to
+//! two places of `P6`: a double root of the octic, though the poses are regular, and simple zeros of the three
+//! equations.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -43,7 +47,8 @@ impl OcticCircle {
     }
 }
 
-/// A corner on its circle: `h + i z` and `h - i z`, with `h` across the side in the plane and `z` above the plane. Their product is the squared radius, and each has all its digits.
+/// A corner on its circle: `h + i z` and `h - i z`, with `h` across the side in the plane and `z` above the plane.
+/// Their product is the squared radius, and each has all its digits.
 type OnCircle = [ComplexBatch; 2];
 
 /// `|P - Q|^2 - d` for corners on two circles, and its derivatives by the logarithms of both `h + i z`.
@@ -159,7 +164,8 @@ impl OcticSolver {
         None
     }
 
-    /// Newton's method in the three angles, from corners known roughly, for other squared lengths where `from` says so. `None` unless it settles, on eight separate poses.
+    /// Newton's method in the three angles, from corners known roughly, for other squared lengths where `from` says so.
+    /// `None` unless it settles, on eight separate poses.
     #[inline(always)]
     pub(super) fn continued(
         &self,

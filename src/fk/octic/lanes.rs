@@ -43,7 +43,8 @@ fn horner(c: &[f64; 5], x: ComplexBatch) -> ComplexBatch {
     out
 }
 
-/// The eight pairs `(s15, s34)`; at a translation those that are not known from it, in the lanes that it leaves to them.
+/// The eight pairs `(s15, s34)`; at a translation those that are not known from it, in the lanes that it leaves to
+/// them.
 #[inline(always)]
 pub(super) fn pairs(
     first: &Factors,
@@ -155,9 +156,10 @@ impl OcticSolver {
 
     /// Both mirror images of every lane in the frames of the design.
     ///
-    /// `R = E^T F G` with the rows of `E` and `G` the axes of the triangles, `F` the frame. Mirrored in the plane of the base the
-    /// corners change the sign of their third coordinate, so that the first two axes do and the third, their cross product, changes its
-    /// others: the entries of `F` fall into those that keep their signs and those that change them, and `R` into an even and an odd part.
+    /// `R = E^T F G` with the rows of `E` and `G` the axes of the triangles, `F` the frame. Mirrored in the plane of
+    /// the base the corners change the sign of their third coordinate, so that the first two axes do and the third,
+    /// their cross product, changes its others: the entries of `F` fall into those that keep their signs and those that
+    /// change them, and `R` into an even and an odd part.
     #[inline(always)]
     pub(super) fn place(&self, s: &[f64; 6], p4: &Points, f: &[Points; 3]) -> PoseLanes {
         let (e, g) = (&self.base.axes, &self.platform.axes);

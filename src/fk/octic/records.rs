@@ -1,4 +1,5 @@
-//! Sixteen certified poses as records, without the general collection: they are proved distinct, so that nothing is merged or rejected.
+//! Sixteen certified poses as records, without the general collection: they are proved distinct, so that nothing is
+//! merged or rejected.
 
 use super::{OcticPoses, OcticSolver};
 use crate::collect::sort_key;
@@ -57,8 +58,8 @@ fn of_pair(
     }
 }
 
-/// The same where some pairs have no certificate as pairs: their poses get certificates of their own. `None` unless all sixteen are certified
-/// and distinct.
+/// The same where some pairs have no certificate as pairs: their poses get certificates of their own. `None` unless all
+/// sixteen are certified and distinct.
 pub(super) fn proved_one_by_one(
     solver: &OcticSolver,
     found: &OcticPoses,

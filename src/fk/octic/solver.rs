@@ -112,7 +112,8 @@ impl pulp::WithSimd for Solve<'_> {
 }
 
 impl OcticSolver {
-    /// Prepares an octahedral design; only coordinates count, not whether joints are named as shared (unless they are known between bounds only).
+    /// Prepares an octahedral design; only coordinates count, not whether joints are named as shared (unless they are
+    /// known between bounds only).
     ///
     /// # Errors
     /// [`FkError::NotApplicable`] when it is not octahedral.
@@ -138,8 +139,8 @@ impl OcticSolver {
         })
     }
 
-    /// Proofs for the poses that [`solve`](Self::solve) gave for the same lengths: existence, uniqueness, reality of each pair, and
-    /// that all sixteen are distinct. Allocates nothing.
+    /// Proofs for the poses that [`solve`](Self::solve) gave for the same lengths: existence, uniqueness, reality of
+    /// each pair, and that all sixteen are distinct. Allocates nothing.
     #[must_use]
     pub fn certify(&self, s: &SquaredLegLengths, found: &OcticPoses) -> OctahedralCertificates {
         let none = OctahedralCertificates { pairs: [None; LANES], complete: false };
@@ -147,7 +148,8 @@ impl OcticSolver {
         certifier.certify(s, &found.poses)
     }
 
-    /// The certificate of pose `2k` (or `2k + 1`, the mirror image) of pair `k` of those that [`certify`](Self::certify) proved.
+    /// The certificate of pose `2k` (or `2k + 1`, the mirror image) of pair `k` of those that
+    /// [`certify`](Self::certify) proved.
     #[must_use]
     pub fn certificate(
         &self,
@@ -159,8 +161,8 @@ impl OcticSolver {
     }
 
     /// All sixteen finite complex poses, or `None` where these lengths need the general treatment of
-    /// [`Octic`](super::Octic): coinciding or nearly coinciding poses, roots at infinity, poses whose corners lie in one
-    /// plane, or a residual above `1e-12`.
+    /// [`Octic`](super::Octic): coinciding or nearly coinciding poses, roots at infinity, poses whose corners lie in
+    /// one plane, or a residual above `1e-12`.
     #[must_use]
     pub fn solve(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
         on_vector_unit(Solve { solver: self, s })
@@ -207,8 +209,8 @@ impl OcticSolver {
         Some(OcticPoses { poses, pairs, residuals, residual: worst })
     }
 
-    /// Newton's method on the leg equations; the residual then, or `None` when it stays too large or the pose was not near its
-    /// root.
+    /// Newton's method on the leg equations; the residual then, or `None` when it stays too large or the pose was not
+    /// near its root.
     #[cold]
     fn improve(&self, s: &SquaredLegLengths, pose: &mut ComplexPose) -> Option<f64> {
         let scale = pose_scale(pose, self.size);

@@ -1,4 +1,5 @@
-//! From where the angles of the corners are sought: lengths, equal to those wanted or beside them, and what is known of their poses.
+//! From where the angles of the corners are sought: lengths, equal to those wanted or beside them, and what is known of
+//! their poses.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -13,7 +14,8 @@ const BESIDE: [f64; 8] = [1e-2, -1e-2, 3e-2, 3e-3, -3e-2, -3e-3, 1e-1, 1e-3];
 const ASKEW: [f64; 6] = [0.71, -0.43, 1.0, 0.29, -0.87, 0.53];
 /// The same for translations: parts of the distance along `x` and `y`, and of the squared height.
 const SHIFTED: [[f64; 3]; 2] = [[0.0, 0.0, 0.0], [0.021, -0.013, 0.03]];
-/// Newton steps on both closures, which tell pairs near each other apart; from the coarse roots they come near rounding, and the angles get there.
+/// Newton steps on both closures, which tell pairs near each other apart; from the coarse roots they come near
+/// rounding, and the angles get there.
 const POLISHES: usize = 2;
 /// The same for pairs that are continued, which may still be close to each other.
 const POLISHES_BESIDE: usize = 8;
@@ -26,7 +28,8 @@ pub(super) struct Start<'a> {
 }
 
 impl OcticSolver {
-    /// In the order in which they are tried. Near a translation the roots of the octic do not settle: what takes as long as all the rest comes last.
+    /// In the order in which they are tried. Near a translation the roots of the octic do not settle: what takes as
+    /// long as all the rest comes last.
     #[inline(always)]
     pub(super) fn starts<'a>(&'a self, s: &'a [f64; 6]) -> impl Iterator<Item = Start<'a>> {
         let near = self.parallel.iter().filter_map(|sides| sides.translation(s));
@@ -46,7 +49,8 @@ impl OcticSolver {
         translations.chain([Start { beside: None, known: None }]).chain(others)
     }
 
-    /// `P4, P5, P6` of eight poses in the frame of the base triangle, roughly, for the squared lengths `s` or those beside.
+    /// `P4, P5, P6` of eight poses in the frame of the base triangle, roughly, for the squared lengths `s` or those
+    /// beside.
     #[inline(always)]
     pub(super) fn start(&self, start: &Start, s: &[f64; 6]) -> Option<[Points; 3]> {
         let Start { beside, known } = start;
@@ -55,7 +59,8 @@ impl OcticSolver {
         let short = self.platform.b * self.platform.b;
         let first = Factors::new(&self.base_gram, [s25, s35], [s14, s24], short);
         let second = Factors::new(&self.turned_gram, [s16, s14], [s35, s36], self.base_gram.cc);
-        // pairs near each other are refused unless they are continued: there the continuation judges, and they may be known with few digits
+        // pairs near each other are refused unless they are continued: there the continuation judges, and they may be
+        // known with few digits
         let polishes = if beside.is_some() && known.is_none() { POLISHES_BESIDE } else { POLISHES };
         let (x, y) = pairs(&first, &second, known.as_ref(), polishes)?;
         if beside.is_none() && !separate(&[x, y]) {

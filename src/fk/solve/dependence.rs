@@ -5,8 +5,8 @@
 //! `e.e sum c_i (|a_i|^2 + |b_i|^2 - s_i) = 0`: either the lengths satisfy the relation as well, and one
 //! equation says nothing, or `e.e = 0` and there is no finite pose.
 //!
-//! Joints that are their doubles are decided over the rationals, exact ones in their field of square roots. Of joints known between bounds only nothing is decided
-//! beyond their being far from any relation.
+//! Joints that are their doubles are decided over the rationals, exact ones in their field of square roots. Of joints
+//! known between bounds only nothing is decided beyond their being far from any relation.
 
 use num::exact::{ExactVector, Rational, rational, relations};
 use num::surd::{Surd, combination, eliminate};

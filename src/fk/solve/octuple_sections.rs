@@ -1,4 +1,5 @@
-//! The sections of a platform with 256 bits: what tells a platform from a special one nearby may be in no digit of a double.
+//! The sections of a platform with 256 bits: what tells a platform from a special one nearby may be in no digit of a
+//! double.
 
 use num_complex::Complex64;
 
@@ -54,8 +55,8 @@ fn leg_row(a: &Point, b: &Point, s: Octuple) -> OctupleRow {
 }
 
 impl ScaledFrames {
-    /// [`sections`](Self::sections) with 256 bits, of the joints and squared lengths as they are. `None` when the equations are dependent,
-    /// and for frames turned into planes, which are turned in doubles.
+    /// [`sections`](Self::sections) with 256 bits, of the joints and squared lengths as they are. `None` when the
+    /// equations are dependent, and for frames turned into planes, which are turned in doubles.
     pub(crate) fn octuple_sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<OctupleSections> {
         if self.planes.is_some() {
             return None;

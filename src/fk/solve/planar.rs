@@ -7,11 +7,11 @@
 //! ```
 //!
 //! all of them invariant under the mirror map `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`: with `k` the third
-//! quaternion unit and `S = diag(1, 1, -1)` it is `e -> k e k~`, `g -> -k g k~`, that is `R -> S R S`, `p -> S p`, the reflection of the
-//! scene in the plane of the base and of the platform in its own. Poses come in mirror pairs, the 40 of the general member
-//! in 20. A pose that is its own mirror image has the platform in the plane of the base; there the leg equations are even in three of
-//! six directions, so that an isolated one has multiplicity eight at least. Six general
-//! sections in the ten forms miss these poses, which form a threefold.
+//! quaternion unit and `S = diag(1, 1, -1)` it is `e -> k e k~`, `g -> -k g k~`, that is `R -> S R S`, `p -> S p`, the
+//! reflection of the scene in the plane of the base and of the platform in its own. Poses come in mirror pairs, the 40
+//! of the general member in 20. A pose that is its own mirror image has the platform in the plane of the base; there
+//! the leg equations are even in three of six directions, so that an isolated one has multiplicity eight at least. Six
+//! general sections in the ten forms miss these poses, which form a threefold.
 
 use nalgebra::{Point3, Rotation3, Vector3};
 use num_complex::Complex64;

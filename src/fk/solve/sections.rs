@@ -55,20 +55,21 @@ impl ScaledFrames {
         Self { base_origin, platform_origin, scale: m.size().max(rms), planes: None }
     }
 
-    /// [`ScaledFrames::of`] with the joints of base and platform in `z = 0`; `None` unless both are coplanar to rounding.
+    /// [`ScaledFrames::of`] with the joints of base and platform in `z = 0`; `None` unless both are coplanar to
+    /// rounding.
     pub fn planar(m: &Manipulator, s: &SquaredLegLengths) -> Option<Self> {
         Some(Self { planes: Some(Planes::of(m)?), ..Self::of(m, s) })
     }
 
-    /// The orthonormalised sections of the legs, in this frame, `g.g` in the last one only: far out, where `|e|` is small against
-    /// `|g|`, rounding in `g.g` would drown what the others say about `e`. `None` when the six leg equations are
-    /// linearly dependent to rounding (relative `1e-13`), so that they do not span six dimensions.
+    /// The orthonormalised sections of the legs, in this frame, `g.g` in the last one only: far out, where `|e|` is
+    /// small against `|g|`, rounding in `g.g` would drown what the others say about `e`. `None` when the six leg
+    /// equations are linearly dependent to rounding (relative `1e-13`), so that they do not span six dimensions.
     pub fn sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<Sections> {
         self.moving_sections(m, s, &[Complex64::ZERO; 6]).map(|(sections, _)| sections)
     }
 
-    /// The same, and for each section the factor of `e.e` by which it changes when the squared lengths change by `change` (design units
-    /// squared) and the legs are combined as they are here.
+    /// The same, and for each section the factor of `e.e` by which it changes when the squared lengths change by
+    /// `change` (design units squared) and the legs are combined as they are here.
     pub(crate) fn moving_sections(
         &self,
         m: &Manipulator,
@@ -100,8 +101,9 @@ impl ScaledFrames {
         rows
     }
 
-    /// The span of the leg equations as far as they are independent (sines above `tolerance`), filled up to
-    /// six dimensions by random real sections, and how many these are: `least` or more, for which general combinations of the leg equations make room.
+    /// The span of the leg equations as far as they are independent (sines above `tolerance`), filled up to six
+    /// dimensions by random real sections, and how many these are: `least` or more, for which general combinations of
+    /// the leg equations make room.
     pub(crate) fn sliced_sections(
         &self,
         m: &Manipulator,
@@ -249,9 +251,9 @@ pub(crate) fn leg_row(a: &Vector3<f64>, b: &Vector3<f64>, s: f64) -> FormRow {
 }
 
 impl Sections {
-    /// The real rows but the last turned among themselves, `O rows` with `O` orthogonal, and the sign of the last chosen, so as to be
-    /// as close to those of `other` as they can (orthogonal Procrustes problem): the same sections, a shorter way to the others. The
-    /// last row is the one with `g.g` and stays so.
+    /// The real rows but the last turned among themselves, `O rows` with `O` orthogonal, and the sign of the last
+    /// chosen, so as to be as close to those of `other` as they can (orthogonal Procrustes problem): the same sections,
+    /// a shorter way to the others. The last row is the one with `g.g` and stays so.
     pub(crate) fn aligned_with(&self, other: &Self) -> Self {
         let real = |s: &Self| SMatrix::<f64, 6, FORMS>::from_fn(|i, k| s.rows[i][k].re);
         let (own, aim) = (real(self), real(other));
@@ -362,7 +364,8 @@ mod tests {
         let turned = own.aligned_with(&aim);
         let matrix = |s: &Sections| SMatrix::<f64, 6, FORMS>::from_fn(|i, k| s.rows[i][k].re);
         let (a, b, c) = (matrix(&own), matrix(&aim), matrix(&turned));
-        // orthonormal, with the same projector, and the overlap of the first five with the aim is symmetric: no turn improves it
+        // orthonormal, with the same projector, and the overlap of the first five with the aim is symmetric: no turn
+        // improves it
         assert!((c * c.transpose() - SMatrix::<f64, 6, 6>::identity()).norm() < 1e-13);
         assert!((c.transpose() * c - a.transpose() * a).norm() < 1e-13);
         assert!((0..5).all(|i| c[(i, FORMS - 1)].abs() < 1e-15));

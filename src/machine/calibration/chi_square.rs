@@ -5,8 +5,9 @@ use statrs::function::gamma::checked_gamma_ur;
 /// Halvings of an interval of quantiles: more than a double has digits.
 const HALVINGS: usize = 200;
 
-/// The probability that the sum of the squares of `freedoms` independent standard normal numbers exceeds `value`: `Q(freedoms / 2, value / 2)`, the upper incomplete
-/// gamma function over the complete one. 1 where there are no degrees of freedom and the value is at most zero.
+/// The probability that the sum of the squares of `freedoms` independent standard normal numbers exceeds `value`:
+/// `Q(freedoms / 2, value / 2)`, the upper incomplete gamma function over the complete one. 1 where there are no
+/// degrees of freedom and the value is at most zero.
 #[must_use]
 pub fn chi_square_exceeds(value: f64, freedoms: usize) -> f64 {
     if !(value > 0.0) {
@@ -17,7 +18,8 @@ pub fn chi_square_exceeds(value: f64, freedoms: usize) -> f64 {
         .map_or(0.0, |probability| probability.clamp(0.0, 1.0))
 }
 
-/// The value that is exceeded with this probability, by bisection: `statrs` inverts `1 - exceeded`, which has lost digits of small probabilities.
+/// The value that is exceeded with this probability, by bisection: `statrs` inverts `1 - exceeded`, which has lost
+/// digits of small probabilities.
 #[must_use]
 pub fn chi_square_quantile(exceeded: f64, freedoms: usize) -> f64 {
     let (mut low, mut high) = (0.0, freedoms as f64 + 1.0);

@@ -2,10 +2,12 @@
 
 use super::{LegModel, Measurement};
 
-/// How much nearer to the nominal machine two columns are after they changed places, root mean square: far more than joints off by what machines are built to can make.
+/// How much nearer to the nominal machine two columns are after they changed places, root mean square: far more than
+/// joints off by what machines are built to can make.
 const NEARER: f64 = 5.0;
 
-/// The legs whose measured lengths look exchanged: those that come nearest to the nominal machine when they change places, where they come nearer by a factor of five.
+/// The legs whose measured lengths look exchanged: those that come nearest to the nominal machine when they change
+/// places, where they come nearer by a factor of five.
 ///
 /// What a column differs from a leg by is compared without its mean, so that offsets of encoders count for nothing.
 pub(super) fn exchanged(nominal: &LegModel, measurements: &[Measurement]) -> Option<[usize; 2]> {

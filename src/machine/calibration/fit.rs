@@ -99,8 +99,9 @@ impl FitProblem<'_> {
         self.measurements.iter().zip(lower).map(of).sum()
     }
 
-    /// The least sum of squares with fixed weights near `start` (Levenberg 1944, Marquardt 1963): a step is damped the more, the less the last one kept what it
-    /// promised. Unknown directions are left as they are. The model, steps, and whether they ended where they must.
+    /// The least sum of squares with fixed weights near `start` (Levenberg 1944, Marquardt 1963): a step is damped the
+    /// more, the less the last one kept what it promised. Unknown directions are left as they are. The model, steps,
+    /// and whether they ended where they must.
     fn minimise(&self, start: &LegModel, lower: &[Matrix6<f64>], most: usize) -> (LegModel, usize, bool) {
         let (mut model, mut cost) = (start.clone(), self.cost(start, lower));
         let mut damping = 0.0;
@@ -141,7 +142,8 @@ impl FitProblem<'_> {
         (model, most, false)
     }
 
-    /// Rounds of [`minimise`](Self::minimise), each with the covariances, the noise and the weights of the end of the last one.
+    /// Rounds of [`minimise`](Self::minimise), each with the covariances, the noise and the weights of the end of the
+    /// last one.
     pub(super) fn fit(&self, start: &LegModel) -> CalibrationFit {
         let mut out = CalibrationFit {
             model: start.clone(),
@@ -194,7 +196,8 @@ impl FitProblem<'_> {
         self.measurements.iter().zip(&lower).map(|(m, l)| Distances::new(&model.residual(m), l)).collect()
     }
 
-    /// The noise that the residuals show where none is given: by the sum of squares, or by the median distance with a loss that takes gross errors for possible.
+    /// The noise that the residuals show where none is given: by the sum of squares, or by the median distance with a
+    /// loss that takes gross errors for possible.
     fn noise_of(&self, fit: &CalibrationFit) -> (MeasurementNoise, NoiseSource) {
         if let Some(noise) = self.noise {
             return (noise, NoiseSource::Given);
@@ -217,12 +220,14 @@ impl FitProblem<'_> {
         (MeasurementNoise { length: noise.length.max(least), ..noise }, NoiseSource::Estimated)
     }
 
-    /// The usual distance where it shows that the model is still wrong; `None` also for a loss that knows no gross errors.
+    /// The usual distance where it shows that the model is still wrong; `None` also for a loss that knows no gross
+    /// errors.
     fn far(&self, distances: &[Distances]) -> Option<f64> {
         Some(self.usual(distances)).filter(|usual| self.loss != Loss::Squares && *usual > FAR)
     }
 
-    /// The median distance over that of normal errors: of whole poses, or of single lengths where these are doubted. Gross errors of less than half of them hardly change it.
+    /// The median distance over that of normal errors: of whole poses, or of single lengths where these are doubted.
+    /// Gross errors of less than half of them hardly change it.
     fn usual(&self, distances: &[Distances]) -> f64 {
         let (mut squares, count): (Vec<f64>, usize) = match self.unit {
             LossUnit::Pose => (distances.iter().map(|d| d.pose * d.pose).collect(), 6),
@@ -232,7 +237,8 @@ impl FitProblem<'_> {
         (squares[squares.len() / 2] / chi_square_quantile(0.5, count)).sqrt()
     }
 
-    /// The weights of the loss, graduated: a convex loss counts distances in the usual one until the model is about right.
+    /// The weights of the loss, graduated: a convex loss counts distances in the usual one until the model is about
+    /// right.
     fn weights(&self, fit: &CalibrationFit, noise: &MeasurementNoise, round: usize) -> Vec<PoseWeight> {
         let distances = self.distances(&fit.model, noise);
         let far = self.far(&distances);

@@ -10,7 +10,8 @@ use platform::manipulator::Body;
 /// Points whose spread across a line is below this share of that along it have no rotation of their own.
 const ON_A_LINE: f64 = 1e-6;
 
-/// The rigid motion with which measured joints are nearest to those of the design: a point x of the measurements is at R x + p.
+/// The rigid motion with which measured joints are nearest to those of the design: a point x of the measurements is at
+/// R x + p.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "FrameMotionRecord", transform = num::nullable))]
 pub struct FrameMotion {
@@ -34,8 +35,8 @@ pub struct CarriedFrames {
     pub platform: FrameMotion,
 }
 
-/// The rotation and translation with the least sum of squared distances between `R from + p` and `to` (Umeyama 1991, without scale): no reflections, so that
-/// points in a plane are turned to their places.
+/// The rotation and translation with the least sum of squared distances between `R from + p` and `to` (Umeyama 1991,
+/// without scale): no reflections, so that points in a plane are turned to their places.
 ///
 /// `None` where points are on a line, about which any turn is as good.
 #[must_use]
@@ -64,7 +65,8 @@ pub fn rigid_motion(from: &[Point3<f64>], to: &[Point3<f64>]) -> Option<FrameMot
 }
 
 impl CarriedFrames {
-    /// The motions that take the joints of a model nearest to those of another with the same legs. Joints count once, those without legs not at all.
+    /// The motions that take the joints of a model nearest to those of another with the same legs. Joints count once,
+    /// those without legs not at all.
     #[must_use]
     pub fn between(measured: &LegModel, nominal: &LegModel) -> Option<Self> {
         let of = |body: Body| {
@@ -91,7 +93,8 @@ impl CarriedFrames {
         }
     }
 
-    /// A root of the covariance of the unknowns, turned with the joints. The motions are taken as they are: their own uncertainty is that of the joints.
+    /// A root of the covariance of the unknowns, turned with the joints. The motions are taken as they are: their own
+    /// uncertainty is that of the joints.
     #[must_use]
     pub fn carry_root(&self, unknowns: &Unknowns, root: &DMatrix<f64>) -> DMatrix<f64> {
         let mut out = root.clone();

@@ -6,10 +6,12 @@
 //! l_ik = |R_k b_i + p_k - a_i| + d_i + noise,
 //! ```
 //!
-//! with the unknown joints `a_i`, `b_i` and offsets `d_i`: seven unknowns a leg, fewer where legs share joints. Poses are measured too, so that the six
-//! residuals of a pose have the covariance `sigma_l^2 I + J_k Sigma_pose J_k^T` to first order.
+//! with the unknown joints `a_i`, `b_i` and offsets `d_i`: seven unknowns a leg, fewer where legs share joints. Poses
+//! are measured too, so that the six residuals of a pose have the covariance `sigma_l^2 I + J_k Sigma_pose J_k^T` to
+//! first order.
 //!
-//! * [`calibrate`]: the fit, how well each unknown is known, which changes of the machine the measurements do not see, and whether the model agrees with them.
+//! * [`calibrate`]: the fit, how well each unknown is known, which changes of the machine the measurements do not see,
+//!   and whether the model agrees with them.
 //! * [`pose_deviation`]: how uncertain poses are that are computed with it.
 //! * [`next_poses`]: where to measure next.
 //! * [`CarriedFrames`]: from the frames of the measurements to those of a design.

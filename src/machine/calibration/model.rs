@@ -50,7 +50,8 @@ impl LegModel {
         std::array::from_fn(|leg| self.line(leg, pose).norm() + self.offsets[leg])
     }
 
-    /// Rows `[u_i, (R b_i) x u_i]`: how the lengths change with a shift of the platform origin and a small turn about it, base frame.
+    /// Rows `[u_i, (R b_i) x u_i]`: how the lengths change with a shift of the platform origin and a small turn about
+    /// it, base frame.
     pub(super) fn pose_sensitivity(&self, pose: &Pose) -> Matrix6<f64> {
         let mut out = Matrix6::zeros();
         for leg in 0..6 {
@@ -67,7 +68,8 @@ impl LegModel {
         self.line(leg, pose).try_normalize(0.0).unwrap_or_default()
     }
 
-    /// How the six lengths change with the unknowns: `-u^T` for the base joint, `u^T R` for the platform joint, 1 for the offset.
+    /// How the six lengths change with the unknowns: `-u^T` for the base joint, `u^T R` for the platform joint, 1 for
+    /// the offset.
     pub(super) fn sensitivity(&self, unknowns: &Unknowns, pose: &Pose) -> DMatrix<f64> {
         let mut out = DMatrix::zeros(6, unknowns.count());
         for leg in 0..6 {
@@ -161,7 +163,8 @@ pub enum Unknown {
     },
 }
 
-/// The unknowns and their columns: base joints, platform joints, offsets. A joint that two legs share is one joint; one without legs is no unknown.
+/// The unknowns and their columns: base joints, platform joints, offsets. A joint that two legs share is one joint; one
+/// without legs is no unknown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unknowns {
     /// First of three columns of each joint.

@@ -19,14 +19,16 @@ pub struct MeasurementNoise {
 const ASSUMED: f64 = 1e-4;
 
 impl MeasurementNoise {
-    /// What is taken where nothing is known: exact poses, and lengths as uncertain as a ten-thousandth of the size of the machine.
+    /// What is taken where nothing is known: exact poses, and lengths as uncertain as a ten-thousandth of the size of
+    /// the machine.
     #[must_use]
     pub fn assumed(size: f64) -> Self {
         Self { length: ASSUMED * size, position: 0.0, rotation: 0.0 }
     }
 
-    /// `sigma_l^2 I + J Sigma_pose J^T`, the covariance of the residuals at a pose to first order; the variance of the length of a leg of weight `w` is `sigma_l^2 / w`,
-    /// and that of everything at a pose of weight `w` is divided by it.
+    /// `sigma_l^2 I + J Sigma_pose J^T`, the covariance of the residuals at a pose to first order; the variance of the
+    /// length of a leg of weight `w` is `sigma_l^2 / w`, and that of everything at a pose of weight `w` is divided by
+    /// it.
     pub(super) fn covariance(&self, sensitivity: &Matrix6<f64>, weight: &PoseWeight) -> Matrix6<f64> {
         let (p, w) = (self.position * self.position, self.rotation * self.rotation);
         let pose = Matrix6::from_diagonal(&Vector6::new(p, p, p, w, w, w));

@@ -14,13 +14,15 @@ const ROUNDED: f64 = 1e-6;
 
 /// The singular values of the identification matrix and what is made of them.
 ///
-/// The matrix is that of the whitened residuals, multiplied by the standard deviation of a length: without noise of the poses it is the derivative of the lengths
-/// with respect to the unknowns, without unit. Small values are directions that are badly known.
+/// The matrix is that of the whitened residuals, multiplied by the standard deviation of a length: without noise of the
+/// poses it is the derivative of the lengths with respect to the unknowns, without unit. Small values are directions
+/// that are badly known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observability {
     /// Largest first.
     pub singular_values: Vec<f64>,
-    /// Directions with a value below this are not known: their standard deviation would exceed the greatest one accepted, or rounding leaves nothing of them.
+    /// Directions with a value below this are not known: their standard deviation would exceed the greatest one
+    /// accepted, or rounding leaves nothing of them.
     pub tolerance: f64,
     /// Values at or above it.
     pub rank: usize,
@@ -53,7 +55,8 @@ impl Observability {
         self.singular_values.last().copied().unwrap_or(0.0)
     }
 
-    /// `(s_1 .. s_m)^(1/m) / sqrt(n)`, the volume of what `n` poses see (Borm, Menq 1991): greatest where the determinant of the covariance is least.
+    /// `(s_1 .. s_m)^(1/m) / sqrt(n)`, the volume of what `n` poses see (Borm, Menq 1991): greatest where the
+    /// determinant of the covariance is least.
     #[must_use]
     pub fn volume_index(&self) -> f64 {
         let logs = self.singular_values.iter().map(|s| s.ln()).sum::<f64>();

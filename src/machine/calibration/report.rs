@@ -34,7 +34,8 @@ pub struct CalibrateOptions {
     pub held: HeldParts,
     /// Where to begin.
     pub start: StartChoice,
-    /// The greatest standard deviation, as a share of the size of the design, at which a direction counts as identified.
+    /// The greatest standard deviation, as a share of the size of the design, at which a direction counts as
+    /// identified.
     pub identified: f64,
 }
 
@@ -85,9 +86,11 @@ pub struct Starts {
     pub taken: StartName,
     /// Whether both starts ended at the same machine; null: only one was tried.
     pub agree: Option<bool>,
-    /// Sum of the losses, or the estimated deviation of a length, from the nominal joints: the less, the better; null: not tried.
+    /// Sum of the losses, or the estimated deviation of a length, from the nominal joints: the less, the better; null:
+    /// not tried.
     pub nominal: Option<f64>,
-    /// The same from the linear equations for squared lengths, which need no design; null: not tried, or the poses do not determine them.
+    /// The same from the linear equations for squared lengths, which need no design; null: not tried, or the poses do
+    /// not determine them.
     pub closed_form: Option<f64>,
 }
 
@@ -214,7 +217,8 @@ pub struct ChiSquare {
     /// Numbers less unknowns identified.
     #[cfg_attr(feature = "serde", serde(rename = "degrees_of_freedom"))]
     pub freedoms: usize,
-    /// The probability of a larger value, were model and noise right; null: the noise is estimated from the same residuals.
+    /// The probability of a larger value, were model and noise right; null: the noise is estimated from the same
+    /// residuals.
     pub probability: Option<f64>,
 }
 
@@ -272,7 +276,8 @@ pub struct Calibration {
     pub chi_square: ChiSquare,
     /// The farthest first.
     pub outliers: Vec<Outlier>,
-    /// Indices of two legs whose measured lengths look exchanged: they are five times nearer to those of the nominal machine when they change places.
+    /// Indices of two legs whose measured lengths look exchanged: they are five times nearer to those of the nominal
+    /// machine when they change places.
     pub exchanged: Option<[usize; 2]>,
     /// Weights of the measurements.
     pub weights: Vec<PoseWeight>,
@@ -297,16 +302,19 @@ fn residuals_of(model: &LegModel, measurements: &[Measurement]) -> ResidualSprea
     ResidualSpread::of(&all, |_, _| true)
 }
 
-/// A root of the covariance before anything is measured: every unknown is as uncertain as `widest`, the deviation above which nothing counts as identified.
+/// A root of the covariance before anything is measured: every unknown is as uncertain as `widest`, the deviation above
+/// which nothing counts as identified.
 #[must_use]
 pub fn planning_root(unknowns: &Unknowns, widest: f64) -> DMatrix<f64> {
     DMatrix::identity(unknowns.count(), unknowns.count()) * widest
 }
 
-/// Calibrates a machine from measurements: the joints and offsets with the least sum of losses of whitened residuals, in the frames of the measured poses.
+/// Calibrates a machine from measurements: the joints and offsets with the least sum of losses of whitened residuals,
+/// in the frames of the measured poses.
 ///
-/// Each round takes the covariances of the residuals, the weights of the loss and, where it is not given, the noise from the end of the last one, and minimises the sum
-/// of squares with these by Levenberg-Marquardt steps. Directions that are not identified keep their values of the start.
+/// Each round takes the covariances of the residuals, the weights of the loss and, where it is not given, the noise
+/// from the end of the last one, and minimises the sum of squares with these by Levenberg-Marquardt steps. Directions
+/// that are not identified keep their values of the start.
 ///
 /// # Errors
 /// [`CalibrationError`]; that unknowns are not identifiable is no error but a [`CalibrationStatus`].
@@ -449,8 +457,9 @@ fn status(
     }
 }
 
-/// An outlier is farther off than all right measurements together are with a probability of 99 %. None is called so where it would be more than half of the poses, or of the lengths
-/// where single lengths are doubted: the noise or the model is wrong then.
+/// An outlier is farther off than all right measurements together are with a probability of 99 %. None is called so
+/// where it would be more than half of the poses, or of the lengths where single lengths are doubted: the noise or the
+/// model is wrong then.
 fn outliers(problem: &FitProblem<'_>, fit: &CalibrationFit) -> Vec<Outlier> {
     if fit.source == NoiseSource::Assumed {
         return Vec::new();
@@ -494,7 +503,8 @@ fn outliers(problem: &FitProblem<'_>, fit: &CalibrationFit) -> Vec<Outlier> {
     out
 }
 
-/// The sum of squares and its degrees of freedom. With a loss that takes gross errors for possible, poses with an outlier are left out.
+/// The sum of squares and its degrees of freedom. With a loss that takes gross errors for possible, poses with an
+/// outlier are left out.
 fn chi_square(
     problem: &FitProblem<'_>,
     fit: &CalibrationFit,
@@ -511,8 +521,8 @@ fn chi_square(
     ChiSquare { value, freedoms, probability: given.then(|| chi_square_exceeds(value, freedoms)) }
 }
 
-/// For each pose the residuals of the machine that the others give, to first order: `(I - H_kk)^-1 r_k` of whitened residuals (Cook, Weisberg 1982); and the poses without which
-/// the unknowns are not determined.
+/// For each pose the residuals of the machine that the others give, to first order: `(I - H_kk)^-1 r_k` of whitened
+/// residuals (Cook, Weisberg 1982); and the poses without which the unknowns are not determined.
 fn leave_one_out(
     problem: &FitProblem<'_>,
     fit: &CalibrationFit,

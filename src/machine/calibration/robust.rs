@@ -38,7 +38,8 @@ impl Loss {
         }
     }
 
-    /// The threshold for one normal number at which the estimate of a mean has 95 % of the efficiency of least squares (Holland, Welsch 1977).
+    /// The threshold for one normal number at which the estimate of a mean has 95 % of the efficiency of least squares
+    /// (Holland, Welsch 1977).
     fn threshold(self) -> f64 {
         match self {
             Self::Squares => f64::INFINITY,

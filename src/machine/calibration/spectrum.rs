@@ -6,7 +6,8 @@ use num::small::bounded_svd;
 
 /// `rows x = right` with equations of variance 1: `rows = U diag(s) V^T` and `U^T right`.
 ///
-/// Orthogonal triangularisation, then the singular values of the triangle: normal equations, which square the condition, are not formed.
+/// Orthogonal triangularisation, then the singular values of the triangle: normal equations, which square the
+/// condition, are not formed.
 #[derive(Debug, Clone)]
 pub(super) struct FitSpectrum {
     /// Singular values, largest first: one over the standard deviation of the unknowns along each direction.
@@ -22,7 +23,8 @@ pub(super) struct FitSpectrum {
 }
 
 impl FitSpectrum {
-    /// Directions count as known where their standard deviation is at most `widest` and rounding leaves digits of them. `None` for entries that are not finite.
+    /// Directions count as known where their standard deviation is at most `widest` and rounding leaves digits of them.
+    /// `None` for entries that are not finite.
     pub(super) fn of(rows: DMatrix<f64>, right: DVector<f64>, widest: f64) -> Option<Self> {
         let (equations, unknowns) = rows.shape();
         let height = equations.max(unknowns);
@@ -72,7 +74,8 @@ impl FitSpectrum {
         DMatrix::from_fn(n, n, |i, k| self.directions[(i, k)] * scale(self.values[k]))
     }
 
-    /// The directions that are not known, each with as few coordinates as it goes: columns of the projector on them, the largest first, made orthonormal.
+    /// The directions that are not known, each with as few coordinates as it goes: columns of the projector on them,
+    /// the largest first, made orthonormal.
     pub(super) fn unknown_directions(&self) -> Vec<DVector<f64>> {
         let n = self.directions.nrows();
         let null = self.directions.columns(self.rank, n - self.rank);
@@ -94,7 +97,8 @@ impl FitSpectrum {
 /// Rounding errors of a decomposition, in units of the number of equations times the spacing of doubles.
 const ROUNDING: f64 = 4.0;
 
-/// `(I - H)^-1`, with the block `H = W C W^T` of the hat matrix of an observation; `None` where the unknowns are not determined without it.
+/// `(I - H)^-1`, with the block `H = W C W^T` of the hat matrix of an observation; `None` where the unknowns are not
+/// determined without it.
 pub(super) fn deletion(block: &DMatrix<f64>, root: &DMatrix<f64>) -> Option<Matrix6<f64>> {
     let half = block * root;
     let left = Matrix6::identity() - Matrix6::from_fn(|i, j| half.row(i).dot(&half.row(j)));

@@ -116,7 +116,8 @@ fn errors_agree_with_the_covariance() {
     }
 }
 
-/// Poses computed with calibrated machines from exact lengths are as far from the truth as the covariance says, correlations included.
+/// Poses computed with calibrated machines from exact lengths are as far from the truth as the covariance says,
+/// correlations included.
 #[test]
 #[ignore = "evidence"]
 fn computed_poses_are_as_uncertain_as_they_are_said_to_be() {

@@ -97,7 +97,8 @@ impl CoupledLegs {
         Interval::new(self.lead.next_down().next_down(), self.lead.next_up().next_up())
     }
 
-    /// How far the pose with exactly these lengths of drives may be from the one given, where the test proves that there is one, and only one, in a neighbourhood.
+    /// How far the pose with exactly these lengths of drives may be from the one given, where the test proves that
+    /// there is one, and only one, in a neighbourhood.
     pub(super) fn bound(
         &self,
         pose: &Pose,

@@ -10,13 +10,15 @@ use num::Rng;
 use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator};
 
-/// A leg as it is built: base, turn about x, offset along z, turn about y, length along z, turn about z, turn about y, offset along z, turn about x.
+/// A leg as it is built: base, turn about x, offset along z, turn about y, length along z, turn about z, turn about y,
+/// offset along z, turn about x.
 #[derive(Debug, Clone, Copy)]
 struct SimulatedLeg {
     base: Vector3<f64>,
     frame: Rotation3<f64>,
     offsets: [f64; 2],
-    /// Turns about the first and the second axis, length, turn about the leg, turns about the second and the first axis of the platform.
+    /// Turns about the first and the second axis, length, turn about the leg, turns about the second and the first axis
+    /// of the platform.
     at: [f64; 6],
 }
 
@@ -322,7 +324,8 @@ fn motions_and_scales_change_nothing() {
     }
 }
 
-/// The correction of `LinuxCNC`'s genhexkins for axes that meet, written after its source: the angle from the part of the base axis across the leg to the second axis at the platform, by its sine.
+/// The correction of `LinuxCNC`'s genhexkins for axes that meet, written after its source: the angle from the part of
+/// the base axis across the leg to the second axis at the platform, by its sine.
 #[test]
 fn corrections_of_screws_are_those_of_genhexkins_less_their_values_at_home() {
     let mut rng = Rng::new(78);

@@ -1,7 +1,9 @@
 //! The pose for given lengths of drives, near a known one.
 //!
-//! The lengths asked for less the correction at the last pose are distances of joints; the pose for them is followed by [`NearSolver`]; with its correction the next distances follow. This is the fixed
-//! point of `rho -> c - corr(pose(rho))`, which contracts by the derivative of the correction times the inverse Jacobian of the distances.
+//! The lengths asked for less the correction at the last pose are distances of joints; the pose for them is followed by
+//! [`NearSolver`]; with its correction the next distances follow. This is the fixed point of
+//! `rho -> c - corr(pose(rho))`, which contracts by the derivative of the correction times the inverse Jacobian of the
+//! distances.
 
 use super::proof::PoseBound;
 use super::{CoupledLegs, DriveState, NoDriveLength};
@@ -18,7 +20,8 @@ const PATIENCE: u32 = 8;
 /// What came of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CoupledStatus {
-    /// The pose found is that of the drives within the bound, which is proved: there is exactly one pose with these lengths of drives in a neighbourhood.
+    /// The pose found is that of the drives within the bound, which is proved: there is exactly one pose with these
+    /// lengths of drives in a neighbourhood.
     Proved(PoseBound),
     /// The fixed point was reached, and no bound of its error is proved.
     Unproved,
@@ -61,7 +64,8 @@ pub struct CoupledOutcome {
     pub distances: [f64; 6],
     /// Steps of the fixed point.
     pub steps: u32,
-    /// The largest ratio of changes of the corrections in two steps, as long as they told more than rounding; 0 where there were none.
+    /// The largest ratio of changes of the corrections in two steps, as long as they told more than rounding; 0 where
+    /// there were none.
     pub factor: f64,
 }
 
@@ -160,7 +164,8 @@ impl CoupledTracker {
                     continue;
                 }
             }
-            // rounding of the pose may keep corrections from settling to the last bit; those that grew away from a pose did not settle
+            // rounding of the pose may keep corrections from settling to the last bit; those that grew away from a pose
+            // did not settle
             if settled || last <= 1e-13 * size {
                 let bound = self.legs.bound(&from, &states, drives);
                 out.status = bound.map_or(CoupledStatus::Unproved, CoupledStatus::Proved);

@@ -50,7 +50,8 @@ pub struct DriveExtremes {
 pub type LegInstant = (f64, LegMotion, Option<(f64, f64)>);
 
 impl LegExtremes {
-    /// Of the instants of a leg, in the order of time; `None` without any, or where an instant has forces and another has none.
+    /// Of the instants of a leg, in the order of time; `None` without any, or where an instant has forces and another
+    /// has none.
     #[must_use]
     pub fn of(instants: &[LegInstant]) -> Option<Self> {
         let most = |value: &dyn Fn(&LegInstant) -> f64, better: &dyn Fn(f64, f64) -> bool| {

@@ -6,8 +6,9 @@
 //! l' = u . v_b,   w = u x v_b / l,   l'' = u . a_b + l |w|^2,   w' = (u x a_b - 2 l' w) / l.
 //! ```
 //!
-//! The leg turns about its base joint with `w`, without spin about its own line. The cylinder has the moment of inertia `J_1 = I_1 + m_1 s_1^2` about the joint; the rod, its centre at
-//! `r = l - s_2`, has `J_2 = I_2 + m_2 r^2`. With the force `h` of the platform on the head, moments about the base joint and forces along the rod give
+//! The leg turns about its base joint with `w`, without spin about its own line. The cylinder has the moment of inertia
+//! `J_1 = I_1 + m_1 s_1^2` about the joint; the rod, its centre at `r = l - s_2`, has `J_2 = I_2 + m_2 r^2`. With the
+//! force `h` of the platform on the head, moments about the base joint and forces along the rod give
 //!
 //! ```text
 //! l u x h = (J_1 + J_2) w' + 2 m_2 r l' w - (m_1 s_1 + m_2 r) u x g,
@@ -20,7 +21,8 @@
 //! sum N_i (u_i, R b_i x u_i) = (m (a_c - g), c' x m (a_c - g) + I w' + w x I w) - load + sum (h_i', R b_i x h_i'),
 //! ```
 //!
-//! where `h'` is the part of `h` across the leg. Source: Dasgupta and Mruthyunjaya (1998), with the spin of the legs and friction left out; Merlet, *Parallel Robots* (2006), sec. 9.
+//! where `h'` is the part of `h` across the leg. Source: Dasgupta and Mruthyunjaya (1998), with the spin of the legs
+//! and friction left out; Merlet, *Parallel Robots* (2006), sec. 9.
 
 use nalgebra::{Matrix3, Vector3, Vector6};
 
@@ -102,7 +104,8 @@ impl MovingLeg {
     }
 }
 
-/// Lengths, speeds and accelerations of the legs: inverse kinematics with two derivatives. They are NaN for a leg of length zero.
+/// Lengths, speeds and accelerations of the legs: inverse kinematics with two derivatives. They are NaN for a leg of
+/// length zero.
 #[must_use]
 pub fn leg_motions(m: &Manipulator, state: &MotionState) -> [LegMotion; 6] {
     m.legs().map(|leg| MovingLeg::new(&leg, state).motion)
@@ -114,8 +117,8 @@ pub(super) fn turned_inertia(bodies: &MovingBodies, state: &MotionState) -> Matr
     r * bodies.inertia * r.transpose()
 }
 
-/// The forces of the drives, positive where they push the platform; `load` is a force and a torque about the platform origin that act on the platform
-/// besides the weight, base frame.
+/// The forces of the drives, positive where they push the platform; `load` is a force and a torque about the platform
+/// origin that act on the platform besides the weight, base frame.
 ///
 /// `None` at a singular pose, where no forces or many give the motion, and for a leg of length zero.
 #[must_use]

@@ -8,7 +8,8 @@ use thiserror::Error;
 use super::MotionState;
 use platform::geom::Pose;
 
-/// A freedom of the platform: along an axis of the base frame, or about the line through the platform origin that is parallel to it.
+/// A freedom of the platform: along an axis of the base frame, or about the line through the platform origin that is
+/// parallel to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(
     feature = "serde",
@@ -50,7 +51,8 @@ impl PlatformFreedom {
         [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][self as usize % 3]
     }
 
-    /// The state of a platform that was at `about` before it moved by `amount` (design units or radians) in this freedom, with the derivatives of the amount.
+    /// The state of a platform that was at `about` before it moved by `amount` (design units or radians) in this
+    /// freedom, with the derivatives of the amount.
     fn state(self, about: &Pose, [amount, speed, acceleration]: [f64; 3]) -> MotionState {
         let axis = self.axis();
         let rest = MotionState::at_rest(*about);

@@ -1,7 +1,9 @@
-//! Says how the legs move and what their drives push when the platform moves with its payload: inverse dynamics, stiffness, natural frequencies.
+//! Says how the legs move and what their drives push when the platform moves with its payload: inverse dynamics,
+//! stiffness, natural frequencies.
 //!
-//! All functions take lengths in design units, masses in kilograms and times in seconds; forces are then in kilograms times design units per second squared, which
-//! [`MovingBodies::newtons`] turns into newtons. `docs/theory/motion.md` derives the formulas and names their sources.
+//! All functions take lengths in design units, masses in kilograms and times in seconds; forces are then in kilograms
+//! times design units per second squared, which [`MovingBodies::newtons`] turns into newtons. `docs/theory/motion.md`
+//! derives the formulas and names their sources.
 
 mod extremes;
 mod inverse;
@@ -46,8 +48,8 @@ impl MotionState {
         Self { pose, velocity: none, angular_velocity: none, acceleration: none, angular_acceleration: none }
     }
 
-    /// Velocity and acceleration of a point of the platform whose arm from the platform origin is given in the base frame:
-    /// `v + w x r` and `a + w' x r + w x (w x r)`.
+    /// Velocity and acceleration of a point of the platform whose arm from the platform origin is given in the base
+    /// frame: `v + w x r` and `a + w' x r + w x (w x r)`.
     #[must_use]
     pub fn of_arm(&self, arm: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         let turning = self.angular_velocity.cross(arm);

@@ -1,11 +1,13 @@
 //! A motion through poses at given times, with continuous accelerations.
 //!
-//! The coordinates of the position are cubic splines of time. So are the four coordinates of the quaternion, whose curve is then divided by its norm: the rotation is twice continuously
-//! differentiable, and the same motion results in every frame of base and platform, since turns are orthogonal maps of quaternions. With `q = s / |s|`, angular velocity and acceleration
-//! are twice the vector parts of `q' q*` and `q'' q*`.
+//! The coordinates of the position are cubic splines of time. So are the four coordinates of the quaternion, whose
+//! curve is then divided by its norm: the rotation is twice continuously differentiable, and the same motion results in
+//! every frame of base and platform, since turns are orthogonal maps of quaternions. With `q = s / |s|`, angular
+//! velocity and acceleration are twice the vector parts of `q' q*` and `q'' q*`.
 //!
-//! At the ends the third derivative is continuous across the second and the last but one time ("not a knot": de Boor, *A Practical Guide to Splines*, 1978, chapter IV), or
-//! the speed is zero. Errors of a smooth motion sampled every `h` are of the order `h^4` in position, `h^3` in velocity and `h^2` in acceleration.
+//! At the ends the third derivative is continuous across the second and the last but one time ("not a knot": de Boor,
+//! *A Practical Guide to Splines*, 1978, chapter IV), or the speed is zero. Errors of a smooth motion sampled every `h`
+//! are of the order `h^4` in position, `h^3` in velocity and `h^2` in acceleration.
 
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
 use thiserror::Error;
@@ -207,7 +209,8 @@ fn bends(times: &[f64], rows: &[Row], ends: PathEnds) -> Vec<Row> {
     }
 }
 
-/// Solves a system with three diagonals; its lines are dominated by their middle entries, so that the elimination needs no exchange of lines.
+/// Solves a system with three diagonals; its lines are dominated by their middle entries, so that the elimination needs
+/// no exchange of lines.
 fn tridiagonal(mut lines: Vec<([f64; 3], Row)>) -> Vec<Row> {
     for k in 1..lines.len() {
         let (above, right) = lines[k - 1];

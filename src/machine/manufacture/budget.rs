@@ -54,11 +54,13 @@ pub struct JointBudget {
     pub alone: LimitedAllowance,
     /// That direction, frame of the body, of norm 1; the opposite one is as bad.
     pub direction: Vector3<f64>,
-    /// Error at `alone.pose` per unit of error in that direction: of the tool point (no unit) and of the orientation (degrees per design unit).
+    /// Error at `alone.pose` per unit of error in that direction: of the tool point (no unit) and of the orientation
+    /// (degrees per design unit).
     pub per_unit: (f64, f64),
     /// How far it alone may be off along each axis of the body frame; `None` where an error has no influence.
     pub along: [Option<f64>; 3],
-    /// Half widths of the box of errors with the largest product over all joints; `None` where an error has no influence.
+    /// Half widths of the box of errors with the largest product over all joints; `None` where an error has no
+    /// influence.
     pub product_box: [Option<f64>; 3],
 }
 
@@ -71,7 +73,8 @@ pub struct Budget {
     pub half_width: LimitedAllowance,
     /// Joints, the most critical first.
     pub joints: Vec<JointBudget>,
-    /// Errors of all joints that use up the bound at `radius.pose`, of length `radius.reached`, in the order of [`joints`].
+    /// Errors of all joints that use up the bound at `radius.pose`, of length `radius.reached`, in the order of
+    /// [`joints`].
     pub worst_errors: Vec<Vector3<f64>>,
     /// Poses of the sample.
     pub poses: usize,
@@ -81,8 +84,8 @@ pub struct Budget {
 const SHRINKING: usize = 30;
 
 impl Budget {
-    /// The share of the bounds that the worst errors of all joints use up at their pose, solved and not to first order, when they are of this length, either way. `None` where
-    /// a pose could not be followed.
+    /// The share of the bounds that the worst errors of all joints use up at their pose, solved and not to first order,
+    /// when they are of this length, either way. `None` where a pose could not be followed.
     #[must_use]
     pub fn solved_share(
         &self,
@@ -99,7 +102,8 @@ impl Budget {
         })
     }
 
-    /// A radius, not above that of the budget, with which the worst errors at their pose keep the bound when they are solved, either way.
+    /// A radius, not above that of the budget, with which the worst errors at their pose keep the bound when they are
+    /// solved, either way.
     #[must_use]
     pub fn solved_radius(&self, m: &Manipulator, tool: &Point3<f64>, bound: &ErrorBound) -> Option<f64> {
         let mut radius = self.radius.value;
@@ -154,8 +158,8 @@ fn oriented(v: Vector3<f64>) -> Vector3<f64> {
 /// The tolerance budget of a manipulator over a workspace: first order in the errors, worst case over them.
 ///
 /// Every error of the computed pose is that of [`Sensitivity`](super::Sensitivity). Worst cases over balls are
-/// `max_n sum_j |G_j^T n|`, over boxes `max_n sum_jk |g_jk . n|`, bracketed by subdivision of the sphere of directions `n`; poses are searched, so that
-/// a worse pose between those looked at is possible, if unlikely.
+/// `max_n sum_j |G_j^T n|`, over boxes `max_n sum_jk |g_jk . n|`, bracketed by subdivision of the sphere of directions
+/// `n`; poses are searched, so that a worse pose between those looked at is possible, if unlikely.
 ///
 /// # Errors
 /// [`ToleranceError`]: a bound that is not positive, or a singular pose in the workspace.
@@ -198,7 +202,8 @@ pub fn budget(
     Ok(Budget { radius, half_width, joints: list, worst_errors, poses: sample.entries.len() })
 }
 
-/// How far all joints together may be off, each in a ball of this radius: [`Budget::radius`] alone, without the work for single joints.
+/// How far all joints together may be off, each in a ball of this radius: [`Budget::radius`] alone, without the work
+/// for single joints.
 ///
 /// # Errors
 /// As [`budget`].
@@ -218,7 +223,8 @@ fn row(g: &[Matrix3<f64>], n: &Vector3<f64>) -> Vec<f64> {
     g.iter().flat_map(|g| g.tr_mul(n).iter().map(|x| x.abs()).collect::<Vec<_>>()).collect()
 }
 
-/// For every coordinate the constraint at the pose and in the direction where it has the greatest influence; `None` where it has none.
+/// For every coordinate the constraint at the pose and in the direction where it has the greatest influence; `None`
+/// where it has none.
 fn coordinate_rows(sample: &PoseSample<'_>, count: usize) -> Result<Vec<Option<Vec<f64>>>, ToleranceError> {
     let mut found = Vec::with_capacity(3 * count);
     for c in 0..3 * count {
@@ -232,7 +238,8 @@ fn coordinate_rows(sample: &PoseSample<'_>, count: usize) -> Result<Vec<Option<V
     Ok(found.into_iter().map(|(value, row)| (value > NO_INFLUENCE * most).then_some(row)).collect())
 }
 
-/// Half widths with the largest product: constraints `sum |g . n| x <= 1` are added at the worst pose and direction until none is violated.
+/// Half widths with the largest product: constraints `sum |g . n| x <= 1` are added at the worst pose and direction
+/// until none is violated.
 fn product_boxes(
     sample: &PoseSample<'_>,
     coordinates: &[Option<Vec<f64>>],

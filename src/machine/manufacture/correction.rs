@@ -45,7 +45,8 @@ pub fn octahedral_of(m: &Manipulator, found: &GriffisDuffy) -> Result<Manipulato
     Manipulator::try_new(vec![p1, p2, p3], vec![p4, p5, p6], pairs)
 }
 
-/// The octahedral platform equivalent to a design that is octahedral itself or has one joint on each side of two triangles.
+/// The octahedral platform equivalent to a design that is octahedral itself or has one joint on each side of two
+/// triangles.
 #[must_use]
 pub fn equivalent_octahedral(m: &Manipulator) -> Option<Manipulator> {
     let merged = Manipulator::from_legs(m.legs()).ok()?;
@@ -59,14 +60,16 @@ pub fn equivalent_octahedral(m: &Manipulator) -> Option<Manipulator> {
     octahedral_of(m, &found).ok()
 }
 
-/// Forward kinematics of a machine that is nominally equivalent to an octahedral platform. Made once; what it computes allocates nothing.
+/// Forward kinematics of a machine that is nominally equivalent to an octahedral platform. Made once; what it computes
+/// allocates nothing.
 ///
 /// ```text
 /// s_o = A^-1 (s - c),   pose = octic(s_o), the real pose nearest to the last one;   then Newton's method on |R b + p - a|^2 = s.
 /// ```
 ///
-/// `s` are the squared lengths that the machine measures, `A` and `c` the leg map of the nominal design, `a` and `b` the calibrated joints. The first pose is
-/// off by the first-order error of [`Sensitivity`](super::Sensitivity); a step of Newton's method squares it.
+/// `s` are the squared lengths that the machine measures, `A` and `c` the leg map of the nominal design, `a` and `b`
+/// the calibrated joints. The first pose is off by the first-order error of [`Sensitivity`](super::Sensitivity); a step
+/// of Newton's method squares it.
 #[derive(Debug, Clone)]
 pub struct Controller {
     to_octahedral: AffineLegMap,
@@ -78,8 +81,8 @@ pub struct Controller {
 }
 
 impl Controller {
-    /// Prepares an octahedral platform, a nominal design equivalent to it, and the calibrated joints of the machine (in the leg order and the
-    /// frames of the nominal design).
+    /// Prepares an octahedral platform, a nominal design equivalent to it, and the calibrated joints of the machine (in
+    /// the leg order and the frames of the nominal design).
     ///
     /// # Errors
     /// [`NoFormula`].
@@ -103,8 +106,9 @@ impl Controller {
         })
     }
 
-    /// The pose by the octahedral formula: of the real poses the one nearest to `last`. Lengths at which the octic is degenerate (a symmetric home
-    /// pose is) are solved from `last` by [`NearSolver`]. `None` when no real pose has these lengths.
+    /// The pose by the octahedral formula: of the real poses the one nearest to `last`. Lengths at which the octic is
+    /// degenerate (a symmetric home pose is) are solved from `last` by [`NearSolver`]. `None` when no real pose has
+    /// these lengths.
     #[must_use]
     pub fn formula(&self, s: &SquaredLegLengths, last: &Pose) -> Option<Pose> {
         let squares = self.to_octahedral.apply(s).ok()?;
@@ -123,8 +127,9 @@ impl Controller {
         self.calibrated.newton_steps(s, pose, steps)
     }
 
-    /// The covariance of a [corrected](Self::corrected) pose by what is not known of the calibrated joints and offsets, to first order; the noise of the lengths is not in it.
-    /// `None` at a singular pose and for an uncertainty of another machine.
+    /// The covariance of a [corrected](Self::corrected) pose by what is not known of the calibrated joints and offsets,
+    /// to first order; the noise of the lengths is not in it. `None` at a singular pose and for an uncertainty of
+    /// another machine.
     #[must_use]
     pub fn covariance(
         &self,

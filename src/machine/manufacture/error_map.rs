@@ -15,9 +15,11 @@ use platform::manipulator::Manipulator;
 pub struct MachineErrors {
     /// Every joint is off by at most this in any direction, design units.
     pub joints: f64,
-    /// Every leg is longer or shorter than it shows by at most this, each for itself, design units: homing, backlash, pitch of a screw.
+    /// Every leg is longer or shorter than it shows by at most this, each for itself, design units: homing, backlash,
+    /// pitch of a screw.
     pub lengths: f64,
-    /// Growth of base, platform and legs, as shares of their sizes: temperature times coefficient of expansion. All three are there together, with either sign.
+    /// Growth of base, platform and legs, as shares of their sizes: temperature times coefficient of expansion. All
+    /// three are there together, with either sign.
     pub growth: [f64; 3],
 }
 
@@ -45,12 +47,13 @@ pub struct ErrorAtPose {
     pub rotation_deg: ErrorParts,
 }
 
-/// The greatest errors of the pose that a controller computes with the nominal joints and the lengths shown, at the poses of a workspace: the corners and a sample of the region,
-/// and the poses that are listed.
+/// The greatest errors of the pose that a controller computes with the nominal joints and the lengths shown, at the
+/// poses of a workspace: the corners and a sample of the region, and the poses that are listed.
 ///
-/// To first order the pose is off by the twist `J^-1 e`, where a joint error adds to `e` as in [`Sensitivity`], a leg that is longer by `x` than it shows adds `-x`, and growth
-/// moves each joint by a share of its coordinates and each length by a share of it. Joints in balls, lengths in intervals and growth of either sign make a sum whose greatest norm is found by local
-/// searches from seven directions.
+/// To first order the pose is off by the twist `J^-1 e`, where a joint error adds to `e` as in [`Sensitivity`], a leg
+/// that is longer by `x` than it shows adds `-x`, and growth moves each joint by a share of its coordinates and each
+/// length by a share of it. Joints in balls, lengths in intervals and growth of either sign make a sum whose greatest
+/// norm is found by local searches from seven directions.
 ///
 /// # Errors
 /// A singular pose.

@@ -114,9 +114,9 @@ impl Gauge {
 
     /// Both bounds, within the relative gap where the number of triangles allows it.
     ///
-    /// A point of a spherical triangle is `x / |x|` with `x` in the flat one, `f(x)` is at most its greatest value at the corners and `|x|` at
-    /// least the distance of the plane from the origin: the quotient bounds `f`. Triangles whose bound is below a value found are dropped, the
-    /// others divided in four.
+    /// A point of a spherical triangle is `x / |x|` with `x` in the flat one, `f(x)` is at most its greatest value at
+    /// the corners and `|x|` at least the distance of the plane from the origin: the quotient bounds `f`. Triangles
+    /// whose bound is below a value found are dropped, the others divided in four.
     pub(super) fn bracket(&self, gap: f64) -> Bracket {
         let (mut least, mut direction) = self.search();
         let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());

@@ -165,8 +165,8 @@ impl<'a> PoseSample<'a> {
         Some([over(s.position, self.bound.position), over(s.rotation, self.bound.rotation_deg.to_radians())])
     }
 
-    /// The pose where `measure` is greatest: the greatest at the poses of the sample, and what coordinate searches with shrinking steps
-    /// find from there.
+    /// The pose where `measure` is greatest: the greatest at the poses of the sample, and what coordinate searches with
+    /// shrinking steps find from there.
     pub(super) fn worst(
         &self,
         measure: &dyn Fn(&Shares) -> f64,

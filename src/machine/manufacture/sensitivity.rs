@@ -11,16 +11,17 @@ const SINGULAR: f64 = 1e-10;
 
 /// Error of the pose that a controller computes, per unit of error of each joint.
 ///
-/// The controller measures the lengths of the true legs, at `a_i + da_i` and `b_i + db_i`, and solves with the nominal joints. With `u_i` the leg
-/// directions and `J` the rows `[u_i, (R b_i) x u_i]`, the computed pose differs from the true one by the twist
+/// The controller measures the lengths of the true legs, at `a_i + da_i` and `b_i + db_i`, and solves with the nominal
+/// joints. With `u_i` the leg directions and `J` the rows `[u_i, (R b_i) x u_i]`, the computed pose differs from the
+/// true one by the twist
 ///
 /// ```text
 /// (v, w) = J^-1 e,     e_i = (R^T u_i) . db_i - u_i . da_i,
 /// ```
 ///
-/// and a tool point `q` of the platform by `v + w x (R q)`. Both are sums `sum_j G_j d_j` over the joints, with 3 x 3 matrices `G_j`. A platform
-/// equivalent to another has the same poses at corresponding lengths: it is the same error whether the controller solves for the nominal design or
-/// for its equivalent octahedral one.
+/// and a tool point `q` of the platform by `v + w x (R q)`. Both are sums `sum_j G_j d_j` over the joints, with 3 x 3
+/// matrices `G_j`. A platform equivalent to another has the same poses at corresponding lengths: it is the same error
+/// whether the controller solves for the nominal design or for its equivalent octahedral one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
     /// `G_j` of the position of the tool point, base frame, in the order of [`joints`].
@@ -66,7 +67,8 @@ impl Sensitivity {
         Some(out)
     }
 
-    /// Error of position (base frame, design units) and rotation vector (base frame, radians) for errors in the order of [`joints`].
+    /// Error of position (base frame, design units) and rotation vector (base frame, radians) for errors in the order
+    /// of [`joints`].
     #[must_use]
     pub fn error(&self, errors: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
         let sum = |g: &[Matrix3<f64>]| g.iter().zip(errors).map(|(g, d)| g * d).sum();

@@ -296,7 +296,8 @@ fn a_step_of_the_correction_squares_the_error() {
     assert!(fine.corrected[1].position.max < 1e-9 && coarse.corrected[0].position.max > 1e-7);
 }
 
-/// Machines drawn with the covariance of a calibration, of which the controller has the mean: the poses that it corrects have the covariance that it states.
+/// Machines drawn with the covariance of a calibration, of which the controller has the mean: the poses that it
+/// corrects have the covariance that it states.
 #[test]
 fn corrected_poses_have_the_covariance_that_is_stated() {
     let (m, mut rng) = (free(), Rng::new(31));
@@ -325,7 +326,8 @@ fn corrected_poses_have_the_covariance_that_is_stated() {
         let off = Vector6::from_iterator(shift.iter().chain(turn.iter()).copied());
         found += off * off.transpose() / f64::from(count);
     }
-    // in units of the deviations stated, entries are off by the square root of two over the count at most, five times over
+    // in units of the deviations stated, entries are off by the square root of two over the count at most, five times
+    // over
     let worst = |stated: &Matrix6<f64>| {
         let unit = |i: usize| stated[(i, i)].sqrt();
         let off = |i: usize, j: usize| (found[(i, j)] - stated[(i, j)]).abs() / (unit(i) * unit(j));
@@ -363,7 +365,8 @@ fn errors_of_lengths_and_growth_are_what_solving_says() {
     let (v, w) = super::sensitivity::pose_error(&found, &pose, &tool);
     let (x, y) = s.error_of_lengths(&errors);
     assert!((v - x).norm() < 1e-4 * v.norm() && (w - y).norm() < 1e-4 * w.norm(), "{v} {x} {w} {y}");
-    // a machine that grows as a whole shows lengths that are too short by the same share: its platform origin is where it was, less that share
+    // a machine that grows as a whole shows lengths that are too short by the same share: its platform origin is where
+    // it was, less that share
     let grown = MachineErrors { growth: [1e-5; 3], ..MachineErrors::default() };
     let at = errors_at(&m, &pose, &Point3::origin(), &grown).unwrap();
     assert!((at.position.growth - 1e-5 * pose.position.norm()).abs() < 1e-12);

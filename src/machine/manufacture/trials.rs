@@ -121,8 +121,9 @@ fn norms((p, w): (Vector3<f64>, Vector3<f64>)) -> (f64, f64) {
     (p.norm(), w.norm())
 }
 
-/// The error of the pose that is computed with nominal joints when the true joints are off by `errors`: of the tool point (design units) and as rotation
-/// vector, base frame. `None` when the pose cannot be followed to the measured lengths.
+/// The error of the pose that is computed with nominal joints when the true joints are off by `errors`: of the tool
+/// point (design units) and as rotation vector, base frame. `None` when the pose cannot be followed to the measured
+/// lengths.
 #[must_use]
 pub fn solved_error(
     m: &Manipulator,
@@ -171,8 +172,9 @@ fn draw(
     })
 }
 
-/// Draws joint errors (with [`JointErrors::Calibrated`] errors of leg offsets too) and poses, measures the leg lengths of the platform with these errors, solves for the pose with the nominal joints (`NearSolver`, from the
-/// true pose) and compares.
+/// Draws joint errors (with [`JointErrors::Calibrated`] errors of leg offsets too) and poses, measures the leg lengths
+/// of the platform with these errors, solves for the pose with the nominal joints (`NearSolver`, from the true pose)
+/// and compares.
 #[must_use]
 pub fn trials(
     m: &Manipulator,

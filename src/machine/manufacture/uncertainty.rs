@@ -11,7 +11,8 @@ use platform::manipulator::Manipulator;
 /// What a calibration does not know of a machine: errors of joints and leg offsets with the covariance `C = F F^T`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineUncertainty {
-    /// `F`, design units: three rows for each of [`joints`](super::joints), in the frame of its body, then one for each leg offset.
+    /// `F`, design units: three rows for each of [`joints`](super::joints), in the frame of its body, then one for each
+    /// leg offset.
     root: DMatrix<f64>,
 }
 
@@ -27,11 +28,11 @@ pub struct PoseCovariance {
 }
 
 impl MachineUncertainty {
-    /// From standard deviations (design units) and the matrix of correlations, three rows for each of [`joints`](super::joints) and six for the offsets; `None` where the sizes differ or an
-    /// entry is not finite.
+    /// From standard deviations (design units) and the matrix of correlations, three rows for each of
+    /// [`joints`](super::joints) and six for the offsets; `None` where the sizes differ or an entry is not finite.
     ///
-    /// With the singular value decomposition `R = U S V^T` of the correlations, `U S U^T` is `R` where it is positive semidefinite; what rounding leaves of a negative
-    /// eigenvalue changes sign.
+    /// With the singular value decomposition `R = U S V^T` of the correlations, `U S U^T` is `R` where it is positive
+    /// semidefinite; what rounding leaves of a negative eigenvalue changes sign.
     #[must_use]
     pub fn new(deviations: &[f64], correlations: &DMatrix<f64>) -> Option<Self> {
         let n = deviations.len();
@@ -57,9 +58,11 @@ impl MachineUncertainty {
         Self { root: DMatrix::from_diagonal(&diagonal) }
     }
 
-    /// The covariance of a pose that is computed from shown lengths with the calibrated joints and offsets; `None` at a singular pose and where the sizes differ.
+    /// The covariance of a pose that is computed from shown lengths with the calibrated joints and offsets; `None` at a
+    /// singular pose and where the sizes differ.
     ///
-    /// With the derivatives `G` of the error of the pose by those of joints and offsets ([`Sensitivity`]) it is `G C G^T`, to first order. The noise of the lengths is not in it.
+    /// With the derivatives `G` of the error of the pose by those of joints and offsets ([`Sensitivity`]) it is
+    /// `G C G^T`, to first order. The noise of the lengths is not in it.
     #[must_use]
     pub fn pose_covariance(
         &self,
@@ -90,7 +93,8 @@ impl MachineUncertainty {
         })
     }
 
-    /// Errors of the joints, in the order of [`joints`](super::joints), and of the offsets, drawn from the normal distribution with the covariance.
+    /// Errors of the joints, in the order of [`joints`](super::joints), and of the offsets, drawn from the normal
+    /// distribution with the covariance.
     pub fn draw(&self, rng: &mut Rng) -> (Vec<Vector3<f64>>, [f64; 6]) {
         let normal = nalgebra::DVector::from_fn(self.root.ncols(), |_, _| rng.normal());
         let errors = &self.root * normal;
@@ -123,7 +127,8 @@ mod tests {
         let m = octahedral();
         let pose = Pose::new(Vector3::new(0.3, -0.2, 4.0), Angles::from_degrees([5.0, -3.0, 8.0]));
         let tool = Point3::new(0.5, 1.0, 2.0);
-        // all base joints along x by the same normal number of deviation 0.1: the computed pose is shifted by it, whatever the legs
+        // all base joints along x by the same normal number of deviation 0.1: the computed pose is shifted by it,
+        // whatever the legs
         let along_x = |k: usize| k < 9 && k.is_multiple_of(3);
         let deviations: Vec<f64> = (0..24).map(|k| if along_x(k) { 0.1 } else { 0.0 }).collect();
         let together = |i: usize, j: usize| f64::from(u8::from(i == j || (along_x(i) && along_x(j))));

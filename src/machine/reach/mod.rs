@@ -1,7 +1,9 @@
-//! How far the platform may move from a pose before a requirement binds, and the pose nearest to one asked for that meets all of them.
+//! How far the platform may move from a pose before a requirement binds, and the pose nearest to one asked for that
+//! meets all of them.
 //!
-//! On a [`StraightWay`] every joint of the platform moves with a speed and an acceleration that are known beforehand. So each margin can fall only so fast, and the
-//! way is walked in steps over which none of them can reach zero ([`Reach::along`]). `docs/theory/reach.md` has the bounds.
+//! On a [`StraightWay`] every joint of the platform moves with a speed and an acceleration that are known beforehand.
+//! So each margin can fall only so fast, and the way is walked in steps over which none of them can reach zero
+//! ([`Reach::along`]). `docs/theory/reach.md` has the bounds.
 
 mod nearest;
 mod projection;
@@ -21,9 +23,11 @@ pub use way::{PoseAxis, StraightWay};
 
 /// `|det J|` with lengths over the size below which home counts as singular.
 const SINGULAR: f64 = 1e-12;
-/// Steps of a way are no longer than this share of the size, measured at the joint that moves fastest: forces and the sign of `det J` are looked at this often.
+/// Steps of a way are no longer than this share of the size, measured at the joint that moves fastest: forces and the
+/// sign of `det J` are looked at this often.
 const LONGEST: f64 = 0.02;
-/// Steps are not shorter than this share of the size: where a margin is nearly zero the way is looked at this often, and twice as far at each step that follows.
+/// Steps are not shorter than this share of the size: where a margin is nearly zero the way is looked at this often,
+/// and twice as far at each step that follows.
 const SHORTEST: f64 = 1e-5;
 /// The end of the way is found to this share of the size.
 const RESOLUTION: f64 = 1e-12;
@@ -69,7 +73,8 @@ pub struct FreeRange {
 }
 
 impl<'a> Reach<'a> {
-    /// Makes the requirements ready. `length` makes turns comparable with shifts where poses are compared: a radian counts as this many design units.
+    /// Makes the requirements ready. `length` makes turns comparable with shifts where poses are compared: a radian
+    /// counts as this many design units.
     #[must_use]
     pub fn new(m: &'a Manipulator, required: &'a Requirements, home: &Pose, length: f64) -> Self {
         let terms = Terms::new(m, required, home);
@@ -87,7 +92,8 @@ impl<'a> Reach<'a> {
         terms.chain(ratio).collect()
     }
 
-    /// Whether a margin is met at the pose where it was found; a requirement that rounding does not tell from its limit is.
+    /// Whether a margin is met at the pose where it was found; a requirement that rounding does not tell from its limit
+    /// is.
     #[must_use]
     pub fn is_met(&self, limit: Limit, margin: f64, pose: &Pose) -> bool {
         match limit {
@@ -109,13 +115,15 @@ impl<'a> Reach<'a> {
         margins
     }
 
-    /// Whether every requirement is met at a pose and `det J` has the sign that it has at home. (The same sign does not say that a way without singular poses leads there.)
+    /// Whether every requirement is met at a pose and `det J` has the sign that it has at home. (The same sign does not
+    /// say that a way without singular poses leads there.)
     #[must_use]
     pub fn allows(&self, pose: &Pose) -> bool {
         self.margins(pose).iter().all(|(limit, margin)| self.is_met(*limit, *margin, pose))
     }
 
-    /// A margin as a share: over the size (lengths), 90 degrees, the limit (forces, speeds, stiffness, frequency), `det J` at home.
+    /// A margin as a share: over the size (lengths), 90 degrees, the limit (forces, speeds, stiffness, frequency),
+    /// `det J` at home.
     fn share(&self, (limit, margin): &(Limit, f64)) -> f64 {
         margin / self.scale(*limit)
     }
@@ -129,9 +137,11 @@ impl<'a> Reach<'a> {
 
     /// How far the way is free from its start, up to `most`; 0 where the start is not allowed.
     ///
-    /// Lengths, swing, clearances, keep-outs, leg speeds and the envelope of the machine cannot be violated between two steps, since their rates are bounded, but for steps of a
-    /// hundred-thousandth of the size where one of them is nearly zero (twice as far at each step that follows while it stays there); so are the reach of rods and the transmission, the angle and the lean of cranks. Forces, torques and speeds of cranks, stiffness, natural frequency and the sign of `det J` are looked at at every step, which are at most
-    /// a fiftieth of the size.
+    /// Lengths, swing, clearances, keep-outs, leg speeds and the envelope of the machine cannot be violated between two
+    /// steps, since their rates are bounded, but for steps of a hundred-thousandth of the size where one of them is
+    /// nearly zero (twice as far at each step that follows while it stays there); so are the reach of rods and the
+    /// transmission, the angle and the lean of cranks. Forces, torques and speeds of cranks, stiffness, natural
+    /// frequency and the sign of `det J` are looked at at every step, which are at most a fiftieth of the size.
     #[must_use]
     pub fn along(&self, way: &StraightWay, most: f64) -> Travel {
         let fastest = step::fastest(way, &self.legs).max(f64::MIN_POSITIVE);
@@ -185,7 +195,8 @@ impl<'a> Reach<'a> {
         Travel { amount: met, pose: way.at(met), binding, poses }
     }
 
-    /// How far each of the six numbers of a pose may move before a requirement binds, the others staying as they are; `None` where the pose itself is not allowed.
+    /// How far each of the six numbers of a pose may move before a requirement binds, the others staying as they are;
+    /// `None` where the pose itself is not allowed.
     ///
     /// Positions are looked at over ten sizes, angles over half a turn.
     #[must_use]

@@ -47,25 +47,32 @@ impl Default for NearestPoseOptions {
 /// An allowed pose near the one asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NearestPose {
-    /// The pose. Every requirement is met there, rounding kept in mind, and `det J` is at least a thousandth of that at home.
+    /// The pose. Every requirement is met there, rounding kept in mind, and `det J` is at least a thousandth of that at
+    /// home.
     pub pose: Pose,
     /// [`Reach::distance`] from the pose asked for.
     pub distance: f64,
-    /// What keeps it from going nearer, with margins that are zero but for rounding; nothing where the pose asked for is allowed.
+    /// What keeps it from going nearer, with margins that are zero but for rounding; nothing where the pose asked for
+    /// is allowed.
     pub binding: Vec<Limit>,
-    /// Whether the conditions of first order of a nearest pose hold: no step along the margins made linear leads nearer. They hold at every nearest pose at which margins are smooth,
-    /// and say nothing of poses farther away.
+    /// Whether the conditions of first order of a nearest pose hold: no step along the margins made linear leads
+    /// nearer. They hold at every nearest pose at which margins are smooth, and say nothing of poses farther away.
     pub stationary: bool,
-    /// Whether the straight way from home leads there without violating anything on it, as [`Reach::along`] looks at it.
+    /// Whether the straight way from home leads there without violating anything on it, as [`Reach::along`] looks at
+    /// it.
     pub straight_from_home: bool,
 }
 
 impl Reach<'_> {
-    /// A pose locally nearest to `asked` among those allowed; `asked` itself where it is. `None` where no allowed pose was found to start from.
+    /// A pose locally nearest to `asked` among those allowed; `asked` itself where it is. `None` where no allowed pose
+    /// was found to start from.
     ///
-    /// From home, from the allowed poses to which `asked` and a violated home are led back, and from `starts` allowed poses drawn between home and `asked`, the straight way towards `asked` is followed to its first limit. From there a sequence of steps goes to the nearest pose that the
-    /// margins made linear allow, corrected until all are met, each nearer than the last. The best end is the answer: not farther than where the straight way from home is first left, and nearest in its neighbourhood where it is
-    /// [`stationary`](NearestPose::stationary). Deterministic for a seed.
+    /// From home, from the allowed poses to which `asked` and a violated home are led back, and from `starts` allowed
+    /// poses drawn between home and `asked`, the straight way towards `asked` is followed to its first limit. From
+    /// there a sequence of steps goes to the nearest pose that the margins made linear allow, corrected until all are
+    /// met, each nearer than the last. The best end is the answer: not farther than where the straight way from home is
+    /// first left, and nearest in its neighbourhood where it is [`stationary`](NearestPose::stationary). Deterministic
+    /// for a seed.
     #[must_use]
     pub fn nearest(&self, asked: &Pose, o: &NearestPoseOptions) -> Option<NearestPose> {
         if self.allows(asked) {
@@ -104,7 +111,8 @@ impl Reach<'_> {
         })
     }
 
-    /// Home, or the allowed pose to which it is led back, that of the pose asked for, and allowed poses drawn between home and the pose asked for.
+    /// Home, or the allowed pose to which it is led back, that of the pose asked for, and allowed poses drawn between
+    /// home and the pose asked for.
     fn starts(&self, asked: &Pose, o: &NearestPoseOptions) -> Vec<Pose> {
         let mut rng = Purpose::NEAREST_POSES.rng(o.seed);
         let mut starts: Vec<Pose> =
@@ -140,7 +148,8 @@ impl Reach<'_> {
             .fold(f64::NEG_INFINITY, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
     }
 
-    /// An allowed pose near one that may not be: the shortest steps to where all margins, made linear, are met, as long as they make the worst one better.
+    /// An allowed pose near one that may not be: the shortest steps to where all margins, made linear, are met, as long
+    /// as they make the worst one better.
     fn restored(&self, from: &Pose) -> Option<Pose> {
         let (mut pose, mut radius) = (*from, RESTORED * self.size);
         let mut worst = self.missing(&pose);
@@ -176,7 +185,8 @@ impl Reach<'_> {
         }
     }
 
-    /// The half spaces that the margins, made linear at a pose, leave to steps; those out of reach of steps up to `radius` are left out.
+    /// The half spaces that the margins, made linear at a pose, leave to steps; those out of reach of steps up to
+    /// `radius` are left out.
     fn half_spaces(&self, pose: &Pose, radius: f64) -> Vec<HalfSpace> {
         let here = self.margins(pose);
         let h = DIFFERENCE * self.size;
@@ -232,7 +242,8 @@ impl Reach<'_> {
         (pose, false)
     }
 
-    /// A pose brought back to its limits by the shortest steps that the margins made linear ask for; `None` where some are still violated.
+    /// A pose brought back to its limits by the shortest steps that the margins made linear ask for; `None` where some
+    /// are still violated.
     fn corrected(&self, pose: &Pose, radius: f64) -> Option<Pose> {
         let mut pose = *pose;
         for _ in 0..CORRECTIONS {

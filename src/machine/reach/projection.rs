@@ -12,8 +12,9 @@ pub(super) struct HalfSpace {
     pub(super) bound: f64,
 }
 
-/// Projects `point` on the intersection of half spaces by Hildreth's method (1957): coordinate ascent on the dual problem, where
-/// the point is `x = point + sum m_k row_k` with `m_k >= 0`. Ends when no multiplier moves `x` by more than `tolerance`, and after 2000 sweeps: the answer may then be off.
+/// Projects `point` on the intersection of half spaces by Hildreth's method (1957): coordinate ascent on the dual
+/// problem, where the point is `x = point + sum m_k row_k` with `m_k >= 0`. Ends when no multiplier moves `x` by more
+/// than `tolerance`, and after 2000 sweeps: the answer may then be off.
 pub(super) fn project(point: &Vector6<f64>, spaces: &[HalfSpace], tolerance: f64) -> Vector6<f64> {
     let scaled: Vec<HalfSpace> = spaces
         .iter()

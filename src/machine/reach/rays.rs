@@ -17,7 +17,8 @@ pub struct FreeRay {
     pub binding: Option<Limit>,
 }
 
-/// Unit vectors spread evenly over the sphere: points of a spiral at equal steps of height, each turned by the golden angle against the last (Swinbank, Purser 2006).
+/// Unit vectors spread evenly over the sphere: points of a spiral at equal steps of height, each turned by the golden
+/// angle against the last (Swinbank, Purser 2006).
 fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |k| {
@@ -32,7 +33,8 @@ fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
 const BOX_STEPS: (usize, usize) = (24, 4);
 
 impl Reach<'_> {
-    /// Ways from a pose at its orientation, in `count` directions spread evenly; where the pose is not allowed all of them end at once.
+    /// Ways from a pose at its orientation, in `count` directions spread evenly; where the pose is not allowed all of
+    /// them end at once.
     #[must_use]
     pub fn shifts(&self, from: &Pose, count: usize) -> Vec<FreeRay> {
         spread(count).map(|d| self.ray(from, &d, false)).collect()
@@ -55,7 +57,8 @@ impl Reach<'_> {
     }
 }
 
-/// The volume that rays spread evenly reach, `4 pi / 3` times the mean of the cubes of their lengths, and the difference of what every second one and the others give, as a share.
+/// The volume that rays spread evenly reach, `4 pi / 3` times the mean of the cubes of their lengths, and the
+/// difference of what every second one and the others give, as a share.
 #[must_use]
 pub fn volume_of_rays(rays: &[FreeRay]) -> (f64, f64) {
     let cubes = |from: usize, by: usize| {
@@ -67,7 +70,8 @@ pub fn volume_of_rays(rays: &[FreeRay]) -> (f64, f64) {
     (4.0 / 3.0 * std::f64::consts::PI * mean, doubt)
 }
 
-/// Half widths of the box of greatest volume about the pose, along the axes of the base frame, into which no ray ends; found on a grid that becomes finer.
+/// Half widths of the box of greatest volume about the pose, along the axes of the base frame, into which no ray ends;
+/// found on a grid that becomes finer.
 #[must_use]
 pub fn largest_box_within(rays: &[FreeRay]) -> [f64; 3] {
     let reached = |k: usize| rays.iter().map(|r| (r.free * r.direction[k]).abs()).fold(0.0, f64::max);

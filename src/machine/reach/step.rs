@@ -6,8 +6,9 @@
 //! |d'| <= V = |v| + |w x c|,   |d''| <= A = |w| |w x c|,
 //! ```
 //!
-//! both constant along the way, since `c` turns about `w`. Seen from the platform the line is `b + R^T q`, hence `V = |v| + |w x q|` and `A = |w| |w x q| + 2 |w| |v|`, where
-//! `|w x q|` grows by at most `|w| |v|` in a unit of `t`. With `u = d / |d|`:
+//! both constant along the way, since `c` turns about `w`. Seen from the platform the line is `b + R^T q`, hence
+//! `V = |v| + |w x q|` and `A = |w| |w x q| + 2 |w| |v|`, where `|w x q|` grows by at most `|w| |v|` in a unit of `t`.
+//! With `u = d / |d|`:
 //!
 //! ```text
 //! -A <= |d|'' <= A + V^2 / |d|,   |u''| <= A / |d| + 3 V^2 / |d|^2.
@@ -108,7 +109,9 @@ fn lasts(margin: f64, rate: f64) -> f64 {
 
 /// A step over which a margin of a crank lasts whose platform joint is no faster than `speed`.
 ///
-/// While the rod closes, `|d| <= r + l`, `||d|^2 - r^2 - l^2| <= 2 r l` and `|d.n| <= l`, hence `|(s^2)'| <= 2 l V (2 + l / r)`; and `|q'| <= V l / (r s)`. Where the rod ceases to close its own margins end the way.
+/// While the rod closes, `|d| <= r + l`, `||d|^2 - r^2 - l^2| <= 2 r l` and `|d.n| <= l`, hence
+/// `|(s^2)'| <= 2 l V (2 + l / r)`; and `|q'| <= V l / (r s)`. Where the rod ceases to close its own margins end the
+/// way.
 fn crank_step(room: &CrankRoom, kind: TermKind, margin: f64, speed: f64) -> f64 {
     let rate = 2.0 * room.rod * speed * (2.0 + room.rod / room.length);
     match kind {
@@ -129,7 +132,8 @@ pub(super) fn fastest(way: &StraightWay, legs: &[Leg; 6]) -> f64 {
 }
 
 impl Reach<'_> {
-    /// A step from a pose of the way over which no margin whose rate is bounded reaches zero; infinite where all are forces, stiffness and the sign of `det J`.
+    /// A step from a pose of the way over which no margin whose rate is bounded reaches zero; infinite where all are
+    /// forces, stiffness and the sign of `det J`.
     pub(super) fn safe_step(&self, way: &StraightWay, pose: &Pose, margins: &[(Limit, f64)]) -> f64 {
         let places: [LegPlace; 6] = std::array::from_fn(|i| LegPlace::of(&self.legs[i], way, pose));
         let steps = margins.iter().map(|(limit, margin)| match limit {
@@ -167,7 +171,8 @@ impl Reach<'_> {
                 };
                 let first = if end == 0 { hinge.first } else { pose.rotation * hinge.first };
                 match angle {
-                    // the second angle is within its limit where neither end of the first axis is nearer to the leg than 90 degrees less the limit
+                    // the second angle is within its limit where neither end of the first axis is nearer to the leg
+                    // than 90 degrees less the limit
                     HingeAngle::Second => {
                         let side = |axis: Vector3<f64>| leg.swing(motion, &axis, 90.0 + limit);
                         side(first).min(side(-first))

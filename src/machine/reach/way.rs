@@ -50,7 +50,8 @@ impl PoseAxis {
     }
 }
 
-/// A way from a pose: `p(t) = p + t v` and `R(t) = exp(t [w]) R`, with the velocity `v` of the platform origin and the angular velocity `w`, base frame.
+/// A way from a pose: `p(t) = p + t v` and `R(t) = exp(t [w]) R`, with the velocity `v` of the platform origin and the
+/// angular velocity `w`, base frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightWay {
     /// Where it begins, at `t = 0`.
@@ -62,8 +63,9 @@ pub struct StraightWay {
 }
 
 impl StraightWay {
-    /// The way on which one of the six numbers of a pose grows by `t` (design units, radians) and the others stay: with one angle moved a rotation turns about a fixed axis,
-    /// `R e_x` for roll, `Rz(yaw) e_y` for pitch and `e_z` for yaw.
+    /// The way on which one of the six numbers of a pose grows by `t` (design units, radians) and the others stay: with
+    /// one angle moved a rotation turns about a fixed axis, `R e_x` for roll, `Rz(yaw) e_y` for pitch and `e_z` for
+    /// yaw.
     #[must_use]
     pub fn axis(start: &Pose, axis: PoseAxis) -> Self {
         let still = Vector3::zeros();
@@ -85,7 +87,8 @@ impl StraightWay {
         Self { start: *start, velocity, turn }
     }
 
-    /// The straight way between two poses, which ends at `t = 1`: the origin moves on a line, the platform turns about one axis by at most half a turn.
+    /// The straight way between two poses, which ends at `t = 1`: the origin moves on a line, the platform turns about
+    /// one axis by at most half a turn.
     #[must_use]
     pub fn between(from: &Pose, to: &Pose) -> Self {
         let turn = turn_between(&from.rotation, &to.rotation);

@@ -25,9 +25,11 @@ pub struct AssessOptions {
     pub searches: usize,
     /// Seed of the random points and of the searches.
     pub seed: u64,
-    /// Whether proved margins come close to the least ones found; without it a proof ends where it decides that a margin is met or violated.
+    /// Whether proved margins come close to the least ones found; without it a proof ends where it decides that a
+    /// margin is met or violated.
     pub close: bool,
-    /// Cells for the proof of a kind of requirement that the usual number leaves undecided, where more than that and where no requirement is violated; 0: it stays undecided.
+    /// Cells for the proof of a kind of requirement that the usual number leaves undecided, where more than that and
+    /// where no requirement is violated; 0: it stays undecided.
     pub patient_cells: usize,
     /// Threads for the proofs; `None`: as many as the process may run at the same time. No answer depends on it.
     pub threads: Option<NonZeroUsize>,
@@ -92,7 +94,8 @@ impl AssessOptions {
         self
     }
 
-    /// Cells for the proof of a kind of requirement that the usual number leaves undecided; 0, the default: it stays undecided.
+    /// Cells for the proof of a kind of requirement that the usual number leaves undecided; 0, the default: it stays
+    /// undecided.
     #[must_use]
     pub fn patient_cells(mut self, cells: usize) -> Self {
         self.patient_cells = cells;
@@ -166,8 +169,8 @@ fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
 /// Evaluates every requirement at home, densely over the region, at the listed poses and along the trajectory, then
 /// searches for worse poses near the worst ones found.
 ///
-/// The search moves one to all coordinates of the cube by random steps that shrink from a tenth to a millionth of its width; it
-/// needs no derivatives, for margins have kinks. Deterministic for a seed.
+/// The search moves one to all coordinates of the cube by random steps that shrink from a tenth to a millionth of its
+/// width; it needs no derivatives, for margins have kinks. Deterministic for a seed.
 #[must_use]
 pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions) -> Assessment {
     let terms = Terms::new(m, required, &space.home);
@@ -256,8 +259,8 @@ fn descend(
     (x, tried)
 }
 
-/// Looks for a requirement that a platform violates, for many platforms with the same workspace one after the other: at the poses that [`assess()`] looks at
-/// before it searches for worse ones, and only until one is found.
+/// Looks for a requirement that a platform violates, for many platforms with the same workspace one after the other: at
+/// the poses that [`assess()`] looks at before it searches for worse ones, and only until one is found.
 #[derive(Debug, Clone)]
 pub struct ViolationSearch {
     home: Pose,
@@ -283,9 +286,11 @@ impl ViolationSearch {
         self.poses.len()
     }
 
-    /// A requirement that is violated, those that do not depend on the pose first; `None` when none is at these poses, which is no proof that none is between them.
+    /// A requirement that is violated, those that do not depend on the pose first; `None` when none is at these poses,
+    /// which is no proof that none is between them.
     ///
-    /// The pose that shows a violation is the first to be looked at next time: platforms that are much alike are violated at the same poses.
+    /// The pose that shows a violation is the first to be looked at next time: platforms that are much alike are
+    /// violated at the same poses.
     pub fn violated(&mut self, m: &Manipulator, required: &Requirements) -> Option<TermKind> {
         let terms = Terms::new(m, required, &self.home);
         let bad = |list: Vec<(Term, f64)>, pose: Option<&Pose>| {

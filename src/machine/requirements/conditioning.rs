@@ -8,14 +8,15 @@ use platform::manipulator::{Manipulator, inverse_condition, jacobian};
 /// Where the Jacobian is conditioned worst among the poses looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeastConditioning {
-    /// `sigma_min / sigma_max` of the Jacobian with unit lines, moments divided by the characteristic length: 1 at best, 0 at a singular pose.
+    /// `sigma_min / sigma_max` of the Jacobian with unit lines, moments divided by the characteristic length: 1 at
+    /// best, 0 at a singular pose.
     pub value: f64,
     /// The pose.
     pub pose: Pose,
 }
 
-/// The least inverse condition number over the poses that [`assess`](super::assess()) looks at first: home, those listed, and points of the region. It is a number found, not
-/// a bound of those between them.
+/// The least inverse condition number over the poses that [`assess`](super::assess()) looks at first: home, those
+/// listed, and points of the region. It is a number found, not a bound of those between them.
 #[must_use]
 pub fn least_conditioning(
     m: &Manipulator,

@@ -1,7 +1,8 @@
 //! Limits of cranks with rods of constant length, evaluated from the definitions.
 //!
-//! With `d = R b + p - c` from the centre of a crank to its platform joint, `e` and `f = n x e` the directions of the tip at the angles 0 and 90 degrees, `x = d.e`, `y = d.f`, `rho^2 = x^2 + y^2`, the lengths `r` of
-//! the crank and `l` of the rod, and `sigma` 1 for the greater of the two angles and -1 for the smaller one:
+//! With `d = R b + p - c` from the centre of a crank to its platform joint, `e` and `f = n x e` the directions of the
+//! tip at the angles 0 and 90 degrees, `x = d.e`, `y = d.f`, `rho^2 = x^2 + y^2`, the lengths `r` of the crank and `l`
+//! of the rod, and `sigma` 1 for the greater of the two angles and -1 for the smaller one:
 //!
 //! ```text
 //! k = (|d|^2 + r^2 - l^2) / (2 r),
@@ -136,7 +137,8 @@ pub(super) fn arc_sine_of_root_deg(square: f64) -> f64 {
 }
 
 impl Requirements {
-    /// The rods as legs on the tips of the cranks at a pose; `None` where the design has no cranks. A rod that does not close has its tip where it is nearest to closing.
+    /// The rods as legs on the tips of the cranks at a pose; `None` where the design has no cranks. A rod that does not
+    /// close has its tip where it is nearest to closing.
     pub(super) fn rods(&self, legs: &[Leg; 6], pose: &Pose) -> Option<[Leg; 6]> {
         let cranks = self.cranks.as_ref()?;
         Some(std::array::from_fn(|i| {
@@ -214,7 +216,8 @@ impl Terms<'_> {
         }
     }
 
-    /// Bound of the rounding of an angle of a crank relative to one radian: that of lengths over the shortest of crank and rod, over the sine of the least transmission angle.
+    /// Bound of the rounding of an angle of a crank relative to one radian: that of lengths over the shortest of crank
+    /// and rod, over the sine of the least transmission angle.
     pub(super) fn crank_rounding(&self, cranks: &Cranks, pose: &Pose, length: f64) -> f64 {
         let legs = self.manipulator.legs();
         let of = |i: usize| {
@@ -225,7 +228,8 @@ impl Terms<'_> {
         (0..6).map(of).fold(0.0, f64::max)
     }
 
-    /// `det J` of the lines of what pushes the platform, without unit: of legs with lengths over the size, of rods with unit vectors and moments over the size. `None` where a rod does not close.
+    /// `det J` of the lines of what pushes the platform, without unit: of legs with lengths over the size, of rods with
+    /// unit vectors and moments over the size. `None` where a rod does not close.
     #[must_use]
     pub fn determinant(&self, pose: &Pose) -> Option<f64> {
         match &self.required.cranks {
@@ -236,7 +240,8 @@ impl Terms<'_> {
         }
     }
 
-    /// What a crank has left of its reach, of its transmission and of its lean; `None` where the legs change their lengths.
+    /// What a crank has left of its reach, of its transmission and of its lean; `None` where the legs change their
+    /// lengths.
     pub(crate) fn crank_room(&self, i: usize, pose: &Pose) -> Option<CrankRoom> {
         let cranks = self.required.cranks.as_ref()?;
         let crank = &cranks.legs[i];
@@ -258,7 +263,8 @@ impl Terms<'_> {
     }
 }
 
-/// As [`least_conditioning`](super::least_conditioning), for the rods of a design with cranks and for drives whose joints are not ideal; `None` for other designs.
+/// As [`least_conditioning`](super::least_conditioning), for the rods of a design with cranks and for drives whose
+/// joints are not ideal; `None` for other designs.
 #[must_use]
 pub fn least_rod_conditioning(
     terms: &Terms<'_>,

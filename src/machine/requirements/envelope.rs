@@ -5,7 +5,8 @@ use nalgebra::{Point3, Vector3};
 use super::hardware::Housing;
 use num::ordered::OrderedNumber;
 
-/// A region that joints have to stay in with their housings, in the frame of the body, or the base frame for the whole machine.
+/// A region that joints have to stay in with their housings, in the frame of the body, or the base frame for the whole
+/// machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Envelope {
     /// Everything within this radius of a line along the z axis.
@@ -47,9 +48,10 @@ impl Envelope {
 
     /// By how much a joint stays inside; negative outside.
     ///
-    /// The joint has half extents `half` along the axes (a box), and `ball` in every direction. A cylinder has one side, a box six; `see` gets the number of each side and its margin.
-    /// Cylinder: `radius - |(|x - c| + half_x, |y - c| + half_y)| - ball`, the farthest corner of the joint's box.
-    /// Box: the distance of the centre from the side, less `half_k + ball`.
+    /// The joint has half extents `half` along the axes (a box), and `ball` in every direction. A cylinder has one
+    /// side, a box six; `see` gets the number of each side and its margin. Cylinder: `radius - |(|x - c| + half_x, |y -
+    /// c| + half_y)| - ball`, the farthest corner of the joint's box. Box: the distance of the centre from the side,
+    /// less `half_k + ball`.
     pub fn sides<N: OrderedNumber>(
         &self,
         at: [N; 3],
@@ -81,7 +83,8 @@ impl Envelope {
     }
 }
 
-/// Half extents along the axes of its frame and radius of the room of a joint in the frame of its body: one of them is 0.
+/// Half extents along the axes of its frame and radius of the room of a joint in the frame of its body: one of them
+/// is 0.
 #[must_use]
 pub fn room(housing: Option<Housing>) -> (Vector3<f64>, f64) {
     match housing {

@@ -1,8 +1,9 @@
 //! What flexures do to the platform when they bend.
 //!
-//! A flexure with the bending stiffness `k` about its centre, whose leg stands at the angle `t` from its axis `n`, holds the energy `k t^2 / 2`. The wrench on the platform is minus the derivative of the
-//! energies of all flexures by the motion of the platform. With the unit vector `e` across the leg that points away from the axis, `u` along the leg, `l` its length and `c` the arm of the
-//! platform joint:
+//! A flexure with the bending stiffness `k` about its centre, whose leg stands at the angle `t` from its axis `n`,
+//! holds the energy `k t^2 / 2`. The wrench on the platform is minus the derivative of the energies of all flexures by
+//! the motion of the platform. With the unit vector `e` across the leg that points away from the axis, `u` along the
+//! leg, `l` its length and `c` the arm of the platform joint:
 //!
 //! ```text
 //! base:      force -k t e / l,   torque -k t c x e / l
@@ -33,7 +34,8 @@ fn bent(u: &Vector3<f64>, n: &Vector3<f64>) -> Vector3<f64> {
 }
 
 impl Terms<'_> {
-    /// The wrench of the flexures on the platform at a pose; `None` where the design has none. They do not resist turns of a leg about itself.
+    /// The wrench of the flexures on the platform at a pose; `None` where the design has none. They do not resist turns
+    /// of a leg about itself.
     #[must_use]
     pub fn flexure_wrench(&self, pose: &Pose) -> Option<Wrench> {
         let hardware = &self.required.hardware;

@@ -142,7 +142,8 @@ pub enum JointAxes {
 /// How far the legs may lean from the axes of the joints of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swing {
-    /// Greatest angle between each leg and its axis, in leg order, degrees, above 0 and at most 180, which limits nothing.
+    /// Greatest angle between each leg and its axis, in leg order, degrees, above 0 and at most 180, which limits
+    /// nothing.
     pub limits_deg: [f64; 6],
     /// The axes.
     pub axes: JointAxes,
@@ -176,12 +177,14 @@ pub struct LegPart {
     pub mass: f64,
     /// Distance of the centre of mass from its joint along the leg, design units.
     pub center: f64,
-    /// Moment of inertia about an axis across the leg through the centre of mass, mass units times design units squared.
+    /// Moment of inertia about an axis across the leg through the centre of mass, mass units times design units
+    /// squared.
     pub inertia: f64,
 }
 
 impl LegPart {
-    /// Moment of inertia of a thin rod of constant cross-section that begins at the joint and has its middle at the centre of mass: `m (2 c)^2 / 12`.
+    /// Moment of inertia of a thin rod of constant cross-section that begins at the joint and has its middle at the
+    /// centre of mass: `m (2 c)^2 / 12`.
     #[must_use]
     pub fn uniform_inertia(mass: f64, center: f64) -> f64 {
         mass * center * center / 3.0
@@ -195,7 +198,8 @@ pub struct LegMasses {
     pub cylinder: LegPart,
     /// What moves along the leg; its centre is measured from the platform joint.
     pub rod: LegPart,
-    /// Mass that moves along the leg in place of what turns in the drive: moments of inertia of motor and spindle over the square of the lead per radian, mass units.
+    /// Mass that moves along the leg in place of what turns in the drive: moments of inertia of motor and spindle over
+    /// the square of the lead per radian, mass units.
     pub reflected: f64,
 }
 
@@ -273,11 +277,13 @@ pub struct Hardware {
     pub base_universal: Option<UniversalJoint>,
     /// Universal joints of the platform.
     pub platform_universal: Option<UniversalJoint>,
-    /// Bending stiffness of the flexures of the base, in leg order, force units times design units per radian; none where a joint turns freely.
+    /// Bending stiffness of the flexures of the base, in leg order, force units times design units per radian; none
+    /// where a joint turns freely.
     pub base_bending: [Option<f64>; 6],
     /// Bending stiffness of the flexures of the platform.
     pub platform_bending: [Option<f64>; 6],
-    /// What a leg becomes longer by when its platform end makes a turn about it, by the right hand about the direction from base to platform, against the base end, design units.
+    /// What a leg becomes longer by when its platform end makes a turn about it, by the right hand about the direction
+    /// from base to platform, against the base end, design units.
     pub screw_lead: Option<f64>,
     /// Greatest force along a leg, push or pull, force units.
     pub max_leg_force: Option<f64>,
@@ -290,7 +296,8 @@ pub struct Hardware {
 }
 
 impl Hardware {
-    /// Housing of the joint of a leg at a body: that of its model, else that of the body, else [`Hardware::joint_diameter`] as a sphere.
+    /// Housing of the joint of a leg at a body: that of its model, else that of the body, else
+    /// [`Hardware::joint_diameter`] as a sphere.
     #[must_use]
     pub fn housing(&self, body: Body, leg: usize) -> Option<Housing> {
         let own = body.of((self.base_joint_housing, self.platform_joint_housing))[leg];
@@ -298,7 +305,8 @@ impl Hardware {
         own.or(of_body).or(self.joint_diameter.map(Housing::Sphere))
     }
 
-    /// The housings about the centre of a joint, those of the legs that end there, each once; `ends` are the joints of the body in leg order.
+    /// The housings about the centre of a joint, those of the legs that end there, each once; `ends` are the joints of
+    /// the body in leg order.
     pub(crate) fn housings_at(&self, body: Body, ends: &[usize; 6], joint: usize) -> Vec<Option<Housing>> {
         let mut out = Vec::new();
         for leg in (0..6).filter(|&leg| ends[leg] == joint) {
@@ -310,7 +318,8 @@ impl Hardware {
         out
     }
 
-    /// The least and the greatest of the widths of the housings of a body ([`Housing::least_width`]); `None` where a joint has no housing.
+    /// The least and the greatest of the widths of the housings of a body ([`Housing::least_width`]); `None` where a
+    /// joint has no housing.
     #[must_use]
     pub fn joint_widths(&self, body: Body) -> Option<[f64; 2]> {
         let widths: Option<Vec<f64>> =
@@ -362,8 +371,8 @@ impl Hardware {
         (0..6).filter_map(|leg| self.angle_limit_deg(kind, leg)).reduce(f64::min)
     }
 
-    /// `true` where the length of a drive is not the distance of its joints: universal joints whose axes do not meet, or screws that couple the turn of a leg about itself to its
-    /// length.
+    /// `true` where the length of a drive is not the distance of its joints: universal joints whose axes do not meet,
+    /// or screws that couple the turn of a leg about itself to its length.
     #[must_use]
     pub fn is_coupled(&self) -> bool {
         let apart = |joint: Option<UniversalJoint>| joint.is_some_and(|j| j.offset != 0.0);

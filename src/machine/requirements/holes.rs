@@ -11,7 +11,8 @@ pub enum HolePattern {
     /// On squares.
     #[default]
     Square,
-    /// On equilateral triangles: turns by 60 degrees about a hole take the grid to itself, and turns by 120 degrees about the middle of a triangle too.
+    /// On equilateral triangles: turns by 60 degrees about a hole take the grid to itself, and turns by 120 degrees
+    /// about the middle of a triangle too.
     Triangular,
     /// On rings about the origin whose radii grow by the pitch, with the same number of holes on each.
     Polar,
@@ -34,7 +35,8 @@ impl HolePattern {
         }
     }
 
-    /// Cosine of the angle between the two axes along which holes are counted; `None` where they are counted on circles.
+    /// Cosine of the angle between the two axes along which holes are counted; `None` where they are counted on
+    /// circles.
     #[must_use]
     pub fn skew(self) -> Option<f64> {
         match self {
@@ -97,16 +99,18 @@ impl HoleCircles {
 
 /// A grid of holes.
 ///
-/// Its first axis is the x axis of the body frame, projected on the plane of the joints and turned by the angle; the second is 90 degrees from it on a square grid and 60
-/// degrees on a triangular one. Its origin is the projection of the origin of the frame, shifted along the x and y axes.
+/// Its first axis is the x axis of the body frame, projected on the plane of the joints and turned by the angle; the
+/// second is 90 degrees from it on a square grid and 60 degrees on a triangular one. Its origin is the projection of
+/// the origin of the frame, shifted along the x and y axes.
 ///
-/// On circles hole `j` of circle `k` with `n` holes is at `origin + r_k (cos(angle + j 360 / n), sin(angle + j 360 / n))`. The radii of a polar grid are `r_k = first + k pitch`
-/// without end, those of bolt circles are listed.
+/// On circles hole `j` of circle `k` with `n` holes is at `origin + r_k (cos(angle + j 360 / n), sin(angle + j 360 /
+/// n))`. The radii of a polar grid are `r_k = first + k pitch` without end, those of bolt circles are listed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
     /// How the holes lie.
     pub pattern: HolePattern,
-    /// Distance of neighbouring holes, or of neighbouring rings of a polar grid, design units, positive; 0 for bolt circles, which have none.
+    /// Distance of neighbouring holes, or of neighbouring rings of a polar grid, design units, positive; 0 for bolt
+    /// circles, which have none.
     pub pitch: f64,
     /// The first ring of a polar grid, or all bolt circles; none for the other patterns.
     pub circles: HoleCircles,
@@ -144,7 +148,8 @@ impl Grid {
         Self { pattern: HolePattern::BoltCircle, circles, ..Self::square(0.0) }
     }
 
-    /// Whether its lengths and counts make holes: all finite, radii, counts and a pitch that is used positive, circles where the pattern has them.
+    /// Whether its lengths and counts make holes: all finite, radii, counts and a pitch that is used positive, circles
+    /// where the pattern has them.
     #[must_use]
     pub fn is_usable(&self) -> bool {
         let finite = self.origin.iter().chain([&self.angle_deg]).all(|x| x.is_finite());

@@ -17,8 +17,9 @@ pub enum Limit {
 /// The requirement a pose meets worst.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseLimit {
-    /// Its margin as a share: over the size of the manipulator (lengths), 90 degrees (angles), its limit (forces, speeds, stiffness, frequency), `det J` at home
-    /// (singularity). Negative where it is violated; infinite where nothing is required.
+    /// Its margin as a share: over the size of the manipulator (lengths), 90 degrees (angles), its limit (forces,
+    /// speeds, stiffness, frequency), `det J` at home (singularity). Negative where it is violated; infinite where
+    /// nothing is required.
     pub share: f64,
     /// The requirement; `None` where nothing is required.
     pub limit: Option<Limit>,
@@ -26,8 +27,9 @@ pub struct PoseLimit {
 
 /// Requirements and singularity as limits of the workspace around a home pose.
 ///
-/// A pose lies in the workspace when all requirements are met and `det J` has the sign that it has at home: between signs there is a singular pose on every path. (The same sign
-/// proves nothing: a path may still have to pass singular poses.) Where home itself is singular there is no sign to keep, and singularity is left out.
+/// A pose lies in the workspace when all requirements are met and `det J` has the sign that it has at home: between
+/// signs there is a singular pose on every path. (The same sign proves nothing: a path may still have to pass singular
+/// poses.) Where home itself is singular there is no sign to keep, and singularity is left out.
 #[derive(Debug)]
 pub struct Limits<'a> {
     required: &'a Requirements,

@@ -96,7 +96,8 @@ impl Load {
     }
 }
 
-/// Forces in the legs that hold a wrench `(f, t)` (about the platform origin, base frame): `sum F_i (u_i, R b_i x u_i) = -(f, t)`.
+/// Forces in the legs that hold a wrench `(f, t)` (about the platform origin, base frame):
+/// `sum F_i (u_i, R b_i x u_i) = -(f, t)`.
 ///
 /// Positive forces push the platform (compression). `scale` is a length that makes moments comparable with
 /// forces in the solution of the linear system, the size of the design for instance; the answer does not depend on it.

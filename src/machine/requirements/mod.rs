@@ -1,7 +1,8 @@
-//! Says what a platform has to satisfy besides being regular, and by how much it does: room, lengths, swing, loads and speed over a set of poses.
+//! Says what a platform has to satisfy besides being regular, and by how much it does: room, lengths, swing, loads and
+//! speed over a set of poses.
 //!
-//! The types say what a design file asks for. [`assess()`] evaluates them directly, pose by pose, from the definitions; an
-//! optimiser has formulas of its own, so that its answers can be checked here. `docs/theory/requirements.md` has the
+//! The types say what a design file asks for. [`assess()`] evaluates them directly, pose by pose, from the definitions;
+//! an optimiser has formulas of its own, so that its answers can be checked here. `docs/theory/requirements.md` has the
 //! definition and the unit of every term.
 
 mod assess;
@@ -102,12 +103,14 @@ pub struct Requirements {
     pub payload_shape: Option<KeepOutShape>,
     /// What has to remain of each limit.
     pub reserves: Reserves,
-    /// Cranks with rods of constant length in place of legs that change their lengths; what is said of such legs then limits nothing.
+    /// Cranks with rods of constant length in place of legs that change their lengths; what is said of such legs then
+    /// limits nothing.
     pub cranks: Option<Box<Cranks>>,
 }
 
 impl Requirements {
-    /// What is asked of the drives (lengths, forces, speeds, stiffness), and all the rest: each kind of requirement belongs to one of both.
+    /// What is asked of the drives (lengths, forces, speeds, stiffness), and all the rest: each kind of requirement
+    /// belongs to one of both.
     #[must_use]
     pub fn of_drives_and_rest(&self) -> [Self; 2] {
         let h = &self.hardware;
@@ -148,7 +151,8 @@ impl Requirements {
         [drives, rest]
     }
 
-    /// `true` where a natural frequency is asked for whose legs have masses and joints that are not ideal: how such legs move is not known, and the frequency is not judged.
+    /// `true` where a natural frequency is asked for whose legs have masses and joints that are not ideal: how such
+    /// legs move is not known, and the frequency is not judged.
     #[must_use]
     pub fn leaves_out_moving_legs(&self) -> bool {
         let wanted = self.platform_stiffness.is_some_and(|s| s.natural_frequency.is_some());
@@ -156,13 +160,15 @@ impl Requirements {
         wanted && moving && self.hardware.is_coupled()
     }
 
-    /// The least stiffness or natural frequency asked for, in the unit of its margin; `None` where none is, and for other kinds.
+    /// The least stiffness or natural frequency asked for, in the unit of its margin; `None` where none is, and for
+    /// other kinds.
     #[must_use]
     pub fn least_stiffness_of(&self, kind: TermKind) -> Option<f64> {
         self.platform_stiffness.and_then(|wanted| wanted.least(kind))
     }
 
-    /// What a margin of a kind is a share of where margins of several kinds are compared: the size of the design (lengths), 90 degrees, or the limit itself.
+    /// What a margin of a kind is a share of where margins of several kinds are compared: the size of the design
+    /// (lengths), 90 degrees, or the limit itself.
     pub fn scale_of(&self, kind: TermKind, size: f64) -> f64 {
         match kind.quantity() {
             Quantity::Length => size,

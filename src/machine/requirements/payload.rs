@@ -120,7 +120,8 @@ pub struct Payload {
     pub mass: f64,
     /// Centre of mass, platform frame, design units.
     pub center: Point3<f64>,
-    /// Inertia about the centre of mass along the axes of the platform frame, mass units times design units squared; symmetric.
+    /// Inertia about the centre of mass along the axes of the platform frame, mass units times design units squared;
+    /// symmetric.
     pub inertia: Option<Matrix3<f64>>,
     /// Gravity, base frame, m/s^2.
     pub gravity: Vector3<f64>,

@@ -36,8 +36,13 @@ impl Reserves {
 impl Requirements {
     /// The reserve on a kind of requirement, in the unit of its margin: 0 where none is asked for.
     ///
-    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle (the least of these where legs have different ones), force or speed, of the least stiffness or frequency, of the leg diameter for clearances, of the widest housing (or the
-    /// least distance of centres, whichever is greater) for the room between joints, of the distance asked for or of the diameter of the greatest hole, whichever is greater, for the holes of plates, and of the radius or half the shortest edge for envelopes. For cranks it is one of the shortest rod, of half the narrowest range of angles, of the least transmission angle, and of the greatest swing, torque or speed.
+    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle (the least of these
+    /// where legs have different ones), force or speed, of the least stiffness or frequency, of the leg diameter for
+    /// clearances, of the widest housing (or the least distance of centres, whichever is greater) for the room between
+    /// joints, of the distance asked for or of the diameter of the greatest hole, whichever is greater, for the holes
+    /// of plates, and of the radius or half the shortest edge for envelopes. For cranks it is one of the shortest rod,
+    /// of half the narrowest range of angles, of the least transmission angle, and of the greatest swing, torque or
+    /// speed.
     #[must_use]
     pub fn reserve(&self, kind: TermKind) -> f64 {
         let own = self.reserves.kinds.get(&kind).copied();

@@ -5,12 +5,12 @@ use super::universal::HingeAngle;
 use platform::geom::Pose;
 use platform::manipulator::{Body, inverse_condition};
 
-/// Rounding of a length over the sum of the lengths it is computed from: some ten operations on coordinates that are rounded themselves, each
-/// good to half of `eps`, and room to spare.
+/// Rounding of a length over the sum of the lengths it is computed from: some ten operations on coordinates that are
+/// rounded themselves, each good to half of `eps`, and room to spare.
 const SHARE: f64 = 64.0 * f64::EPSILON;
 
-/// Rounding, as a share, that no margin is excused by: near singular poses and for legs of almost no length the arithmetic says nothing, and a margin below zero
-/// is a violation.
+/// Rounding, as a share, that no margin is excused by: near singular poses and for legs of almost no length the
+/// arithmetic says nothing, and a margin below zero is a violation.
 const MOST: f64 = 1e-9;
 
 /// What a margin says.
@@ -18,7 +18,8 @@ const MOST: f64 = 1e-9;
 pub enum Standing {
     /// Below zero by more than rounding: the requirement is violated.
     Violated,
-    /// Not told from zero by the arithmetic: the design is at its limit, as it is when a distance was chosen equal to the least one. It counts as met.
+    /// Not told from zero by the arithmetic: the design is at its limit, as it is when a distance was chosen equal to
+    /// the least one. It counts as met.
     AtLimit,
     /// Above zero by more than rounding.
     Met,
@@ -33,7 +34,8 @@ impl Standing {
 }
 
 impl Terms<'_> {
-    /// What a margin of this kind says at the pose where it was found (`None` for kinds on which the pose has no influence).
+    /// What a margin of this kind says at the pose where it was found (`None` for kinds on which the pose has no
+    /// influence).
     #[must_use]
     pub fn standing(&self, kind: TermKind, margin: f64, pose: Option<&Pose>) -> Standing {
         if margin.is_finite() && margin.abs() <= self.rounding(kind, pose) {
@@ -45,7 +47,8 @@ impl Terms<'_> {
         }
     }
 
-    /// By how much an error of the direction of a leg is greater in an angle: more than 1 for first angles of universal joints near their first axes.
+    /// By how much an error of the direction of a leg is greater in an angle: more than 1 for first angles of universal
+    /// joints near their first axes.
     fn amplification(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
         let (Some((body, HingeAngle::First)), Some(pose)) = (kind.hinge(), pose) else { return 1.0 };
         let end = body.index();
@@ -58,8 +61,9 @@ impl Terms<'_> {
         (0..6).map(of).fold(1.0, f64::max)
     }
 
-    /// The sum of lengths that a length is computed from: that of a plate is greater by what it is long and wide, and by as much again as its size is greater than the shortest edge of
-    /// its hull, whose direction is known that much worse.
+    /// The sum of lengths that a length is computed from: that of a plate is greater by what it is long and wide, and
+    /// by as much again as its size is greater than the shortest edge of its hull, whose direction is known that much
+    /// worse.
     fn plate_reach(&self, kind: TermKind, reach: f64) -> f64 {
         let of = |body: Body| {
             self.plate(body).map_or(0.0, |solid| {
@@ -77,10 +81,15 @@ impl Terms<'_> {
 
     /// Bound of the rounding of a margin, in its unit.
     ///
-    /// For holes and plates `r` has the extent `e` of the plate besides, and `e` times `e` over the shortest edge of its hull. Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of its body and of the distance of the
-    /// platform from the base origin. Angles: the same over the shortest leg, and for first angles of universal joints times `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis. Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
-    /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian. Cranks: angles over the shorter of crank and rod and over the sine of the transmission angle, speeds and torques accordingly. Stiffness and frequency: that of angles and of forces together, times twice the least one asked for. Never more than `1e-9` radians, or `1e-9` of the greatest speed
-    /// or force, or of twice the least stiffness or frequency.
+    /// For holes and plates `r` has the extent `e` of the plate besides, and `e` times `e` over the shortest edge of
+    /// its hull. Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of
+    /// its body and of the distance of the platform from the base origin. Angles: the same over the shortest leg, and
+    /// for first angles of universal joints times `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis. Speeds:
+    /// `64 eps` times the greatest speed times `r` over the shortest leg. Forces: `64 eps` times the greatest force
+    /// over the inverse condition number of the Jacobian. Cranks: angles over the shorter of crank and rod and over the
+    /// sine of the transmission angle, speeds and torques accordingly. Stiffness and frequency: that of angles and of
+    /// forces together, times twice the least one asked for. Never more than `1e-9` radians, or `1e-9` of the greatest
+    /// speed or force, or of twice the least stiffness or frequency.
     #[must_use]
     pub fn rounding(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
         let m = self.manipulator;

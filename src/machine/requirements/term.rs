@@ -78,7 +78,8 @@ pub enum TermKind {
     RodTooShort,
     /// Distance of the platform joint from the farthest point of that circle minus the rod length.
     RodTooLong,
-    /// Transmission angle of a crank minus the least one: the angle whose sine is that part of a push along the rod which turns the crank. At 0 degrees crank and rod are in a plane with the axis.
+    /// Transmission angle of a crank minus the least one: the angle whose sine is that part of a push along the rod
+    /// which turns the crank. At 0 degrees crank and rod are in a plane with the axis.
     CrankTransmission,
     /// What remains of the limits of the angle of a crank.
     CrankAngle,
@@ -270,7 +271,9 @@ pub struct Term {
     pub kind: TermKind,
     /// The leg, or the joint of the body, counted from 0.
     pub first: usize,
-    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other. Both are 0 for what the platform as a whole has. For the envelope of the machine 0 for the base joint of the leg, 1 for its platform joint; for plates 0 for that of the base, 1 for that of the platform.
+    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other. Both are 0 for
+    /// what the platform as a whole has. For the envelope of the machine 0 for the base joint of the leg, 1 for its
+    /// platform joint; for plates 0 for that of the base, 1 for that of the platform.
     pub second: usize,
 }
 
@@ -291,7 +294,8 @@ pub struct Terms<'a> {
 
 /// The legs at a pose.
 struct LegsAt {
-    /// Where the bodies of the legs begin and end: at the joints, or at their second axes where these do not meet the first ones.
+    /// Where the bodies of the legs begin and end: at the joints, or at their second axes where these do not meet the
+    /// first ones.
     ends: [(Point3<f64>, Point3<f64>); 6],
     /// Lengths of the drives; minus infinity plays no part in what is longer and in what is shorter.
     lengths: [f64; 6],
@@ -312,7 +316,8 @@ fn parts(body: &LegBody, a: Point3<f64>, b: Point3<f64>) -> Vec<Part> {
     body.parts(line.norm()).map(|part| (at(part.from), at(part.to), part.radius)).collect()
 }
 
-/// What of the parts of a leg is farther than `cut` from its base joint, or from its platform joint; one point where nothing is.
+/// What of the parts of a leg is farther than `cut` from its base joint, or from its platform joint; one point where
+/// nothing is.
 fn without_end(parts: Vec<Part>, end: Body, cut: f64) -> Vec<Part> {
     let flip = |(p, q, radius): Part| if end == Body::Base { (p, q, radius) } else { (q, p, radius) };
     let mut rest: Vec<Part> = parts.into_iter().map(flip).collect();
@@ -386,14 +391,15 @@ impl<'a> Terms<'a> {
         self.plates[body.index()].as_ref()
     }
 
-    /// The axes from which swing is measured, unit vectors in leg order that point from base to platform: at the base in the base frame, at the platform in the platform frame.
+    /// The axes from which swing is measured, unit vectors in leg order that point from base to platform: at the base
+    /// in the base frame, at the platform in the platform frame.
     #[must_use]
     pub fn axes(&self) -> &[[Vector3<f64>; 6]; 2] {
         &self.axes
     }
 
-    /// The least gap at the pose of two legs that share no joint, which is the margin of their clearance and the clearance itself; `None` where the legs have
-    /// no diameter or every two share a joint.
+    /// The least gap at the pose of two legs that share no joint, which is the margin of their clearance and the
+    /// clearance itself; `None` where the legs have no diameter or every two share a joint.
     #[must_use]
     pub fn least_leg_gap(&self, pose: &Pose) -> Option<f64> {
         let clearance = self.required.hardware.leg_clearance.unwrap_or(0.0);
@@ -486,7 +492,8 @@ impl<'a> Terms<'a> {
         }
     }
 
-    /// Margins of all requirements at a pose: positive where they are met. Forces at a singular pose have the margin minus infinity, and the platform has no stiffness there.
+    /// Margins of all requirements at a pose: positive where they are met. Forces at a singular pose have the margin
+    /// minus infinity, and the platform has no stiffness there.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Vec<(Term, f64)> {
         self.some_at(pose, |_| true)
@@ -556,7 +563,8 @@ impl<'a> Terms<'a> {
         out
     }
 
-    /// Rates of the drives by rows, moments over a length; `None` where the joints are not ideal and a leg is not determined.
+    /// Rates of the drives by rows, moments over a length; `None` where the joints are not ideal and a leg is not
+    /// determined.
     pub(super) fn drive_rows(&self, pose: &Pose, length: f64) -> Option<Matrix6<f64>> {
         match &self.coupled {
             None => Some(jacobian(self.manipulator, pose, length)),

@@ -9,7 +9,8 @@ use platform::geom::Pose;
 use platform::manipulator::Body;
 use platform::manipulator::{Manipulator, jacobian};
 
-/// Six vertical legs of length 10 over a hexagon of radius 4 (singular at home, which lengths and clearances don't mind).
+/// Six vertical legs of length 10 over a hexagon of radius 4 (singular at home, which lengths and clearances don't
+/// mind).
 fn upright() -> (Manipulator, Pose) {
     let ring = || -> Vec<Point3<f64>> {
         let at = |i: usize| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
@@ -221,7 +222,8 @@ fn a_margin_that_rounding_makes_is_at_the_limit_and_the_next_one_is_not() {
     assert!(matches!(standing(1e4, 1.0, 0.1 + 1e-6), (_, Standing::Violated, false)));
 }
 
-/// Each kind of limit set to what is measured at home is reached there, whatever the last digit says; a little more is a violation.
+/// Each kind of limit set to what is measured at home is reached there, whatever the last digit says; a little more is
+/// a violation.
 #[test]
 fn limits_set_to_the_values_at_home_are_reached_and_not_violated() {
     let (m, home) = slanted();

@@ -1,14 +1,16 @@
 //! Universal joints: two hinges in a row, each with a limit of its own.
 //!
-//! The first axis `a` is fixed in the body. The second is at a right angle to it and to the leg, and turns with the leg about the first. With the axis `k` of the joint
-//! (`base_axes`, `platform_axes`) the rest direction is `n`, the part of `k` across `a` as a unit vector, and `e = a x n`. A leg with the direction `u`, in the frame of the body,
-//! stands at the angles
+//! The first axis `a` is fixed in the body. The second is at a right angle to it and to the leg, and turns with the leg
+//! about the first. With the axis `k` of the joint (`base_axes`, `platform_axes`) the rest direction is `n`, the part
+//! of `k` across `a` as a unit vector, and `e = a x n`. A leg with the direction `u`, in the frame of the body, stands
+//! at the angles
 //!
 //! ```text
 //! first = atan2(u.e, u.n),   second = atan2(u.a, |u - (u.a) a|).
 //! ```
 //!
-//! Along the first axis the first angle is not determined and the second one is 90 degrees: there the joint is singular, and both limits count as violated.
+//! Along the first axis the first angle is not determined and the second one is 90 degrees: there the joint is
+//! singular, and both limits count as violated.
 
 use nalgebra::{Unit, Vector3};
 
@@ -17,9 +19,11 @@ use super::hardware::JointAxes;
 /// The universal joints of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UniversalJoint {
-    /// Direction of the first axis of each joint, in leg order, in the frame of the body; none where the joint of a leg is of another kind.
+    /// Direction of the first axis of each joint, in leg order, in the frame of the body; none where the joint of a leg
+    /// is of another kind.
     pub first_axes: [Option<Unit<Vector3<f64>>>; 6],
-    /// Greatest angles about the first and about the second axis of each joint, either way, degrees: at most 180, and below 90.
+    /// Greatest angles about the first and about the second axis of each joint, either way, degrees: at most 180, and
+    /// below 90.
     pub limits_deg: [Option<[f64; 2]>; 6],
     /// Where the legs are at rest: the first angles count from there.
     pub axes: JointAxes,
@@ -60,7 +64,8 @@ impl Hinge {
         Self { first, rest: first.cross(&axis.cross(&first)).try_normalize(0.0) }
     }
 
-    /// Parts of a line along the rest direction, across it about the first axis, and along the first axis; `None` without a rest direction.
+    /// Parts of a line along the rest direction, across it about the first axis, and along the first axis; `None`
+    /// without a rest direction.
     fn parts(&self, line: &Vector3<f64>) -> Option<[f64; 3]> {
         let rest = self.rest?;
         Some([line.dot(&rest), line.dot(&self.first.cross(&rest)), line.dot(&self.first)])
@@ -76,7 +81,8 @@ impl Hinge {
         [across.atan2(up), along.atan2(across.hypot(up))].map(f64::to_degrees)
     }
 
-    /// A limit less its angle, degrees; where the angle is not determined it counts as the greatest there is, 180 and 90 degrees.
+    /// A limit less its angle, degrees; where the angle is not determined it counts as the greatest there is, 180 and
+    /// 90 degrees.
     pub(crate) fn margin_deg(&self, line: &Vector3<f64>, angle: HingeAngle, limit_deg: f64) -> f64 {
         let parts = self.parts(line).filter(|[up, across, _]| across.hypot(*up) > 0.0);
         match (angle, parts) {

@@ -1,8 +1,10 @@
 //! Stiffness of a platform on legs that give way along their lines, and its natural frequencies.
 //!
-//! Legs of stiffness `k` hold the platform at a pose with `K = J^T diag(k) J`, where row `i` of `J` is `(u_i, R b_i x u_i)`: a small motion `x = (d, w)` (shift of the platform origin, rotation vector) needs
-//! the force and torque `K x`. With the mass matrix `M` of platform, payload and legs at the pose, small free motions are sums of `v sin(omega t)` with `K v = omega^2 M v`. Joints, plates and the
-//! stiffness that preloaded legs add are left out. Sources: Gosselin (1990) for `K`; Merlet, *Parallel Robots* (2006), sec. 8.
+//! Legs of stiffness `k` hold the platform at a pose with `K = J^T diag(k) J`, where row `i` of `J` is
+//! `(u_i, R b_i x u_i)`: a small motion `x = (d, w)` (shift of the platform origin, rotation vector) needs the force
+//! and torque `K x`. With the mass matrix `M` of platform, payload and legs at the pose, small free motions are sums of
+//! `v sin(omega t)` with `K v = omega^2 M v`. Joints, plates and the stiffness that preloaded legs add are left out.
+//! Sources: Gosselin (1990) for `K`; Merlet, *Parallel Robots* (2006), sec. 8.
 
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
@@ -19,8 +21,8 @@ pub fn stiffness_matrix(m: &Manipulator, pose: &Pose, leg: f64) -> Matrix6<f64> 
     j.transpose() * j * leg
 }
 
-/// The mass matrix about the platform origin, base frame: kilograms, times design units for each index of rotation. The kinetic energy is half of `x'^T M x'` with the twist
-/// `x' = (v, w)`.
+/// The mass matrix about the platform origin, base frame: kilograms, times design units for each index of rotation. The
+/// kinetic energy is half of `x'^T M x'` with the twist `x' = (v, w)`.
 #[must_use]
 pub fn mass_matrix(m: &Manipulator, bodies: &MovingBodies, pose: &Pose) -> Matrix6<f64> {
     let ends = m.legs().map(|leg| {
@@ -70,13 +72,16 @@ pub fn mass_of(
 /// Least stiffness against forces and against torques.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeastStiffness {
-    /// Against a force through the platform origin in the softest direction, the platform free to turn: force units per design unit.
+    /// Against a force through the platform origin in the softest direction, the platform free to turn: force units per
+    /// design unit.
     pub linear: f64,
-    /// Against a torque about the softest axis, the platform origin free to move: force units times design units per radian.
+    /// Against a torque about the softest axis, the platform origin free to move: force units times design units per
+    /// radian.
     pub angular: f64,
 }
 
-/// The least stiffness of a stiffness matrix: the inverses of the greatest compliances, which are eigenvalues of the two blocks of `K^-1`. `None` for a singular one.
+/// The least stiffness of a stiffness matrix: the inverses of the greatest compliances, which are eigenvalues of the
+/// two blocks of `K^-1`. `None` for a singular one.
 #[must_use]
 pub fn least_stiffness(stiffness: &Matrix6<f64>) -> Option<LeastStiffness> {
     let compliance = stiffness.try_inverse()?;
@@ -99,8 +104,10 @@ pub struct Vibration {
 
 /// The six natural motions, the slowest first: `K v = omega^2 M v`.
 ///
-/// `omega` are the singular values of `sqrt(k) J L^-T` with `M = L L^T`, which no rounding makes imaginary. The stiffness of a leg is in kilograms per second squared, which is newtons per metre
-/// whatever the design unit. `None` where `M` is not positive definite (a point mass has no inertia about axes through itself), or for a leg of length zero.
+/// `omega` are the singular values of `sqrt(k) J L^-T` with `M = L L^T`, which no rounding makes imaginary. The
+/// stiffness of a leg is in kilograms per second squared, which is newtons per metre whatever the design unit. `None`
+/// where `M` is not positive definite (a point mass has no inertia about axes through itself), or for a leg of length
+/// zero.
 #[must_use]
 pub fn vibration(m: &Manipulator, pose: &Pose, leg: f64, mass: &Matrix6<f64>) -> Option<[Vibration; 6]> {
     // in units in which the diagonal of M is one
@@ -162,9 +169,10 @@ impl VibratingMasses {
     }
 }
 
-/// [`least_stiffness`] of legs of stiffness `leg` at a pose, from the leg forces that hold unit loads: with `F = J^-T (f, t)` the platform gives way to a unit force by
-/// `|F|^2 / leg` along it, so that the least stiffness is `leg` over the square of the greatest singular value of the columns of `J^-T` that belong to forces, or to torques. Zero at a
-/// singular pose.
+/// [`least_stiffness`] of legs of stiffness `leg` at a pose, from the leg forces that hold unit loads: with
+/// `F = J^-T (f, t)` the platform gives way to a unit force by `|F|^2 / leg` along it, so that the least stiffness is
+/// `leg` over the square of the greatest singular value of the columns of `J^-T` that belong to forces, or to torques.
+/// Zero at a singular pose.
 #[must_use]
 pub fn least_stiffness_at(m: &Manipulator, pose: &Pose, leg: f64) -> LeastStiffness {
     softest_of(Some(&jacobian(m, pose, m.size())), m.size(), leg)
@@ -185,8 +193,8 @@ pub(super) fn softest_of(rows: Option<&Matrix6<f64>>, size: f64, leg: f64) -> Le
     }
 }
 
-/// The lowest natural frequency at a pose, hertz: `omega^2 = 1 / max (v^T M v)` over the motions with `v^T K v = 1`, which needs no inverse of `M`: directions without mass have no
-/// frequency. Zero at a singular pose.
+/// The lowest natural frequency at a pose, hertz: `omega^2 = 1 / max (v^T M v)` over the motions with `v^T K v = 1`,
+/// which needs no inverse of `M`: directions without mass have no frequency. Zero at a singular pose.
 #[must_use]
 pub fn lowest_frequency(m: &Manipulator, pose: &Pose, masses: &VibratingMasses) -> f64 {
     lowest_of(Some(&jacobian(m, pose, m.size())), m.size(), &mass_matrix(m, &masses.bodies, pose), masses.leg)

@@ -6,8 +6,10 @@
 //! a(q) = c + r (e cos q + (n x e) sin q),      e across n, the direction of angle 0,
 //! ```
 //!
-//! and a rod of length `l` joins the tip to the platform joint `b`. For given angles the tips are joints of the base, so that all that is known of six legs with lengths holds for the rods: forward kinematics is that of
-//! the platform on the tips, with the same certificates. Leg maps are affine between *squared lengths* of legs: they say nothing of angles, and a platform with other joints needs other cranks.
+//! and a rod of length `l` joins the tip to the platform joint `b`. For given angles the tips are joints of the base,
+//! so that all that is known of six legs with lengths holds for the rods: forward kinematics is that of the platform on
+//! the tips, with the same certificates. Leg maps are affine between *squared lengths* of legs: they say nothing of
+//! angles, and a platform with other joints needs other cranks.
 //!
 //! `docs/theory/rotary.md` has the derivations.
 
@@ -236,8 +238,9 @@ impl RotaryPlatform {
 
     /// Both angles of each crank that hold the platform at a pose, whatever their limits.
     ///
-    /// With `d = R b + p - c`, `|d - r (e cos q + f sin q)| = l` is `x cos q + y sin q = k` for `x = d.e`, `y = d.f`, `k = (|d|^2 + r^2 - l^2) / (2 r)`: hence
-    /// `q = atan2(y, x) +- acos(k / sqrt(x^2 + y^2))`. A joint on the axis of the crank has no angle of its own.
+    /// With `d = R b + p - c`, `|d - r (e cos q + f sin q)| = l` is `x cos q + y sin q = k` for `x = d.e`, `y = d.f`,
+    /// `k = (|d|^2 + r^2 - l^2) / (2 r)`: hence `q = atan2(y, x) +- acos(k / sqrt(x^2 + y^2))`. A joint on the axis of
+    /// the crank has no angle of its own.
     ///
     /// # Errors
     /// The first leg whose rod does not reach.
@@ -264,8 +267,8 @@ impl RotaryPlatform {
         Ok(out)
     }
 
-    /// Inverse kinematics: the angle of each crank on its side, from `-pi` to `pi` where the crank has no limits, else within half a turn of the middle of its limits. Whether it is
-    /// within them is said by [`Self::within_limits`].
+    /// Inverse kinematics: the angle of each crank on its side, from `-pi` to `pi` where the crank has no limits, else
+    /// within half a turn of the middle of its limits. Whether it is within them is said by [`Self::within_limits`].
     ///
     /// # Errors
     /// The first leg whose rod does not reach.
@@ -303,7 +306,8 @@ impl RotaryPlatform {
         (1..=6).filter(|leg| !(margins[leg - 1] >= 0.0)).collect()
     }
 
-    /// All finite poses, real and complex, with the cranks at these angles. Certificates hold for the tips as computed, rounded to doubles.
+    /// All finite poses, real and complex, with the cranks at these angles. Certificates hold for the tips as computed,
+    /// rounded to doubles.
     ///
     /// # Errors
     /// A computation that broke down; angles that are not finite.
@@ -311,7 +315,8 @@ impl RotaryPlatform {
         Ok(solver(options.method).solve(&self.at(angles)?, &self.rods.squared(), options)?)
     }
 
-    /// How directly each crank moves its rod: `u . (n x t)` with the unit vectors `u` along the rod and `t` along the crank, from -1 to 1. At 0 crank, rod and axis are in one plane: the crank is singular, both its angles are one
+    /// How directly each crank moves its rod: `u . (n x t)` with the unit vectors `u` along the rod and `t` along the
+    /// crank, from -1 to 1. At 0 crank, rod and axis are in one plane: the crank is singular, both its angles are one
     /// and it cannot push the platform.
     #[must_use]
     pub fn transmissions(&self, pose: &Pose, angles: &[f64; 6]) -> [f64; 6] {
@@ -324,7 +329,8 @@ impl RotaryPlatform {
         })
     }
 
-    /// Rows that map velocity of the platform origin and angular velocity (base frame) to the speeds of the cranks: `q' = (u . v + (R b x u) . w) / (r u.(n x t))`. `None` where a crank is singular.
+    /// Rows that map velocity of the platform origin and angular velocity (base frame) to the speeds of the cranks: `q'
+    /// = (u . v + (R b x u) . w) / (r u.(n x t))`. `None` where a crank is singular.
     #[must_use]
     pub fn crank_jacobian(&self, pose: &Pose, angles: &[f64; 6]) -> Option<Matrix6<f64>> {
         let mut rows = jacobian_of_legs(&self.ends(angles), pose, 1.0);
@@ -335,7 +341,8 @@ impl RotaryPlatform {
         rows.iter().all(|x| x.is_finite()).then_some(rows)
     }
 
-    /// How the cranks turn when the platform joints, in leg order, have these velocities and accelerations (base frame). Not finite where a crank is singular.
+    /// How the cranks turn when the platform joints, in leg order, have these velocities and accelerations (base
+    /// frame). Not finite where a crank is singular.
     ///
     /// With the line `m` of the rod, `m . (B' - a') = 0` for the tip `a' = r q' (n x t)`, and once more differentiated
     /// `r q'' m.(n x t) = |B' - a'|^2 + m . B'' + r q'^2 m.t`.
@@ -362,8 +369,9 @@ impl RotaryPlatform {
         })
     }
 
-    /// The greatest speed of each crank, radians per second, when the platform origin moves at most so fast in any direction and the platform turns at most so fast (radians per second) about any axis:
-    /// `v |row_v| + w |row_w|` of the [Jacobian](Self::crank_jacobian). `None` where a crank is singular.
+    /// The greatest speed of each crank, radians per second, when the platform origin moves at most so fast in any
+    /// direction and the platform turns at most so fast (radians per second) about any axis: `v |row_v| + w |row_w|` of
+    /// the [Jacobian](Self::crank_jacobian). `None` where a crank is singular.
     #[must_use]
     pub fn greatest_speeds(
         &self,
@@ -378,7 +386,8 @@ impl RotaryPlatform {
         }))
     }
 
-    /// On which side each crank is at a pose: the sign of its [transmission](Self::transmissions). A crank in line with its rod is on both, and counts as on the side of the machine.
+    /// On which side each crank is at a pose: the sign of its [transmission](Self::transmissions). A crank in line with
+    /// its rod is on both, and counts as on the side of the machine.
     #[must_use]
     pub fn elbows_kept(&self, pose: &Pose, angles: &[f64; 6]) -> [bool; 6] {
         let transmissions = self.transmissions(pose, angles);
@@ -388,7 +397,8 @@ impl RotaryPlatform {
         })
     }
 
-    /// Torques of the cranks about their axes that hold a wrench (force and torque about the platform origin, base frame) at rest: `J_q^T t = -wrench`. `None` at singular poses and where a crank is singular.
+    /// Torques of the cranks about their axes that hold a wrench (force and torque about the platform origin, base
+    /// frame) at rest: `J_q^T t = -wrench`. `None` at singular poses and where a crank is singular.
     #[must_use]
     pub fn torques(&self, pose: &Pose, angles: &[f64; 6], wrench: &Vector6<f64>) -> Option<[f64; 6]> {
         let rows = jacobian_of_legs(&self.ends(angles), pose, 1.0);

@@ -6,7 +6,8 @@ use nalgebra::{Complex, Point3, Vector3};
 
 use super::RotaryPlatform;
 
-/// Joints count as symmetric where they are off by less than this share of the size: a hundred times what sines and cosines round.
+/// Joints count as symmetric where they are off by less than this share of the size: a hundred times what sines and
+/// cosines round.
 const SYMMETRIC: f64 = 1e-13;
 /// The theorem is used where each number that must not be zero is at least this, as a share of the size to its power.
 const CLEAR: f64 = 1e-6;
@@ -14,18 +15,21 @@ const CLEAR: f64 = 1e-6;
 /// Poses of the theorem.
 const POSES: usize = 28;
 
-/// What the theorem takes: radii of both hexagons and half the angles between two legs that are no turned images of each other.
+/// What the theorem takes: radii of both hexagons and half the angles between two legs that are no turned images of
+/// each other.
 struct Hexagons {
     radii: [f64; 2],
     half_angles: [f64; 2],
 }
 
 impl RotaryPlatform {
-    /// The number of finite poses, complex ones included, of the platform whose tips and joints are the exactly symmetric ones nearest to those at these angles; `None` where they are not symmetric to rounding, or too near to
+    /// The number of finite poses, complex ones included, of the platform whose tips and joints are the exactly
+    /// symmetric ones nearest to those at these angles; `None` where they are not symmetric to rounding, or too near to
     /// where the number is another one.
     ///
-    /// Tips at one height and joints at one height are two hexagons, each kept by a third of a turn about the z axis together with the legs; rods are equally long. The tips as doubles are symmetric to rounding only, and can have more finite poses
-    /// than the symmetric ones: these are so far out that the rounding decides whether there are any.
+    /// Tips at one height and joints at one height are two hexagons, each kept by a third of a turn about the z axis
+    /// together with the legs; rods are equally long. The tips as doubles are symmetric to rounding only, and can have
+    /// more finite poses than the symmetric ones: these are so far out that the rounding decides whether there are any.
     #[must_use]
     pub fn symmetric_pose_count(&self, angles: &[f64; 6]) -> Option<usize> {
         let tips: [Point3<f64>; 6] = std::array::from_fn(|i| self.tip(i, angles[i]));

@@ -5,8 +5,10 @@ use fk::{FkOptions, NearOutcome, NearSolver, Reality, WhyLost};
 use num::Rng;
 use platform::geom::{Angles, Pose, rotation_vector, turn_between};
 
-/// Reachy Mini by Pollen Robotics in millimetres: `motor_arm_length`, `rod_length`, `head_z_offset`, the poses of the motors and `branch_position` of
-/// `src/reachy_mini/assets/kinematics_data.json` of github.com/pollen-robotics/reachy_mini, commit 70a7c0b (Apache-2.0), rounded to a micrometre and its symmetry of three turns and a mirror written out.
+/// Reachy Mini by Pollen Robotics in millimetres: `motor_arm_length`, `rod_length`, `head_z_offset`, the poses of the
+/// motors and `branch_position` of `src/reachy_mini/assets/kinematics_data.json` of
+/// github.com/pollen-robotics/reachy_mini, commit 70a7c0b (Apache-2.0), rounded to a micrometre and its symmetry of
+/// three turns and a mirror written out.
 fn reachy_mini() -> RotaryPlatform {
     let turn = |k: usize| Rotation3::from_axis_angle(&Vector3::z_axis(), (120.0 * k as f64).to_radians());
     let legs = std::array::from_fn(|i| {

@@ -14,8 +14,9 @@ const PARTS: f64 = 1e4;
 
 /// Follows the pose of a machine with cranks.
 ///
-/// A step goes from the last angles to the new ones by equal parts of at most a twentieth of a radian. In each the platform on the new tips is followed from the squared distances that the last pose gives
-/// its rods to those that the rods have ([`NearSolver`]): the pose found is joined to the last one, on the new tips, by regular poses.
+/// A step goes from the last angles to the new ones by equal parts of at most a twentieth of a radian. In each the
+/// platform on the new tips is followed from the squared distances that the last pose gives its rods to those that the
+/// rods have ([`NearSolver`]): the pose found is joined to the last one, on the new tips, by regular poses.
 #[derive(Debug, Clone)]
 pub struct RotaryTracker {
     platform: RotaryPlatform,
@@ -42,8 +43,10 @@ impl RotaryTracker {
         &self.angles
     }
 
-    /// Continues to other angles; where the pose is lost or a singular one is in the way the tracker stays where it was. `fraction` of the outcome counts from the last angles to the new ones, and the
-    /// evidence is that of all parts: residual and Frobenius ratio at the pose, segments and Newton steps in all, the greatest Kantorovich number.
+    /// Continues to other angles; where the pose is lost or a singular one is in the way the tracker stays where it
+    /// was. `fraction` of the outcome counts from the last angles to the new ones, and the evidence is that of all
+    /// parts: residual and Frobenius ratio at the pose, segments and Newton steps in all, the greatest Kantorovich
+    /// number.
     ///
     /// Angles that are more than 79 turns away are lost: [`WhyLost::AnglesTooFar`].
     ///

@@ -72,7 +72,8 @@ impl Interval {
         self.lo <= other.lo && other.hi <= self.hi
     }
 
-    /// A double `m` and a radius `r >= 0` with `[lo, hi]` inside `[m - r, m + r]`; `r` is infinite for unbounded intervals.
+    /// A double `m` and a radius `r >= 0` with `[lo, hi]` inside `[m - r, m + r]`; `r` is infinite for unbounded
+    /// intervals.
     #[must_use]
     #[inline]
     pub fn centre_and_radius(self) -> (f64, f64) {
@@ -250,7 +251,8 @@ impl Mul for Interval {
     fn mul(self, other: Self) -> Self {
         let (a, b, c, d) = (self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi);
         let (lo, hi) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
-        // rounding is monotone, so that the ends alone are rounded; zeros, which may be exact or an underflow, and unbounded ends are told apart product by product
+        // rounding is monotone, so that the ends alone are rounded; zeros, which may be exact or an underflow, and
+        // unbounded ends are told apart product by product
         if lo != 0.0 && hi != 0.0 && lo > f64::NEG_INFINITY && hi < f64::INFINITY {
             return Self::raw(below(lo), above(hi));
         }

@@ -150,7 +150,8 @@ fn complex_products_and_quotients_enclose() {
     assert_eq!(Interval::from(1.0).checked_div(Complex::<Interval>::from(Complex64::ZERO).norm_sqr()), None);
 }
 
-/// Ends rounded once are those of products rounded one by one, for numbers of all sizes, zeros, subnormals and unbounded intervals.
+/// Ends rounded once are those of products rounded one by one, for numbers of all sizes, zeros, subnormals and
+/// unbounded intervals.
 #[test]
 fn products_are_as_narrow_as_their_ends_allow() {
     let mut rng = Rng::new(22);

@@ -13,10 +13,12 @@ pub fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<ComplexBatch> 
     roots_in_lanes::<LANES>(c, accuracy)
 }
 
-/// Approximate roots of `c[0] + .. + c[N] x^N` in the first `N` of eight lanes, relative corrections below `accuracy` in the last sweep.
+/// Approximate roots of `c[0] + .. + c[N] x^N` in the first `N` of eight lanes, relative corrections below `accuracy`
+/// in the last sweep.
 ///
-/// Ehrlich-Aberth iteration on all roots side by side, from circles whose radii are the slopes of the Newton polygon. `None` when an end
-/// coefficient is zero or not finite, or when some root does not settle (multiple roots converge linearly).
+/// Ehrlich-Aberth iteration on all roots side by side, from circles whose radii are the slopes of the Newton polygon.
+/// `None` when an end coefficient is zero or not finite, or when some root does not settle (multiple roots converge
+/// linearly).
 #[inline(always)]
 pub fn roots_in_lanes<const N: usize>(c: &[f64], accuracy: f64) -> Option<ComplexBatch> {
     let usable = c.len() == N + 1 && c.iter().all(|x| x.is_finite()) && c[0].abs() > 0.0 && c[N].abs() > 0.0;

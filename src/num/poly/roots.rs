@@ -70,8 +70,8 @@ pub fn roots(coefficients: &[Complex64]) -> Result<Vec<Complex64>, RootsError> {
     Ok(z)
 }
 
-/// [`roots`] as far as relative steps of `tolerance`, at most `sweeps` of them: start values for methods that know the function better than by
-/// its coefficients. Each root rests once its step is that small.
+/// [`roots`] as far as relative steps of `tolerance`, at most `sweeps` of them: start values for methods that know the
+/// function better than by its coefficients. Each root rests once its step is that small.
 ///
 /// # Errors
 /// [`RootsError`]: no polynomial, or an iteration that does not end.
@@ -135,7 +135,8 @@ impl pulp::WithSimd for Sweeps<'_> {
     }
 }
 
-/// `N / (1 - N sum 1 / (x_k - z_j))` for `x` among the `z`, `N = p / p'`; where `|x| > 1` from the reversed polynomial, see [`newton_correction`].
+/// `N / (1 - N sum 1 / (x_k - z_j))` for `x` among the `z`, `N = p / p'`; where `|x| > 1` from the reversed polynomial,
+/// see [`newton_correction`].
 #[inline(always)]
 fn corrections(c: &[Complex64], x: &ComplexBatch, z: &[Complex64]) -> ComplexBatch {
     let constant = |z: Complex64| ComplexBatch { re: [z.re; LANES], im: [z.im; LANES] };

@@ -263,8 +263,8 @@ fn second_order(p: &mut ConicProgram, head: ConicRow, cone: &AffineCone) {
     p.second_order(std::iter::once(head).chain(tail).collect());
 }
 
-/// `y <= value + f (low - sigma_6) - h (high - sigma_1)`, `low` at most the least and `high` at least the greatest eigenvalue of the
-/// linear models of the clusters, pair by pair.
+/// `y <= value + f (low - sigma_6) - h (high - sigma_1)`, `low` at most the least and `high` at least the greatest
+/// eigenvalue of the linear models of the clusters, pair by pair.
 ///
 /// A pair: `lambda_min [[a, b], [b, c]] >= z` is the cone `a + c - 2 z >= |(a - c, 2 b)|`.
 fn spectral(

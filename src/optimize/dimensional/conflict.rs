@@ -1,5 +1,5 @@
-//! Infeasible problems: the least violation, an irreducible set of requirements that exclude each other, and the proof of it
-//! where the requirements are convex.
+//! Infeasible problems: the least violation, an irreducible set of requirements that exclude each other, and the proof
+//! of it where the requirements are convex.
 
 use std::collections::BTreeMap;
 
@@ -26,7 +26,8 @@ pub(crate) fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> 
 /// Runs towards the least violation after which it is asked whether they are enough.
 const ELASTIC_BATCH: usize = 16;
 
-/// Least violation, objectives left out, from where the runs of a task ended, once from each end, as long as none meets the requirements and other ends are to be expected.
+/// Least violation, objectives left out, from where the runs of a task ended, once from each end, as long as none meets
+/// the requirements and other ends are to be expected.
 pub(super) fn elastic(
     model: &Model<'_>,
     task: &Task,
@@ -47,8 +48,8 @@ pub(super) fn elastic(
     with_least_whole(model, &plain, runs, watch)
 }
 
-/// Runs in the order of their violations, poses added to the first until it is worse at none. More poses only add to a violation, so that the run with the least is among those whose violation without
-/// them is no greater.
+/// Runs in the order of their violations, poses added to the first until it is worse at none. More poses only add to a
+/// violation, so that the run with the least is among those whose violation without them is no greater.
 fn with_least_whole(
     model: &Model<'_>,
     task: &Task,
@@ -71,11 +72,14 @@ fn with_least_whole(
     whole
 }
 
-/// Runs towards the least violation of all requirements where these are not to be met from any of some points, which are all looked at; `None` where that is not shown.
+/// Runs towards the least violation of all requirements where these are not to be met from any of some points, which
+/// are all looked at; `None` where that is not shown.
 ///
-/// From the point that misses least the least violation is looked for. The requirements that are missed there are part of what is wanted, so that what cannot meet those cannot meet all: they alone are
-/// tried from the points, without the others, which have optima of their own between them. Where every run misses them, and ends so alike that no other end is to be expected
-/// ([`expects_no_other`]), the requirements count as not to be met, as far as local searches can tell.
+/// From the point that misses least the least violation is looked for. The requirements that are missed there are part
+/// of what is wanted, so that what cannot meet those cannot meet all: they alone are tried from the points, without the
+/// others, which have optima of their own between them. Where every run misses them, and ends so alike that no other
+/// end is to be expected ([`expects_no_other`]), the requirements count as not to be met, as far as local searches can
+/// tell.
 pub(super) fn unmet(
     model: &Model<'_>,
     points: &[Vec<f64>],
@@ -143,15 +147,15 @@ fn by_violation(task: &Task, a: &RefinedRun, b: &RefinedRun) -> std::cmp::Orderi
 
 /// Number of the first population of an attempt, beyond those of a search.
 const POPULATIONS: usize = 3000;
-/// Starts of an attempt besides the ends of earlier runs, and the generations of the population they come from: few, since the basin that draws
-/// a population together may hold the compromise that is to be left.
+/// Starts of an attempt besides the ends of earlier runs, and the generations of the population they come from: few,
+/// since the basin that draws a population together may hold the compromise that is to be left.
 const FRESH: (usize, usize) = (6, 5);
 
 /// Runs of an attempt that are made before it is asked whether one of them is enough.
 const BATCH: usize = 4;
 
-/// Tries to meet what a task does not drop, from where other runs ended and from a population of its own: the ends are where all
-/// requirements together led, which need not be near to where fewer of them can be met.
+/// Tries to meet what a task does not drop, from where other runs ended and from a population of its own: the ends are
+/// where all requirements together led, which need not be near to where fewer of them can be met.
 pub(super) fn attempt(
     model: &Model<'_>,
     task: &Task,
@@ -186,7 +190,8 @@ pub(super) fn attempt(
     Err(runs)
 }
 
-/// Runs whose ends differ by their violation or elsewhere: what is tried from all of them would be tried again from the same end.
+/// Runs whose ends differ by their violation or elsewhere: what is tried from all of them would be tried again from the
+/// same end.
 fn apart(task: &Task, runs: &[RefinedRun]) -> Vec<RefinedRun> {
     distinct(runs.iter(), |r| r.run.judged.total_violation(task)).into_iter().cloned().collect()
 }
@@ -203,8 +208,9 @@ pub(crate) enum ConflictOutcome {
 
 /// Looks for an irreducible set of constraints that could not be met together.
 ///
-/// Deletion filter (Chinneck, Dravnieks 1991): constraints are left out one kind at a time, and stay out when the others still cannot be met. Those that hold at the least violation are left out
-/// together first, and stay out at once where the others still cannot be met.
+/// Deletion filter (Chinneck, Dravnieks 1991): constraints are left out one kind at a time, and stay out when the
+/// others still cannot be met. Those that hold at the least violation are left out together first, and stay out at once
+/// where the others still cannot be met.
 pub(super) fn conflict(
     model: &Model<'_>,
     settled: &[RefinedRun],
@@ -369,8 +375,9 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
 /// Radius within which all bounded variables lie around any point.
 const EVERYWHERE: f64 = 100.0;
 
-/// What rounding can cost a coefficient, relative to the largest length that takes part in it. Every coefficient is a sum of at most a few dozen products and
-/// quotients of the data, each of which costs less than `2^-52` of the largest of them: this leaves room for four thousand.
+/// What rounding can cost a coefficient, relative to the largest length that takes part in it. Every coefficient is a
+/// sum of at most a few dozen products and quotients of the data, each of which costs less than `2^-52` of the largest
+/// of them: this leaves room for four thousand.
 const ROUNDING: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// An interval that holds the coefficient whatever rounding did to it.
@@ -379,11 +386,11 @@ fn enclosed(x: f64, scale: f64) -> Interval {
         .unwrap_or(Interval::WHOLE)
 }
 
-/// `true` when no values of the variables within their bounds meet the requirements of `groups` at these poses, by a certificate that is
-/// judged in intervals.
+/// `true` when no values of the variables within their bounds meet the requirements of `groups` at these poses, by a
+/// certificate that is judged in intervals.
 ///
-/// Only where every one of them is a cone that is exact far from the point: greatest lengths and swing with given axes, the lines affine in the
-/// variables. `false` means that nothing is proved.
+/// Only where every one of them is a cone that is exact far from the point: greatest lengths and swing with given axes,
+/// the lines affine in the variables. `false` means that nothing is proved.
 pub(crate) fn proved_empty(
     model: &Model<'_>,
     poses: &[HeldPose],

@@ -148,7 +148,8 @@ fn nearest_box(a: &Vector3<f64>, e: &Vector3<f64>, half: &Vector3<f64>) -> (f64,
         if depth(x).0 < depth(y).0 { high = y } else { low = x }
     }
     let x = f64::midpoint(low, high);
-    // the least depth is where two faces are as far, one before and one behind: their mean that does not change along the segment
+    // the least depth is where two faces are as far, one before and one behind: their mean that does not change along
+    // the segment
     let (before, behind) = (depth((x - 1e-7).max(0.0)).1, depth((x + 1e-7).min(1.0)).1);
     let (falls, rises) = (before.dot(e), behind.dot(e));
     let normal = if falls < 0.0 && rises > 0.0 {

@@ -83,7 +83,8 @@ pub(super) struct Forces<'a> {
     weight: Option<&'a LegsWeight>,
 }
 
-/// Inverse of the matrix with the columns `[u, (R b x u) / L]`, which the forces under all loads share; `None` at a singular pose.
+/// Inverse of the matrix with the columns `[u, (R b x u) / L]`, which the forces under all loads share; `None` at a
+/// singular pose.
 pub(crate) fn inverse_of_columns(l: &LegLines, length: f64) -> Option<Matrix6<f64>> {
     l.jacobian(length).transpose().try_inverse()
 }

@@ -1,7 +1,7 @@
 //! The objectives as gains, to be large, in units of their own, with what the subproblems need of them.
 //!
-//! Units: 1 for condition and singular values, the size of the design for lengths, the stiffness of a leg, the frequency
-//! of the payload on a single leg, the greatest load for forces.
+//! Units: 1 for condition and singular values, the size of the design for lengths, the stiffness of a leg, the
+//! frequency of the payload on a single leg, the greatest load for forces.
 
 use nalgebra::{Matrix6, Vector3, Vector4, Vector6};
 

@@ -46,8 +46,9 @@ impl<'a> Model<'a> {
         Self::with_axes(problem, problem.axes_wanted())
     }
 
-    /// The same with axes along the legs at home instead of chosen ones, which come last among the variables; `None` without chosen ones, or
-    /// when nothing else is chosen. What meets the requirements here does so with axes to choose.
+    /// The same with axes along the legs at home instead of chosen ones, which come last among the variables; `None`
+    /// without chosen ones, or when nothing else is chosen. What meets the requirements here does so with axes to
+    /// choose.
     pub(crate) fn without_axes(&self) -> Option<Self> {
         if self.shape.axes == [None; 2] {
             return None;
@@ -92,7 +93,8 @@ impl<'a> Model<'a> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// The poses that every run starts with: home, corners, the ends of the axes, a few points between, and those that are listed.
+    /// The poses that every run starts with: home, corners, the ends of the axes, a few points between, and those that
+    /// are listed.
     pub(crate) fn first_poses(&self) -> Vec<HeldPose> {
         let (mut out, space) = (listed(self.problem), &self.problem.space);
         let mut points = space.cube_points(BETWEEN, &mut Rng::new(BETWEEN_CORNERS));

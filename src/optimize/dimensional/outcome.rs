@@ -89,9 +89,11 @@ impl std::fmt::Display for Demand {
 pub struct Give {
     /// Which.
     pub demand: Demand,
-    /// By how much it would have to give for the others of the conflict to be met, in its own unit; `None` when even that was not found.
+    /// By how much it would have to give for the others of the conflict to be met, in its own unit; `None` when even
+    /// that was not found.
     pub alone: Option<f64>,
-    /// Its violation where the sum of all violations (each in its scale) is least; 0 where it holds there because others give.
+    /// Its violation where the sum of all violations (each in its scale) is least; 0 where it holds there because
+    /// others give.
     pub together: f64,
 }
 
@@ -100,7 +102,8 @@ pub struct Give {
 pub struct ConstraintConflict {
     /// Without any one of them the others were met.
     pub demands: Vec<Give>,
-    /// Whether the set is proved to be in conflict: the constraints are convex and a checked certificate separates them.
+    /// Whether the set is proved to be in conflict: the constraints are convex and a checked certificate separates
+    /// them.
     pub proved: bool,
 }
 
@@ -129,8 +132,8 @@ pub struct DimensionalReport {
     pub feasible: usize,
     /// Where nothing that meets the requirements was found: the platform with the least violation. It misses some.
     pub nearest: Option<Box<DimensionalSolution>>,
-    /// Other local optima that meet the requirements at the poses that were held, best first: ends of polished runs whose value differs from that of the answer and of
-    /// each other, and so do their variables.
+    /// Other local optima that meet the requirements at the poses that were held, best first: ends of polished runs
+    /// whose value differs from that of the answer and of each other, and so do their variables.
     pub others: Vec<DimensionalSolution>,
     /// Weighted gains of the polished runs, best first; `None` when infeasible.
     pub polished: Vec<Option<f64>>,
@@ -214,8 +217,10 @@ fn axes(model: &Model<'_>, refined: &RefinedRun) -> [Option<[Unit<Vector3<f64>>;
 
 /// Every objective of a platform, in the order of the problem and in its unit (see the theory page).
 ///
-/// `space` has the home of the platform. `points` Halton points and as many random ones are looked at besides home, corners and listed poses; the mean is that over all of
-/// them. `also` are poses of the space at which the worst case is looked for besides, those of a search for instance. NaN where the platform has no value (forces at a singular pose).
+/// `space` has the home of the platform. `points` Halton points and as many random ones are looked at besides home,
+/// corners and listed poses; the mean is that over all of them. `also` are poses of the space at which the worst case
+/// is looked for besides, those of a search for instance. NaN where the platform has no value (forces at a singular
+/// pose).
 #[must_use]
 pub fn evaluate(
     p: &DimensionalProblem,
@@ -318,8 +323,8 @@ impl Cap {
 
 /// Axis (unit vector) that minimises the greatest angle to the directions, and the cosine of that angle.
 ///
-/// `max_c min_k u_k . c` over `|c| <= 1`; at the optimum two or three directions are on the rim, and the incremental algorithm of
-/// Welzl (1991) finds them. `None` for no direction, or when no open half space holds all.
+/// `max_c min_k u_k . c` over `|c| <= 1`; at the optimum two or three directions are on the rim, and the incremental
+/// algorithm of Welzl (1991) finds them. `None` for no direction, or when no open half space holds all.
 pub(crate) fn smallest_cap(directions: &[Vector3<f64>]) -> Option<(Vector3<f64>, f64)> {
     let first = directions.first()?;
     let mut cap = Cap { axis: *first, cos: 1.0 };

@@ -36,7 +36,8 @@ pub struct ParetoReport {
     pub dominated: usize,
     /// Bounds that no run met.
     pub unmet: usize,
-    /// The search under the same requirements where there is no front because it found nothing: infeasible or undecided.
+    /// The search under the same requirements where there is no front because it found nothing: infeasible or
+    /// undecided.
     pub failure: Option<Box<DimensionalReport>>,
     /// Whether the search was told to end; the front then consists of what was found until then, possibly nothing.
     pub interrupted: bool,
@@ -44,9 +45,9 @@ pub struct ParetoReport {
 
 /// The front by sweeping bounds of all objectives but the first (epsilon constraints, augmented by small weights).
 ///
-/// First every objective is optimised alone; the extremes span the bounds, `points` steps each. Every run starts from the extremes and from its
-/// neighbours. Members are kept when no other is at least as good in every objective by the dense evaluation. When `progress` says to break the
-/// front found until then is returned.
+/// First every objective is optimised alone; the extremes span the bounds, `points` steps each. Every run starts from
+/// the extremes and from its neighbours. Members are kept when no other is at least as good in every objective by the
+/// dense evaluation. When `progress` says to break the front found until then is returned.
 ///
 /// # Errors
 /// [`InvalidProblem`], also unless there are two or three objectives.

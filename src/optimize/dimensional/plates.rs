@@ -1,7 +1,7 @@
 //! Holes in the plates, and plates that the legs keep clear of, as functions of the joints with gradients.
 //!
-//! The plate of a body is the set of all points within its margin of the hull of the joints, between two faces. Its normal is taken as constant
-//! where gradients are formed: it is, unless joints leave their common plane.
+//! The plate of a body is the set of all points within its margin of the hull of the joints, between two faces. Its
+//! normal is taken as constant where gradients are formed: it is, unless joints leave their common plane.
 
 use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 
@@ -45,7 +45,8 @@ struct Seat {
     at: Point2<f64>,
 }
 
-/// A hole: its seat, where its middle is from that of the seat, its radius, and whether it turns with the direction to the seat.
+/// A hole: its seat, where its middle is from that of the seat, its radius, and whether it turns with the direction to
+/// the seat.
 #[derive(Debug, Clone, Copy)]
 struct PatternHole {
     seat: usize,
@@ -219,7 +220,8 @@ impl PlacedPlate<'_> {
         near.unwrap_or((*p, [(0, 0.0); 2]))
     }
 
-    /// How much farther the holes are from the outline than they have to be, for each hole and each edge of the outline that bounds its depth.
+    /// How much farther the holes are from the outline than they have to be, for each hole and each edge of the outline
+    /// that bounds its depth.
     pub(super) fn edges<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(PoseTerm<P>)) {
         let model = self.model;
         let kind = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
@@ -266,7 +268,8 @@ impl PlacedPlate<'_> {
 
     /// How much farther the holes and feet of two joints are apart than they have to be, and the holes of one.
     ///
-    /// Of two joints those holes that are no farther apart than the nearest ones and the width of their pattern: others are not the nearest ones of a platform nearby.
+    /// Of two joints those holes that are no farther apart than the nearest ones and the width of their pattern: others
+    /// are not the nearest ones of a platform nearby.
     pub(super) fn gaps<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(PoseTerm<P>)) {
         let model = self.model;
         let plate = model.plate;
@@ -368,7 +371,8 @@ impl PlacedPlate<'_> {
         Vector3::new(at.x, at.y, p.z.clamp(low, high))
     }
 
-    /// Gaps between a leg and the plate, signed: of a leg that runs into it, by how much it would have to be moved out of it.
+    /// Gaps between a leg and the plate, signed: of a leg that runs into it, by how much it would have to be moved out
+    /// of it.
     pub(super) fn clearances<P: Gradient>(
         &self,
         l: &LegLines,
@@ -414,7 +418,8 @@ impl PlacedPlate<'_> {
         }
     }
 
-    /// The share of a segment that is nearest to the plate, the signed distance there, what moves the plate, and the direction away from it, plate coordinates.
+    /// The share of a segment that is nearest to the plate, the signed distance there, what moves the plate, and the
+    /// direction away from it, plate coordinates.
     fn gap_of_segment<P: Gradient>(
         &self,
         l: &LegLines,
@@ -460,7 +465,8 @@ impl PlacedPlate<'_> {
         (share, distance, (pull, n))
     }
 
-    /// For a segment that runs into the plate: out of the face that the joints stand on or over an edge, whichever is less.
+    /// For a segment that runs into the plate: out of the face that the joints stand on or over an edge, whichever is
+    /// less.
     fn depth_of_segment<P: Gradient>(
         &self,
         l: &LegLines,
@@ -505,7 +511,8 @@ impl PlacedPlate<'_> {
 /// More holes of a joint, and more joints of a body, than there are.
 const PARTS: usize = 128;
 
-/// What stays as a leg changes: the share of its line at which a point is, its distance from the base joint, or from the platform joint.
+/// What stays as a leg changes: the share of its line at which a point is, its distance from the base joint, or from
+/// the platform joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum PlateSlide {
     Share,

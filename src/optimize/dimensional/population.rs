@@ -1,8 +1,8 @@
 //! Differential evolution: populations that find the basins from which the convex steps climb.
 //!
-//! Storn, Price (1997), with steps towards one of the best (Zhang, Sanderson 2009) for half of the trials. Requirements by the rule of Deb (2000):
-//! points that meet them by their gain, all before the others by their violation. A trial is given up at the first pose that shows
-//! that it is no better than its parent.
+//! Storn, Price (1997), with steps towards one of the best (Zhang, Sanderson 2009) for half of the trials. Requirements
+//! by the rule of Deb (2000): points that meet them by their gain, all before the others by their violation. A trial is
+//! given up at the first pose that shows that it is no better than its parent.
 
 use super::leg_lines::{HeldPose, LegLines};
 use super::model::Model;

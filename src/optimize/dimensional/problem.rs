@@ -8,7 +8,8 @@ use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, NotOctahedral, Octahedral};
 use synthesis::components::ComponentsError;
 
-/// What may change about base and platform: the triangles of an octahedral design, whose centroids and planes stay, or the sizes of any design.
+/// What may change about base and platform: the triangles of an octahedral design, whose centroids and planes stay, or
+/// the sizes of any design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Triangles {
     /// Nothing.
@@ -36,10 +37,12 @@ pub struct Variables {
     pub joint_axes: [bool; 2],
     /// One offset for the three edges of the base and one for those of the platform.
     pub symmetric: bool,
-    /// The symmetry of the whole platform at home that is kept. With [`KeptSymmetry::ThreeFold`] offsets are as with `symmetric`, and triangles change in size alone.
+    /// The symmetry of the whole platform at home that is kept. With [`KeptSymmetry::ThreeFold`] offsets are as with
+    /// `symmetric`, and triangles change in size alone.
     pub symmetry: KeptSymmetry,
-    /// Legs whose ends on the base and on the platform stay where they are: a body with such an end keeps its triangle and its size, and such legs slide on no family that moves
-    /// the end. Offsets put further joints beside those of the design, which stay.
+    /// Legs whose ends on the base and on the platform stay where they are: a body with such an end keeps its triangle
+    /// and its size, and such legs slide on no family that moves the end. Offsets put further joints beside those of
+    /// the design, which stay.
     pub fixed_ends: [[bool; 6]; 2],
     /// Least and greatest offset of each side, cyclic order.
     pub offset_bounds: [(f64, f64); 6],

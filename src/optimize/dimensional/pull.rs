@@ -1,4 +1,5 @@
-//! Derivatives by reverse accumulation: what a function pulls at on the joints, and what the variables do to the joints.
+//! Derivatives by reverse accumulation: what a function pulls at on the joints, and what the variables do to the
+//! joints.
 
 use nalgebra::{Rotation3, Vector3};
 

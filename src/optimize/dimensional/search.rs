@@ -32,7 +32,8 @@ pub struct ShapeSearchOptions {
     pub starts: usize,
     /// Runs that are polished.
     pub polished: usize,
-    /// When everything ends, the judging of what was found too, if at a time. The search itself ends where `progress` says so.
+    /// When everything ends, the judging of what was found too, if at a time. The search itself ends where `progress`
+    /// says so.
     pub until: Option<Instant>,
 }
 
@@ -66,7 +67,8 @@ pub struct Progress {
     pub total: usize,
     /// Best value of the first objective so far among runs that meet the requirements, in its unit.
     pub best: Option<f64>,
-    /// The least violation so far at the poses that were held, in the scale of the constraint that is missed most, and that constraint; `None` before the first run.
+    /// The least violation so far at the poses that were held, in the scale of the constraint that is missed most, and
+    /// that constraint; `None` before the first run.
     pub violation: Option<(Demand, f64)>,
 }
 
@@ -154,7 +156,8 @@ pub(crate) fn refine_adding(
     seed: u64,
 ) -> RefinedRun {
     let mut run = model.climb(&poses, task, start, Effort::POLISH);
-    // a run with an objective is given up if it misses a requirement at the first poses, one without goes on to what can be met
+    // a run with an objective is given up if it misses a requirement at the first poses, one without goes on to what
+    // can be met
     let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible();
     let mut complete = false;
     for round in 0..ROUNDS {
@@ -316,7 +319,8 @@ struct FirstPass {
 }
 
 impl FirstPass {
-    /// The most promising ends with different values that were not tried yet and promise more than `best`, by their worth over the poses known.
+    /// The most promising ends with different values that were not tried yet and promise more than `best`, by their
+    /// worth over the poses known.
     fn choose(&self, model: &Model<'_>, task: &Task, best: f64, count: usize) -> Vec<usize> {
         let mut judge = Judge::over(model, task, self.poses.clone());
         let worths: Vec<Option<PointMerit>> =
@@ -324,7 +328,8 @@ impl FirstPass {
         let tried: Vec<PointMerit> = self.tried.iter().filter_map(|k| worths[*k]).collect();
         let mut order: Vec<(usize, PointMerit)> =
             worths.into_iter().enumerate().filter_map(|(k, w)| Some((k, w?))).collect();
-        // the merit of the climbs: an end that misses little at poses it did not know is worth more than a poor one that misses nothing
+        // the merit of the climbs: an end that misses little at poses it did not know is worth more than a poor one
+        // that misses nothing
         order.sort_by(|a, b| b.1.merit(PENALTY).total_cmp(&a.1.merit(PENALTY)).then(a.0.cmp(&b.0)));
         let mut chosen: Vec<(usize, PointMerit)> = Vec::new();
         for (k, worth) in order {
@@ -374,8 +379,9 @@ pub(crate) fn search_task(
 
 /// Whether `runs` climbs that led to `ends` different ends let expect no other.
 ///
-/// The Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)` for `w` ends of `n` climbs, and no other is expected where that is below `w + 1/2` (Boender, Rinnooy Kan 1987).
-/// Its premise, starts drawn independently, holds for populations apart from each other but not within one.
+/// The Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)` for `w` ends of `n` climbs, and no other is
+/// expected where that is below `w + 1/2` (Boender, Rinnooy Kan 1987). Its premise, starts drawn independently, holds
+/// for populations apart from each other but not within one.
 pub(super) fn expects_no_other(runs: usize, ends: usize) -> bool {
     let (n, w) = (runs as f64, ends as f64);
     n > w + 2.0 && w * (n - 1.0) / (n - w - 2.0) < w + 0.5
@@ -392,7 +398,8 @@ struct TaskSearch<'s, 'a> {
 }
 
 impl TaskSearch<'_, '_> {
-    /// The points that are given, and the design itself unless its offsets are variables, in the variables of the first pass.
+    /// The points that are given, and the design itself unless its offsets are variables, in the variables of the first
+    /// pass.
     fn given(&self, given: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let start = &self.model.shape.start;
         let mut out: Vec<Vec<f64>> = given.iter().filter(|x| x.len() == start.len()).cloned().collect();
@@ -433,9 +440,11 @@ impl TaskSearch<'_, '_> {
         members.into_iter().flatten().chain(given).collect()
     }
 
-    /// Short climbs from the best members of the populations, batch after batch while other ends are to be expected, then from mixtures of the ends they led to.
+    /// Short climbs from the best members of the populations, batch after batch while other ends are to be expected,
+    /// then from mixtures of the ends they led to.
     ///
-    /// With them, where the requirements are not to be met from anywhere ([`unmet`]), runs towards the least violation: no further climbs are made then.
+    /// With them, where the requirements are not to be met from anywhere ([`unmet`]), runs towards the least violation:
+    /// no further climbs are made then.
     fn first_pass(
         &self,
         given: &[Vec<f64>],
@@ -480,7 +489,8 @@ impl TaskSearch<'_, '_> {
         unmet(model, &ends, self.options.threads, watch)
     }
 
-    /// Whether hardly another end is to be expected from further climbs; ends count as one by their worth over the same poses.
+    /// Whether hardly another end is to be expected from further climbs; ends count as one by their worth over the same
+    /// poses.
     fn are_all_found(&self, runs: &[Run]) -> bool {
         let mut judge = Judge::new(self.coarse, self.task);
         let mut ends: Vec<PointMerit> = Vec::new();
@@ -540,9 +550,9 @@ impl TaskSearch<'_, '_> {
 
 /// Finds the best platform that meets the requirements; `docs/theory/dimensional-synthesis.md` has the method.
 ///
-/// `given` are further starts, in the variables of [`super::DimensionalSolution::point`]. The answer is a local optimum, the best of all starts.
-/// Requirements hold at the held poses, to which the worst ones found between them were added until none was worse;
-/// [`machine::requirements::assess`] checks that with formulas of its own.
+/// `given` are further starts, in the variables of [`super::DimensionalSolution::point`]. The answer is a local
+/// optimum, the best of all starts. Requirements hold at the held poses, to which the worst ones found between them
+/// were added until none was worse; [`machine::requirements::assess`] checks that with formulas of its own.
 ///
 /// # Errors
 /// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
@@ -555,8 +565,8 @@ pub fn optimize(
     searched(problem, given, options, true, progress)
 }
 
-/// As [`optimize`], for a question that is asked again in another way where nothing is found: where no run meets the requirements no conflict is looked for, and the outcome is
-/// undecided.
+/// As [`optimize`], for a question that is asked again in another way where nothing is found: where no run meets the
+/// requirements no conflict is looked for, and the outcome is undecided.
 ///
 /// # Errors
 /// As [`optimize`].
@@ -592,10 +602,12 @@ fn searched(
     Ok(DimensionalReport { outcome, starts, feasible, nearest, others, polished, seed, interrupted })
 }
 
-/// A platform that meets the requirements of a problem at the poses that the search holds, a local optimum; `None` where no run meets them.
+/// A platform that meets the requirements of a problem at the poses that the search holds, a local optimum; `None`
+/// where no run meets them.
 ///
-/// That they are met is what is looked for, without an objective; the objectives are climbed for from the platform found. `known` are values of variables by their names, from
-/// which the first run starts: those of a problem with fewer variables, for instance.
+/// That they are met is what is looked for, without an objective; the objectives are climbed for from the platform
+/// found. `known` are values of variables by their names, from which the first run starts: those of a problem with
+/// fewer variables, for instance.
 ///
 /// # Errors
 /// As [`optimize`].
@@ -678,8 +690,9 @@ fn other_optima<'r>(task: &Task, refined: &'r [RefinedRun]) -> Vec<&'r RefinedRu
     kept.split_off(kept.len().min(1))
 }
 
-/// Runs whose ends differ, the first of each end kept. Ends with one value count as one, because symmetric platforms have the same end many times, and so do ends with nearly the same variables,
-/// which are one end approached from two sides.
+/// Runs whose ends differ, the first of each end kept. Ends with one value count as one, because symmetric platforms
+/// have the same end many times, and so do ends with nearly the same variables, which are one end approached from two
+/// sides.
 pub(super) fn distinct<'r>(
     runs: impl Iterator<Item = &'r RefinedRun>,
     value: impl Fn(&RefinedRun) -> f64,
@@ -696,8 +709,8 @@ pub(super) fn distinct<'r>(
     kept
 }
 
-/// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is returned where one `explains`. Runs that only lessen
-/// the violation take their places among the others.
+/// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is
+/// returned where one `explains`. Runs that only lessen the violation take their places among the others.
 fn met_or_conflict(
     model: &Model<'_>,
     task: &Task,
@@ -734,7 +747,8 @@ fn among(task: &Task, refined: &mut Vec<RefinedRun>, more: Vec<RefinedRun>) {
     refined.sort_by(|a, b| better(task, &a.run, &b.run));
 }
 
-/// One objective after the other, each run giving up no more than a share `slack` of those before; the last task and its runs.
+/// One objective after the other, each run giving up no more than a share `slack` of those before; the last task and
+/// its runs.
 fn through_levels(
     model: &Model<'_>,
     mut task: Task,

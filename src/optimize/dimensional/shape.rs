@@ -1,4 +1,5 @@
-//! From variables to joints: where the skeleton of the design puts the ends of the legs, the height of home, joint axes.
+//! From variables to joints: where the skeleton of the design puts the ends of the legs, the height of home, joint
+//! axes.
 
 use std::sync::Arc;
 
@@ -209,7 +210,8 @@ impl Shape {
         all.filter(|(k, _)| !used.contains(k)).map(|(_, p)| p.coords).collect()
     }
 
-    /// The platform at the variables: legs of the design in their order; shared joints stay shared unless offsets split them.
+    /// The platform at the variables: legs of the design in their order; shared joints stay shared unless offsets split
+    /// them.
     pub(super) fn manipulator(&self, x: &[f64]) -> Result<Manipulator, InvalidManipulator> {
         let ends = self.ends(x);
         let kept = self.joints == joints_of(&self.original);

@@ -1,8 +1,10 @@
 //! The softest loads and the slowest motions of a platform at a pose, as smooth functions of the legs.
 //!
-//! For a fixed unit load `w` the platform gives way by `|F|^2 / k` along it, `F = J^-T w`; the least stiffness is the least of `k / |F|^2` over all unit forces, or torques. For a fixed motion
-//! `v` the quotient `v^T K v / v^T M v` is no smaller than the square of the lowest natural frequency (Rayleigh). Each is smooth in the legs where the least value has kinks; the loads and
-//! motions are those that are softest at the point, and their sums and differences, among which the softest one of a nearby platform is found.
+//! For a fixed unit load `w` the platform gives way by `|F|^2 / k` along it, `F = J^-T w`; the least stiffness is the
+//! least of `k / |F|^2` over all unit forces, or torques. For a fixed motion `v` the quotient `v^T K v / v^T M v` is no
+//! smaller than the square of the lowest natural frequency (Rayleigh). Each is smooth in the legs where the least value
+//! has kinks; the loads and motions are those that are softest at the point, and their sums and differences, among
+//! which the softest one of a nearby platform is found.
 //!
 //! Derivatives, with `x = J^-1 F`: `d |F|^2 = -2 sum F_i dJ_i . x`, and `d (v^T K v) = 2 k sum (J v)_i dJ_i . v`.
 
@@ -26,7 +28,8 @@ const MIXED: usize = 3;
 /// Least part of the greatest softness that a motion has, for its quotient to be one.
 const SOFT: f64 = 1e-12;
 
-/// Stiffness of legs of stiffness 1 against forces, or against torques, in design units and radians. `None` at a singular pose.
+/// Stiffness of legs of stiffness 1 against forces, or against torques, in design units and radians. `None` at a
+/// singular pose.
 pub(super) fn stiffness<P: Gradient>(
     l: &LegLines,
     size: f64,
@@ -102,8 +105,8 @@ fn mix<P: Gradient, const N: usize>(list: &mut Vec<nalgebra::SVector<f64, N>>, f
     }
 }
 
-/// Adds `factor` times the gradient of twice the kinetic energy of a leg for the twist `v`, `(v, L w)`: with the velocity `c = v + w x R b` of its end, `a = u . c` and `B = T / |d|^2` it is
-/// `(m_a - B) a^2 + B |c|^2`.
+/// Adds `factor` times the gradient of twice the kinetic energy of a leg for the twist `v`, `(v, L w)`: with the
+/// velocity `c = v + w x R b` of its end, `a = u . c` and `B = T / |d|^2` it is `(m_a - B) a^2 + B |c|^2`.
 fn leg_mass<P: Gradient>(
     l: &LegLines,
     masses: &VibratingMasses,

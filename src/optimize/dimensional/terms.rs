@@ -99,8 +99,8 @@ impl<'a> RequirementTerms<'a> {
         self.stiffness(l, see);
     }
 
-    /// The requirements at a pose among which are those of a kind, a leg and another leg (keep-out, load), by a small part of the work of [`visit`](Self::visit): what is computed together with
-    /// them is seen too.
+    /// The requirements at a pose among which are those of a kind, a leg and another leg (keep-out, load), by a small
+    /// part of the work of [`visit`](Self::visit): what is computed together with them is seen too.
     pub(crate) fn visit_some<P: Gradient>(
         &self,
         l: &LegLines,
@@ -121,7 +121,8 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
-    /// Stiffness over the least one asked for, and half of the square of the natural frequency over its least one, each less what it has to be.
+    /// Stiffness over the least one asked for, and half of the square of the natural frequency over its least one, each
+    /// less what it has to be.
     fn stiffness<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(wanted) = self.required.platform_stiffness else { return };
         let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
@@ -223,8 +224,8 @@ impl<'a> RequirementTerms<'a> {
         PoseTerm { id: (kind, i, i, 0), value: (d.dot(&axis) - cos * l.length[i]) / self.size, pull, exact }
     }
 
-    /// Angles of universal joints: `(d.n - cos(limit) |d'|) / size` for the first, `d'` the part of the line across the first axis, and `(sin(limit) |d| -+ d.a) / size` for both sides of the
-    /// second.
+    /// Angles of universal joints: `(d.n - cos(limit) |d'|) / size` for the first, `d'` the part of the line across the
+    /// first axis, and `(sin(limit) |d| -+ d.a) / size` for both sides of the second.
     fn hinges<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, see: &mut impl FnMut(PoseTerm<P>)) {
         let hardware = &self.required.hardware;
         for kind in TermKind::HINGES {
@@ -564,7 +565,8 @@ impl<'a> RequirementTerms<'a> {
     }
 }
 
-/// `factor` times each quotient, less what it has to be; without quotients the pose is singular and there is no stiffness.
+/// `factor` times each quotient, less what it has to be; without quotients the pose is singular and there is no
+/// stiffness.
 fn quotients<P: Gradient>(
     kind: TermKind,
     found: Option<Vec<RayleighQuotient<P>>>,

@@ -24,8 +24,8 @@ const SPREADS: f64 = 2.0;
 /// First step of a search in the cube, and the last.
 const STEPS: (f64, f64) = (0.25, 1e-5);
 
-/// Requirements of single legs or pairs, and objectives, that depend on the pose. Each leg has worst poses of its own: searches for the
-/// worst of all legs end again and again at the one that is held already.
+/// Requirements of single legs or pairs, and objectives, that depend on the pose. Each leg has worst poses of its own:
+/// searches for the worst of all legs end again and again at the one that is held already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum PoseQuantity {
     Constraint(TermKind, usize, usize),
@@ -113,8 +113,8 @@ impl PoseScan<'_> {
         }
     }
 
-    /// Search along the axes and, for objectives, along as many random directions (singular values have kinks at which the axes lead nowhere), with
-    /// steps that shrink by halves.
+    /// Search along the axes and, for objectives, along as many random directions (singular values have kinks at which
+    /// the axes lead nowhere), with steps that shrink by halves.
     fn descend(
         &self,
         q: PoseQuantity,
@@ -150,7 +150,8 @@ impl PoseScan<'_> {
     }
 }
 
-/// Poses at which a constraint is violated, or an objective is worse than at the held poses, by more than a hundredth of the spare.
+/// Poses at which a constraint is violated, or an objective is worse than at the held poses, by more than a hundredth
+/// of the spare.
 pub(crate) fn worse_poses(
     model: &Model<'_>,
     x: &[f64],

@@ -1,5 +1,5 @@
-//! The 3^6 branches of the offsets, their division into cells on which the constraints have one shape, and starting points of
-//! a cell.
+//! The 3^6 branches of the offsets, their division into cells on which the constraints have one shape, and starting
+//! points of a cell.
 
 use super::climb::violation;
 use super::conditioning::worst_case_above;
@@ -100,8 +100,8 @@ impl std::fmt::Display for Branch {
 /// A closed interval of one offset.
 type Range = (f64, f64);
 
-/// A part of a zone outside of which some vertex is too close, and the parts of it in which the search moves: where the spacing from the
-/// vertices holds with the back-off, or all of it where it is too short for that.
+/// A part of a zone outside of which some vertex is too close, and the parts of it in which the search moves: where the
+/// spacing from the vertices holds with the back-off, or all of it where it is too short for that.
 #[derive(Debug, Clone, PartialEq)]
 struct ZonePiece {
     outer: Range,
@@ -174,8 +174,8 @@ pub(super) struct Division {
 }
 
 impl BranchCell {
-    /// `+-(|1 - t_i| d_i - |t_j| d_j) >= 0` of each ordered pair as `constant + by first + by second`. The two orders have the same coefficients with
-    /// opposite signs, to the last bit, so that every point is in one of them.
+    /// `+-(|1 - t_i| d_i - |t_j| d_j) >= 0` of each ordered pair as `constant + by first + by second`. The two orders
+    /// have the same coefficients with opposite signs, to the last bit, so that every point is in one of them.
     pub(crate) fn order_rows(&self) -> Vec<(usize, usize, [f64; 3])> {
         let row = |(pair, first_farther): &(SlidingPair, bool)| {
             let (e, f) = pair.edges();
@@ -323,10 +323,12 @@ pub(crate) fn feasible_points(
     (0..draws).map(|_| draw(cell, rng)).filter(|t| is_feasible(m, cell, t)).take(wanted).collect()
 }
 
-/// Distances from the corners of a box at which feasible offsets are looked for, in units of the last place of an offset.
+/// Distances from the corners of a box at which feasible offsets are looked for, in units of the last place of an
+/// offset.
 const NUDGES: [f64; 5] = [0.0, 1.0, 4.0, 16.0, 64.0];
 
-/// Offsets that meet all limits in exact arithmetic though nothing may be left to spare: where a restoration ended, or at a corner of the box.
+/// Offsets that meet all limits in exact arithmetic though nothing may be left to spare: where a restoration ended, or
+/// at a corner of the box.
 pub(crate) fn tight_point(
     problem: &OffsetProblem,
     cell: &BranchCell,

@@ -1,7 +1,7 @@
 //! Margins of offsets whose sign is that of exact arithmetic: the judge of what the search found.
 //!
-//! Data and offsets are the doubles they are, so that every limit is met or not without any tolerance. Shares nothing with the
-//! intervals that exclude boxes.
+//! Data and offsets are the doubles they are, so that every limit is met or not without any tolerance. Shares nothing
+//! with the intervals that exclude boxes.
 
 use nalgebra::Point3;
 
@@ -105,7 +105,8 @@ fn determinant_margin(t: &[f64; 6], plain: f64, required: f64) -> Option<f64> {
 }
 
 impl OffsetProblem {
-    /// Distances of the offsets from the limits; the sign of each is exact, zero is met exactly. `None` where a number is not finite.
+    /// Distances of the offsets from the limits; the sign of each is exact, zero is met exactly. `None` where a number
+    /// is not finite.
     pub fn margins(&self, t: &[f64; 6]) -> Option<Margins> {
         if !t.iter().all(|x| x.is_finite()) {
             return None;

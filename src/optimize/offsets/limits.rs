@@ -3,8 +3,8 @@
 //! All data are the doubles of the problem, in design units; every comparison is between ends of intervals that are
 //! rounded outwards (Moore 1966). Equality never excludes.
 //!
-//! The distance of two sliding joints of one body is a convex quadratic of two offsets, bounded from below. A cell is proved
-//! empty by a linear relaxation with a Farkas certificate that is judged in intervals.
+//! The distance of two sliding joints of one body is a convex quadratic of two offsets, bounded from below. A cell is
+//! proved empty by a linear relaxation with a Farkas certificate that is judged in intervals.
 
 use nalgebra::Vector3;
 
@@ -91,8 +91,8 @@ impl SlidingJoint {
 
     /// Offsets `a < b` between which, both included, the joint is closer to the vertex than required.
     ///
-    /// The squared distance is a convex function of the offset, so it is enough that it is below the required one at both ends: these are the
-    /// roots in plain arithmetic, moved inwards until the intervals agree.
+    /// The squared distance is a convex function of the offset, so it is enough that it is below the required one at
+    /// both ends: these are the roots in plain arithmetic, moved inwards until the intervals agree.
     fn too_close(&self, vertex: usize, required: Interval) -> Option<(f64, f64)> {
         let centre = |v: &Vector| v.map(|x| x.centre_and_radius().0);
         let (w, e) = (centre(&self.from_vertices[vertex]), centre(&self.edge));
@@ -155,7 +155,8 @@ impl OffsetLimits {
         left
     }
 
-    /// Two sliding joints of one body that are closer than required all over the box, with an upper bound of their distance.
+    /// Two sliding joints of one body that are closer than required all over the box, with an upper bound of their
+    /// distance.
     pub(crate) fn pair_too_close(&self, bounds: &OffsetRanges) -> Option<((usize, usize), f64)> {
         (0..6).find_map(|first| {
             let second = (first + 2) % 6;
@@ -172,7 +173,8 @@ impl OffsetLimits {
         })
     }
 
-    /// Upper bounds of `det A` and of `-det A` on a box: the greatest values are at corners because it is affine in every offset.
+    /// Upper bounds of `det A` and of `-det A` on a box: the greatest values are at corners because it is affine in
+    /// every offset.
     pub(crate) fn determinant_reach(bounds: &OffsetRanges) -> [f64; 2] {
         // products over three offsets at the eight corners of their ranges, of `1 - t` and of `t`
         let half = |first: usize| -> [(Interval, Interval); 8] {
@@ -205,8 +207,9 @@ impl OffsetLimits {
             || self.pair_too_close(bounds).is_some()
     }
 
-    /// Coefficients `[constant, by x, by y]` of affine functions that are nowhere on the box below `q(x, y) - required`, `q` the squared distance of the
-    /// sliding joints of sides `first` and `first + 2`: chords for the squares, `McCormick`'s two envelopes for the product.
+    /// Coefficients `[constant, by x, by y]` of affine functions that are nowhere on the box below
+    /// `q(x, y) - required`, `q` the squared distance of the sliding joints of sides `first` and `first + 2`: chords
+    /// for the squares, `McCormick`'s two envelopes for the product.
     fn overestimates(&self, first: usize, bounds: &OffsetRanges) -> [[Interval; 3]; 2] {
         let (a, b) = (&self.sides[first], &self.sides[(first + 2) % 6]);
         let (x, y) = (bounds[first], bounds[(first + 2) % 6]);
@@ -224,8 +227,8 @@ impl OffsetLimits {
             by_x + ee * (x0 + x1),
             by_y + ff * (y0 + y1),
         ];
-        // mixed x y <= mixed (p y + q x - p q) for the corners (p, q) of the side that its sign names; where the sign is not known both of its parts are
-        // bounded on their own
+        // mixed x y <= mixed (p y + q x - p q) for the corners (p, q) of the side that its sign names; where the sign
+        // is not known both of its parts are bounded on their own
         let (rise, fall) = (part(mixed, 0.0, f64::INFINITY), part(mixed, f64::NEG_INFINITY, 0.0));
         let corners = [((x1, y0), (x0, y0)), ((x0, y1), (x1, y1))];
         corners.map(|(up, down)| {

@@ -1,4 +1,5 @@
-//! Pulls the shared joints of an octahedral platform apart in the best way: finds the best equivalent 6-6 platform without shared joints.
+//! Pulls the shared joints of an octahedral platform apart in the best way: finds the best equivalent 6-6 platform
+//! without shared joints.
 //!
 //! Leg `i` of the new platform lies on the line through the cyclic legs `i` and `i + 1`, at offset `t_i`; the
 //! worst case over given poses of the inverse condition number is maximised over the six offsets, by

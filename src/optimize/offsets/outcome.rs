@@ -1,4 +1,5 @@
-//! The answer of the search, checked again on the original problem in design units by code that the search does not use.
+//! The answer of the search, checked again on the original problem in design units by code that the search does not
+//! use.
 
 use nalgebra::Matrix6;
 
@@ -12,8 +13,8 @@ use num::linalg::svd;
 use platform::manipulator::{Manipulator, jacobian};
 use synthesis::{AffineLegMap, joint_free, offset_determinant};
 
-/// Distances from the limits; negative means violated. The signs are those of exact arithmetic on the offsets and the design as they are
-/// written: zero is met exactly.
+/// Distances from the limits; negative means violated. The signs are those of exact arithmetic on the offsets and the
+/// design as they are written: zero is met exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Margins {
     /// Least distance of two base joint centres minus the required one, design units.
@@ -63,8 +64,8 @@ fn inverse_condition(j: &Matrix6<f64>) -> f64 {
 }
 
 impl OffsetProblem {
-    /// Evaluates offsets on the original problem: margins with exact signs, `det A` in
-    /// two ways, an SVD at every pose of the built manipulator. `None` when the offsets make no manipulator (not finite).
+    /// Evaluates offsets on the original problem: margins with exact signs, `det A` in two ways, an SVD at every pose
+    /// of the built manipulator. `None` when the offsets make no manipulator (not finite).
     #[must_use]
     pub fn recheck(&self, t: &[f64; 6]) -> Option<Recheck> {
         let (m, map) = joint_free(&self.octahedral, *t).ok()?;
@@ -123,10 +124,11 @@ pub struct OffsetSolution {
 /// The answer.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OffsetOutcome {
-    /// Feasible by the re-check, and no offsets exceed it by more than the gap asked for: proved ([`OffsetReport::bound`]).
+    /// Feasible by the re-check, and no offsets exceed it by more than the gap asked for: proved
+    /// ([`OffsetReport::bound`]).
     Optimal(Box<OffsetSolution>),
-    /// Feasible by the re-check and locally optimal by the evidence; how much better other offsets could be is bounded by a wider gap than asked for,
-    /// or not at all.
+    /// Feasible by the re-check and locally optimal by the evidence; how much better other offsets could be is bounded
+    /// by a wider gap than asked for, or not at all.
     LocalOptimum(Box<OffsetSolution>),
     /// Feasible by the re-check, but the evidence of local optimality is missing and so is the proof of a small gap.
     NotConverged(Box<OffsetSolution>),

@@ -162,8 +162,8 @@ pub(crate) struct OffsetModel {
     pub min_abs_det: f64,
 }
 
-/// The search keeps this distance (relative to the radius of the body; absolute in `det A`) from the true limits, so that
-/// a conic solver's residual cannot carry the answer across them. It is not part of any proof.
+/// The search keeps this distance (relative to the radius of the body; absolute in `det A`) from the true limits, so
+/// that a conic solver's residual cannot carry the answer across them. It is not part of any proof.
 pub(crate) const BACKOFF: f64 = 1e-8;
 
 impl OffsetModel {

@@ -1,7 +1,7 @@
 //! The search over all branches: divide, sample, rank every cell, polish the best ones.
 //!
-//! Two pieces of evidence follow: a derivative-free search around the solution, which uses neither the conic solver nor any
-//! derivative, and the bound over all offsets of the problem, which the best run is compared with.
+//! Two pieces of evidence follow: a derivative-free search around the solution, which uses neither the conic solver nor
+//! any derivative, and the bound over all offsets of the problem, which the best run is compared with.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -40,8 +40,8 @@ pub struct OffsetSearchOptions {
     pub starts: usize,
     /// Search every branch for its own best, not only for what the whole problem needs.
     pub survey: bool,
-    /// Greatest relative gap between the proved upper bound and the solution at which the solution counts as optimal. A proof
-    /// that takes too many boxes ends with a wider one.
+    /// Greatest relative gap between the proved upper bound and the solution at which the solution counts as optimal. A
+    /// proof that takes too many boxes ends with a wider one.
     pub gap: f64,
     /// Boxes of offsets after which the gap is widened.
     pub boxes: usize,
@@ -160,8 +160,8 @@ struct OffsetQuestion<'a> {
     limits: &'a OffsetLimits,
 }
 
-/// Best feasible run of a few short climbs from sampled starts, seeing the poses of `few`; without one, restoration, then a proof, then
-/// offsets that meet the limits with nothing to spare.
+/// Best feasible run of a few short climbs from sampled starts, seeing the poses of `few`; without one, restoration,
+/// then a proof, then offsets that meet the limits with nothing to spare.
 fn rank_cell(
     asked: OffsetQuestion<'_>,
     few: &OffsetModel,
@@ -201,10 +201,13 @@ pub(super) fn better(a: &LocalResult, b: &LocalResult) -> bool {
     a.is_feasible() && (!b.is_feasible() || a.value > b.value)
 }
 
-/// Finds the best platform without shared joints; see [`OffsetProblem`] for the problem, the theory page for the method.
+/// Finds the best platform without shared joints; see [`OffsetProblem`] for the problem, the theory page for the
+/// method.
 ///
-/// The best of several climbs is compared with all offsets there are by branch and bound ([`OffsetReport::bound`]), which also leads to better
-/// starts when there are any. `progress` may break the search off; the best until then is returned. With [`OffsetSearchOptions::survey`], with few cells, or when no feasible point is drawn, every branch is searched.
+/// The best of several climbs is compared with all offsets there are by branch and bound ([`OffsetReport::bound`]),
+/// which also leads to better starts when there are any. `progress` may break the search off; the best until then is
+/// returned. With [`OffsetSearchOptions::survey`], with few cells, or when no feasible point is drawn, every branch is
+/// searched.
 ///
 /// # Errors
 /// [`InvalidOffsetProblem`] when the problem cannot be asked. An infeasible problem is a value.
@@ -424,7 +427,8 @@ fn best_first(runs: &mut [(usize, LocalResult)]) {
     });
 }
 
-/// Where no climb ended at a better feasible point, the point it began at stays: a feasible set that is thinner than the back-off is left by climbs.
+/// Where no climb ended at a better feasible point, the point it began at stays: a feasible set that is thinner than
+/// the back-off is left by climbs.
 fn keep_ranked(m: &OffsetModel, ranked: &[CellResult], polished: &mut [(usize, LocalResult)]) {
     for (k, run) in polished.iter_mut() {
         if let CellResult::Feasible(own) = &ranked[*k] {

@@ -39,7 +39,8 @@ pub(super) fn poses() -> Vec<Pose> {
     poses_about(0.7, 5)
 }
 
-/// Full size: 27 poses, 729 branches, 20,000 random feasible designs. `cargo test --release -- --ignored --nocapture full_size`
+/// Full size: 27 poses, 729 branches, 20,000 random feasible designs. `cargo test --release -- --ignored --nocapture
+/// full_size`
 #[test]
 #[ignore = "takes a minute without optimisation"]
 #[allow(clippy::print_stdout)]

@@ -149,7 +149,8 @@ pub(super) fn assemble(
     }
 }
 
-/// Pattern search, then the re-check on the original problem; where that finds a violation, the point before the pattern search. `None` when both violate a limit.
+/// Pattern search, then the re-check on the original problem; where that finds a violation, the point before the
+/// pattern search. `None` when both violate a limit.
 fn solution(
     problem: &OffsetProblem,
     m: &OffsetModel,

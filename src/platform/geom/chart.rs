@@ -8,8 +8,8 @@ use super::turn::radians;
 use super::{Pose, PoseSpace, Region};
 use num::interval::Interval;
 
-/// A part of a pose space: `R = exp([w]x) R_0`, `p = p_0 + d` with `(d, w) = sum_k x_k column_k`, for all `x` of a cell that lie in the unit balls of some groups of
-/// coordinates.
+/// A part of a pose space: `R = exp([w]x) R_0`, `p = p_0 + d` with `(d, w) = sum_k x_k column_k`, for all `x` of a cell
+/// that lie in the unit balls of some groups of coordinates.
 ///
 /// Everything is enclosed: angles given in degrees, and a home rotation that is orthogonal to the last digit only.
 #[derive(Debug, Clone)]
@@ -116,7 +116,8 @@ pub enum Bisection {
 impl Chart {
     /// Cuts the chart in two until each cell is settled, on at most `cells` cells, and counts those looked at.
     ///
-    /// `settled` says of a cell that it is, or across which axis to cut it; `refutes` is asked about a point of each cell that is not.
+    /// `settled` says of a cell that it is, or across which axis to cut it; `refutes` is asked about a point of each
+    /// cell that is not.
     pub fn bisected(
         &self,
         cells: usize,
@@ -174,7 +175,8 @@ impl Chart {
         Self::new(pose, Vec::new(), Vec::new(), ChartCell::point([0.0; 6]))
     }
 
-    /// The region of a pose space, by the coordinates `x` of its half widths that are not 0: `[-1, 1]` each, and in unit balls for ellipsoids.
+    /// The region of a pose space, by the coordinates `x` of its half widths that are not 0: `[-1, 1]` each, and in
+    /// unit balls for ellipsoids.
     pub fn of_region(space: &PoseSpace) -> Self {
         let axes = space.axes();
         let width = |k: usize| {

@@ -1,4 +1,5 @@
-//! Random poses: all that are drawn anywhere, with what they are spread over. From which stream of the seed they come says `num::Purpose`.
+//! Random poses: all that are drawn anywhere, with what they are spread over. From which stream of the seed they come
+//! says `num::Purpose`.
 //!
 //! | drawn by | rotation | position | how many |
 //! |---|---|---|---|
@@ -88,7 +89,8 @@ pub struct SamplePlan {
 }
 
 impl SamplePlan {
-    /// Poses in the box of the given half widths (design units, degrees) about home; where all of them are zero, a quarter of the size and 20 degrees each way.
+    /// Poses in the box of the given half widths (design units, degrees) about home; where all of them are zero, a
+    /// quarter of the size and 20 degrees each way.
     #[must_use]
     pub fn about(
         m: &Manipulator,

@@ -81,8 +81,8 @@ pub fn determinant(m: &IntervalMatrix) -> Interval {
     sum
 }
 
-/// A positive vector `u`, found by power iteration, and a bound of `max (W u)_i / u_i` when that is below 1: then the spectral radius of every matrix with entries of at most the
-/// modulus of those of `W` is.
+/// A positive vector `u`, found by power iteration, and a bound of `max (W u)_i / u_i` when that is below 1: then the
+/// spectral radius of every matrix with entries of at most the modulus of those of `W` is.
 pub fn contraction(w: &IntervalMatrix) -> Option<([f64; 6], f64)> {
     let mut u = [1.0; 6];
     for _ in 0..6 {

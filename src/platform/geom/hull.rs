@@ -6,7 +6,8 @@ fn turn_of(a: &Point2<f64>, b: &Point2<f64>, c: &Point2<f64>) -> f64 {
     (b - a).perp(&(c - a))
 }
 
-/// Corners of the convex hull, counter-clockwise (monotone chain, Andrew 1979). A point nearer than `tolerance` to the line of its neighbours is not a corner.
+/// Corners of the convex hull, counter-clockwise (monotone chain, Andrew 1979). A point nearer than `tolerance` to the
+/// line of its neighbours is not a corner.
 #[must_use]
 pub fn convex_hull(points: &[Point2<f64>], tolerance: f64) -> Vec<Point2<f64>> {
     let mut sorted = points.to_vec();

@@ -17,8 +17,9 @@ pub struct BestLine {
 }
 
 impl BestLine {
-    /// The line with the least sum of squared distances from the points (Pearson 1901, "On lines and planes of closest fit"): through the centroid along the
-    /// principal axis. `None` for points in one place. Lengths are in the unit of the points.
+    /// The line with the least sum of squared distances from the points (Pearson 1901, "On lines and planes of closest
+    /// fit"): through the centroid along the principal axis. `None` for points in one place. Lengths are in the unit of
+    /// the points.
     #[must_use]
     pub fn of(points: &[Point3<f64>]) -> Option<Self> {
         let centroid = points.iter().map(|p| p.coords).sum::<Vector3<f64>>() / points.len() as f64;
@@ -46,7 +47,8 @@ impl BestLine {
 mod tests {
     use super::*;
 
-    /// Points on a line and one beside it, at sizes from 1e-150 to 1e150: the line is found, and its distance is in proportion.
+    /// Points on a line and one beside it, at sizes from 1e-150 to 1e150: the line is found, and its distance is in
+    /// proportion.
     #[test]
     fn the_line_of_points_that_lie_nearly_on_one() {
         for scale in [1e-150, 1.0, 1e150] {

@@ -127,8 +127,8 @@ impl ComplexPose {
         Pose { rotation: nearest_rotation(&r), position: self.position.map(|z| z.re) }
     }
 
-    /// The pose less a step of Newton's method: rotation vector `turn` by its Cayley transform, exactly orthogonal over `C`, and `shift`; `None` when
-    /// the rotation is too large for that.
+    /// The pose less a step of Newton's method: rotation vector `turn` by its Cayley transform, exactly orthogonal over
+    /// `C`, and `shift`; `None` when the rotation is too large for that.
     pub fn less_step(&self, turn: &Vector3<Complex64>, shift: &Vector3<Complex64>) -> Option<Self> {
         let w = turn * Complex64::new(-0.5, 0.0);
         let n = Complex64::ONE + w.dot(&w);
@@ -159,10 +159,12 @@ impl ComplexPose {
     }
 }
 
-/// The rotation nearest to a matrix that is nearly one: the orthogonal factor of its polar decomposition, by `X <- (X + X^-T) / 2` (Higham 1986), which converges for every
-/// regular matrix. A matrix with no positive determinant is near to none; it gives the rotation of its quaternion.
+/// The rotation nearest to a matrix that is nearly one: the orthogonal factor of its polar decomposition, by
+/// `X <- (X + X^-T) / 2` (Higham 1986), which converges for every regular matrix. A matrix with no positive determinant
+/// is near to none; it gives the rotation of its quaternion.
 ///
-/// The number of steps is bounded. `nalgebra`'s own iteration has no bound by default, and its angle can hover above the rounding of doubles without end.
+/// The number of steps is bounded. `nalgebra`'s own iteration has no bound by default, and its angle can hover above
+/// the rounding of doubles without end.
 pub fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
     let of_quaternion =
         || UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*m)).to_rotation_matrix();
@@ -184,7 +186,8 @@ pub fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
 /// `R^T R` of a rotation rounded to doubles differs from the identity by no more.
 pub(super) const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
-/// Steps of the polar decomposition: each halves the logarithm of the singular values far from one, and squares the error near it.
+/// Steps of the polar decomposition: each halves the logarithm of the singular values far from one, and squares the
+/// error near it.
 const POLAR_STEPS: usize = 60;
 
 /// One step of `R <- R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I` (over `C` as well).

@@ -1,4 +1,5 @@
-//! The other ways to write a pose: nalgebra's isometries, 4 x 4 matrices, position with quaternion, named angles, a line of numbers.
+//! The other ways to write a pose: nalgebra's isometries, 4 x 4 matrices, position with quaternion, named angles, a
+//! line of numbers.
 
 use std::str::FromStr;
 
@@ -8,7 +9,8 @@ use thiserror::Error;
 use super::Pose;
 use super::pose::{ROUNDED, nearest_rotation};
 
-/// `R^T R` of a matrix may differ from the identity by this much: matrices written with seven digits are still rotations.
+/// `R^T R` of a matrix may differ from the identity by this much: matrices written with seven digits are still
+/// rotations.
 const ORTHOGONAL: f64 = 1e-6;
 /// The norm of a quaternion may differ from 1 by this much: quaternions written with three digits are still rotations.
 const UNIT: f64 = 1e-3;
@@ -41,7 +43,8 @@ pub enum InvalidPose {
     Text(String),
 }
 
-/// Roll, pitch and yaw: turns about the fixed axes x, then y, then z, `R = Rz(yaw) Ry(pitch) Rx(roll)`, as `rpy_deg` in design files.
+/// Roll, pitch and yaw: turns about the fixed axes x, then y, then z, `R = Rz(yaw) Ry(pitch) Rx(roll)`, as `rpy_deg` in
+/// design files.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Angles {
     roll: f64,
@@ -74,8 +77,9 @@ impl Angles {
         [self.roll, self.pitch, self.yaw]
     }
 
-    /// The angles of a rotation: pitch from -90 to 90 degrees, the others from -180 to 180. At a pitch of 90 degrees either way only a combination of roll
-    /// and yaw is determined; the yaw is then as the rounding of the matrix has it, zero where the entries are, and the roll belongs to it.
+    /// The angles of a rotation: pitch from -90 to 90 degrees, the others from -180 to 180. At a pitch of 90 degrees
+    /// either way only a combination of roll and yaw is determined; the yaw is then as the rounding of the matrix has
+    /// it, zero where the entries are, and the roll belongs to it.
     #[must_use]
     pub fn of(rotation: &Rotation3<f64>) -> Self {
         let r = rotation.matrix();
@@ -112,7 +116,8 @@ impl Pose {
         Self { rotation: rotation.into(), position: position.into() }
     }
 
-    /// A pose from its position and the quaternion `[w, x, y, z]` of its rotation, scalar first, of norm 1 within a thousandth.
+    /// A pose from its position and the quaternion `[w, x, y, z]` of its rotation, scalar first, of norm 1 within a
+    /// thousandth.
     ///
     /// # Errors
     /// Entries that are not finite, another norm.

@@ -83,9 +83,9 @@ impl ListedFrom {
 
 /// All poses a platform has to reach.
 ///
-/// The region around home `(R0, p0)` holds the poses `(exp([w]x) R0, p0 + d)` (base frame), with `(d, w)` the image of a point
-/// `x` of the cube `[-1, 1]^6`: in a box `d_k = h_k x_k`; in an ellipsoid each half of `x` is first shortened by its
-/// greatest entry over its norm, which maps the cube onto the ball and its faces onto the sphere.
+/// The region around home `(R0, p0)` holds the poses `(exp([w]x) R0, p0 + d)` (base frame), with `(d, w)` the image of
+/// a point `x` of the cube `[-1, 1]^6`: in a box `d_k = h_k x_k`; in an ellipsoid each half of `x` is first shortened
+/// by its greatest entry over its norm, which maps the cube onto the ball and its faces onto the sphere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseSpace {
     /// Centre of the region.
@@ -180,8 +180,8 @@ impl PoseSpace {
         }
     }
 
-    /// Points of the cube spread over the region: the centre, all corners, `count` points of a Halton sequence, and `count` random ones of
-    /// which every second one is moved to a face.
+    /// Points of the cube spread over the region: the centre, all corners, `count` points of a Halton sequence, and
+    /// `count` random ones of which every second one is moved to a face.
     #[must_use]
     pub fn cube_points(&self, count: usize, rng: &mut Rng) -> Vec<Vector6<f64>> {
         let axes = self.axes();

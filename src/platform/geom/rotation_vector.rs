@@ -4,7 +4,9 @@ use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
 /// `w` with `exp([w]x) = R`, `|w| <= pi`, with all its digits near zero and near half a turn.
 ///
-/// By the quaternion (Shepperd 1978). The arc cosine of the trace loses half of the digits near zero, is not a number where rounding makes the trace larger than 3, and the axis of a half turn has no place in the skew part of the matrix.
+/// By the quaternion (Shepperd 1978). The arc cosine of the trace loses half of the digits near zero, is not a number
+/// where rounding makes the trace larger than 3, and the axis of a half turn has no place in the skew part of the
+/// matrix.
 pub fn rotation_vector(r: &Rotation3<f64>) -> Vector3<f64> {
     UnitQuaternion::from_rotation_matrix(r).scaled_axis()
 }

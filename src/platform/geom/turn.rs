@@ -6,7 +6,8 @@
 //! exp([w]x) = I + C_1(s) [w]x + C_2(s) [w]x^2,   C_1 = sin(t) / t,   C_2 = (1 - cos(t)) / t^2,   t = sqrt(s).
 //! ```
 //!
-//! The series is summed in outward-rounded intervals and closed by its first omitted term: sines of a mathematical library have no bound that could be relied on.
+//! The series is summed in outward-rounded intervals and closed by its first omitted term: sines of a mathematical
+//! library have no bound that could be relied on.
 
 use super::enclosed::{IntervalVector, Rotation, matrix, skew};
 use num::interval::Interval;
@@ -41,9 +42,10 @@ impl TurnCoefficients {
 
 /// Encloses the `n`-th derivative of `C_k`, `k` 1 or 2 and `n <= 2`, over an interval.
 ///
-/// `(-1)^n C_k^(n)` falls from its value at 0 as long as the next derivative keeps its sign. The derivatives of `C_1` are spherical Bessel
-/// functions, `C_1^(n) = (-1/2)^n j_n(t) / t^n`, with their first zeros at `t` = 4.4934, 5.7634, 6.9879 for `n` = 1, 2, 3; those of `C_2 = C_1(s/4)^2 / 2` keep
-/// their signs up to `t = 2 pi`, by the product rule. Beyond, `C_1 > -0.2173` (its least value) and the bounds of the values at 0 remain.
+/// `(-1)^n C_k^(n)` falls from its value at 0 as long as the next derivative keeps its sign. The derivatives of `C_1`
+/// are spherical Bessel functions, `C_1^(n) = (-1/2)^n j_n(t) / t^n`, with their first zeros at `t` = 4.4934, 5.7634,
+/// 6.9879 for `n` = 1, 2, 3; those of `C_2 = C_1(s/4)^2 / 2` keep their signs up to `t = 2 pi`, by the product rule.
+/// Beyond, `C_1 > -0.2173` (its least value) and the bounds of the values at 0 remain.
 fn stumpff(k: usize, n: usize, s: Interval) -> Interval {
     let (low, high) = (s.lo().max(0.0), s.hi().max(0.0));
     let falls_up_to = if k == 1 { [20.0, 33.0, LARGEST][n] } else { LARGEST };

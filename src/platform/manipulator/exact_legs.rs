@@ -1,7 +1,7 @@
 //! Legs as the exact numbers that their joints are, for ranks that no tolerance decides.
 //!
-//! Joints of a design with constructions are numbers of a field of square roots; plain doubles are the rational numbers they are.
-//! A point is homogeneous, `(1, x, y, z)`; the leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`.
+//! Joints of a design with constructions are numbers of a field of square roots; plain doubles are the rational numbers
+//! they are. A point is homogeneous, `(1, x, y, z)`; the leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`.
 
 use nalgebra::Point3;
 
@@ -123,7 +123,8 @@ impl ExactJoints {
         Some(residues)
     }
 
-    /// Bits of a common denominator of all coordinates, and a power of two that none of their conjugates exceeds, as its exponent.
+    /// Bits of a common denominator of all coordinates, and a power of two that none of their conjugates exceeds, as
+    /// its exponent.
     pub fn bits(&self) -> [i64; 2] {
         match self {
             Self::Doubles(legs) => {
@@ -151,7 +152,8 @@ pub struct LegResidues {
 }
 
 impl ExactLegs {
-    /// The legs as exactly as the joints are known; `None` for joints that are known between bounds only, and for coordinates with too many independent square roots.
+    /// The legs as exactly as the joints are known; `None` for joints that are known between bounds only, and for
+    /// coordinates with too many independent square roots.
     pub fn of(m: &Manipulator) -> Option<Self> {
         match ExactJoints::of(m)? {
             ExactJoints::Doubles(legs) => Self::of_doubles(&legs),
@@ -167,7 +169,8 @@ impl ExactLegs {
         }
     }
 
-    /// Legs as the rational numbers that their doubles are; `None` when a coordinate is not finite, which no manipulator has.
+    /// Legs as the rational numbers that their doubles are; `None` when a coordinate is not finite, which no
+    /// manipulator has.
     pub fn of_doubles(legs: &[Leg; 6]) -> Option<Self> {
         let of = |p: &Point3<f64>| Some(homogeneous(p)?.into_iter().map(Algebraic::Rational).collect());
         let base = legs.iter().map(|l| of(&l.base)).collect::<Option<_>>()?;

@@ -60,10 +60,10 @@ fn shortest_rotation(from: Vector3<f64>, to: Vector3<f64>) -> Rotation3<f64> {
 /// theta = atan2(sum n.(b_i'' x a_i'), sum a_i'.b_i'' - (n.a_i')(n.b_i'')),   b_i'' = R_0 b_i',
 /// ```
 ///
-/// which minimises the sum of squared leg lengths over turns about `n`; the platform centroid lies on `n` through
-/// the base centroid, at a height equal to the base radius (greatest distance of a base leg end from the
-/// centroid; [`Manipulator::size`] when the base leg ends coincide). Where every turn is equally good
-/// (both sums below `1e-12` of the squared size) `theta = 0`. Deterministic; not guaranteed to be free of singularities.
+/// which minimises the sum of squared leg lengths over turns about `n`; the platform centroid lies on `n` through the
+/// base centroid, at a height equal to the base radius (greatest distance of a base leg end from the centroid;
+/// [`Manipulator::size`] when the base leg ends coincide). Where every turn is equally good (both sums below `1e-12` of
+/// the squared size) `theta = 0`. Deterministic; not guaranteed to be free of singularities.
 #[must_use]
 pub fn default_home(m: &Manipulator) -> Pose {
     let legs = m.legs();
@@ -85,8 +85,9 @@ pub fn default_home(m: &Manipulator) -> Pose {
     Pose { rotation, position: base_centre + normal * height - rotation * platform_centre }
 }
 
-/// Height of the centre of the platform above the base, design units: with `n` the normal of the best-fit plane of the base leg ends, which points to positive z of the base
-/// frame, and the means `a`, `b` of the leg ends, it is `n . (R b + p - a)`.
+/// Height of the centre of the platform above the base, design units: with `n` the normal of the best-fit plane of the
+/// base leg ends, which points to positive z of the base frame, and the means `a`, `b` of the leg ends, it is
+/// `n . (R b + p - a)`.
 pub fn height_above_base(m: &Manipulator, pose: &Pose) -> f64 {
     let (base_centre, a) = centred(m.legs().map(|l| l.base.coords));
     let (platform_centre, _) = centred(m.legs().map(|l| l.platform.coords));

@@ -146,7 +146,8 @@ pub enum InvalidManipulator {
     TooSmall,
 }
 
-/// Coordinates up to here have leg lengths whose squares, sums of three squares of differences, are finite: `12 x^2 < 2^1024`.
+/// Coordinates up to here have leg lengths whose squares, sums of three squares of differences, are finite:
+/// `12 x^2 < 2^1024`.
 const FARTHEST: f64 = 3.8e153;
 
 /// Refuses coordinates that are not finite or too large.
@@ -246,7 +247,8 @@ impl Manipulator {
         (0..self.joints(body).len()).filter(|i| used.contains(i)).collect()
     }
 
-    /// The least distance of two joints of `body` that carry legs, with the indices of the first two that have it; `None` where one joint carries all legs.
+    /// The least distance of two joints of `body` that carry legs, with the indices of the first two that have it;
+    /// `None` where one joint carries all legs.
     #[must_use]
     pub fn nearest_joints(&self, body: Body) -> Option<(f64, [usize; 2])> {
         let (used, joints) = (self.used_joints(body), self.joints(body));
@@ -291,7 +293,8 @@ impl Manipulator {
         self.size
     }
 
-    /// Means of the six leg ends on the base and on the platform, each in the frame of its body: a joint with two legs counts twice.
+    /// Means of the six leg ends on the base and on the platform, each in the frame of its body: a joint with two legs
+    /// counts twice.
     pub fn mean_leg_ends(&self) -> [Vector3<f64>; 2] {
         let legs = self.legs();
         let mean = |end: fn(&Leg) -> Vector3<f64>| legs.iter().map(end).sum::<Vector3<f64>>() / 6.0;
@@ -368,7 +371,8 @@ mod tests {
         );
     }
 
-    /// Bodies of every magnitude that a double can hold: accepted with a size that can be squared, or refused with the reason.
+    /// Bodies of every magnitude that a double can hold: accepted with a size that can be squared, or refused with the
+    /// reason.
     #[test]
     fn size_can_be_squared() {
         let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];

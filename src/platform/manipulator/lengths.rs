@@ -11,8 +11,9 @@ pub struct LegLengths([f64; 6]);
 
 /// Squared leg lengths `s_i = l_i^2`, design units squared: each any number within a radius of a middle of two doubles.
 ///
-/// Squares of lengths are exact (the square of a double is the sum of two), and so are squares given as doubles; images under leg maps have the radius of
-/// their rounding. What is proved is proved for every choice within the radii. Solvers take the nearest doubles, [`get`](Self::get).
+/// Squares of lengths are exact (the square of a double is the sum of two), and so are squares given as doubles; images
+/// under leg maps have the radius of their rounding. What is proved is proved for every choice within the radii.
+/// Solvers take the nearest doubles, [`get`](Self::get).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SquaredLegLengths {
     middle: [DoubleDouble; 6],
@@ -140,7 +141,8 @@ impl SquaredLegLengths {
     /// Squares that are known to lie within `radius` of `middle`, leg by leg.
     ///
     /// # Errors
-    /// The first middle that is negative or not finite, or radius that is negative or not a number. An infinite radius says that nothing is known.
+    /// The first middle that is negative or not finite, or radius that is negative or not a number. An infinite radius
+    /// says that nothing is known.
     pub fn try_within(middle: [DoubleDouble; 6], radius: [f64; 6]) -> Result<Self, InvalidLengths> {
         validated(middle.map(DoubleDouble::hi))?;
         for (leg, value) in LegIndex::all().zip(radius) {

@@ -151,7 +151,8 @@ impl Octahedral {
         self.platform_points
     }
 
-    /// How far, at most, the coordinates of the corners of `body` are from those of [`base`](Self::base) or [`platform`](Self::platform).
+    /// How far, at most, the coordinates of the corners of `body` are from those of [`base`](Self::base) or
+    /// [`platform`](Self::platform).
     pub fn corner_radii(&self, body: Body) -> [f64; 3] {
         self.radii[body.index()]
     }

@@ -36,8 +36,8 @@ pub struct JointValues {
     left: OnceLock<[Vec<LeftOver>; 2]>,
 }
 
-/// What the doubles leave of the coordinates of a joint, as the nearest doubles again (zeros where that is not known), and how far, at most, a coordinate is from both
-/// doubles together.
+/// What the doubles leave of the coordinates of a joint, as the nearest doubles again (zeros where that is not known),
+/// and how far, at most, a coordinate is from both doubles together.
 type LeftOver = ([f64; 3], f64);
 
 impl PartialEq for JointValues {
@@ -167,8 +167,8 @@ impl Manipulator {
         doubles
     }
 
-    /// The same legs with ends that are at one place at one joint: by their doubles where these are the joints, by their exact coordinates where these are known, and
-    /// not at all where joints are known between bounds only.
+    /// The same legs with ends that are at one place at one joint: by their doubles where these are the joints, by
+    /// their exact coordinates where these are known, and not at all where joints are known between bounds only.
     pub fn with_merged_joints(&self) -> Self {
         let first = |body: Body, joint: usize| {
             let doubles = self.joints(body);
@@ -207,14 +207,16 @@ impl Manipulator {
         self.values.as_ref().map_or(0.0, |v| v.radius[body.index()][joint])
     }
 
-    /// What the doubles leave of the coordinates of the end of leg `i` on `body`, and how far the coordinates are, at most, from both together.
+    /// What the doubles leave of the coordinates of the end of leg `i` on `body`, and how far the coordinates are, at
+    /// most, from both together.
     pub fn end_low(&self, leg: usize, body: Body) -> ([f64; 3], f64) {
         let joint = body.of(self.pairs()[leg]);
         let doubles = [self.base_joints(), self.platform_joints()];
         self.values.as_ref().map_or(([0.0; 3], 0.0), |v| v.left(doubles)[body.index()][joint])
     }
 
-    /// The ends of leg `i` on base and platform, coordinate by coordinate: the doubles where these are the joints, else intervals that hold the joints.
+    /// The ends of leg `i` on base and platform, coordinate by coordinate: the doubles where these are the joints, else
+    /// intervals that hold the joints.
     pub fn enclosed_ends(&self, leg: usize) -> [[Interval; 3]; 2] {
         Body::BOTH.map(|body| {
             let (end, radius) = (self.joints(body)[body.of(self.pairs()[leg])], self.end_radius(leg, body));

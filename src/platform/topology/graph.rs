@@ -2,7 +2,8 @@
 
 use crate::manipulator::Manipulator;
 
-/// The bipartite graph of joints and legs up to isomorphism: joints are nodes, legs are edges; base and platform are told apart.
+/// The bipartite graph of joints and legs up to isomorphism: joints are nodes, legs are edges; base and platform are
+/// told apart.
 ///
 /// Stored is the least of all ways to number the legs; entry `i` is the number of the joint of leg `i`, joints numbered
 /// as they appear. Equal graphs are equal values.
@@ -106,8 +107,8 @@ impl Topology {
         shared(self.base) + shared(self.platform)
     }
 
-    /// Whether the legs share joints at least as in `finer`: this topology is had from that one by letting joints coincide
-    /// (base and platform kept apart). A topology is a merger of itself.
+    /// Whether the legs share joints at least as in `finer`: this topology is had from that one by letting joints
+    /// coincide (base and platform kept apart). A topology is a merger of itself.
     #[must_use]
     pub fn is_merger_of(self, finer: Self) -> bool {
         merges(&self, &finer, &mut [0; 6], 0)

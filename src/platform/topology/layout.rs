@@ -14,8 +14,8 @@ pub struct Layout {
 }
 
 impl Topology {
-    /// An arrangement with a small sum of squared angles between the ends of the legs: all orders of the base joints, platform joints in
-    /// the order of the mean direction of their base joints.
+    /// An arrangement with a small sum of squared angles between the ends of the legs: all orders of the base joints,
+    /// platform joints in the order of the mean direction of their base joints.
     #[must_use]
     pub fn layout(self) -> Layout {
         let n = self.base_joints();

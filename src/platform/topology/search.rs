@@ -7,12 +7,12 @@ use super::sequence::{JointIndex, Sequence, Step};
 
 type Legs = [(usize, usize); 6];
 
-/// All sequences for six legs (pairs of a base and a platform joint, any numbers) that need exactly `count` virtual legs and leave no
-/// joint out, least nested first.
+/// All sequences for six legs (pairs of a base and a platform joint, any numbers) that need exactly `count` virtual
+/// legs and leave no joint out, least nested first.
 ///
-/// The first body's start triangle is that of its first joints, with the other joints of that body placed by rigid steps; the second
-/// body's joints beyond three likewise. Both may be exchanged for others without changing anything else. Joints without a leg are not
-/// placed.
+/// The first body's start triangle is that of its first joints, with the other joints of that body placed by rigid
+/// steps; the second body's joints beyond three likewise. Both may be exchanged for others without changing anything
+/// else. Joints without a leg are not placed.
 #[must_use]
 pub fn sequences(legs: &[(usize, usize); 6], count: usize) -> Vec<Sequence> {
     let base: BTreeSet<JointIndex> = legs.iter().map(|l| JointIndex::Base(l.0)).collect();

@@ -1,7 +1,7 @@
 //! Trilateration sequences and the virtual legs they need.
 //!
-//! A point with known distances to three points that are in place has two places, one when the four are points of one body, whose
-//! orientation is known. Source: Porta, Thomas, sec. II.
+//! A point with known distances to three points that are in place has two places, one when the four are points of one
+//! body, whose orientation is known. Source: Porta, Thomas, sec. II.
 
 use super::graph::Topology;
 use super::search::sequences;
@@ -45,12 +45,14 @@ pub struct Step {
 
 /// How to place all joints from distances.
 ///
-/// One body, the *first*, is in place from the start: its start triangle is laid out and its other joints follow by rigid steps. Then
-/// three joints of the other body are placed by unoriented steps, and the rest of it by rigid ones. Of the distances that are known
-/// (legs, and those between the three joints) as many are not used as there are virtual legs: the closures.
+/// One body, the *first*, is in place from the start: its start triangle is laid out and its other joints follow by
+/// rigid steps. Then three joints of the other body are placed by unoriented steps, and the rest of it by rigid ones.
+/// Of the distances that are known (legs, and those between the three joints) as many are not used as there are virtual
+/// legs: the closures.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sequence {
-    /// Distances that have to be known beside the legs, as pairs of a base and a platform joint, in the order in which steps need them.
+    /// Distances that have to be known beside the legs, as pairs of a base and a platform joint, in the order in which
+    /// steps need them.
     pub virtual_legs: Vec<(usize, usize)>,
     /// The triangle that is laid out first: three joints of one body.
     pub start: [JointIndex; 3],
@@ -76,8 +78,8 @@ impl Topology {
         best.unwrap_or_else(|| unreachable!("three virtual legs are enough for six legs"))
     }
 
-    /// Whether one joint holds three legs and one virtual leg is needed: then position and orientation separate (Porta, Thomas,
-    /// Table II).
+    /// Whether one joint holds three legs and one virtual leg is needed: then position and orientation separate (Porta,
+    /// Thomas, Table II).
     #[must_use]
     pub fn is_decoupled(self) -> bool {
         let legs = self.legs();
@@ -111,8 +113,8 @@ mod tests {
         assert_eq!(sizes, [10, 7, 13, 3, 1]);
     }
 
-    /// Whatever the numbers of the joints and the order of the legs, every joint is placed once, from known distances, and every known
-    /// distance is used once: by a step, within a body, or as a closure.
+    /// Whatever the numbers of the joints and the order of the legs, every joint is placed once, from known distances,
+    /// and every known distance is used once: by a step, within a body, or as a closure.
     fn check(legs: &[(usize, usize); 6], s: &Sequence) {
         let known = |x: JointIndex, y: JointIndex| {
             x.across(y).is_none_or(|pair| legs.contains(&pair) || s.virtual_legs.contains(&pair))

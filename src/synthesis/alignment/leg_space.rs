@@ -2,10 +2,12 @@
 //!
 //! The origin of each body that belongs to a span of leg vectors, whatever frames it is written in.
 //!
-//! Three linear least-squares problems one after the other, each invariant under rotations of both bodies; what one leaves open the next decides.
-//! What the last one leaves open are translations that map the span to itself. See `docs/theory/alignment.md`.
+//! Three linear least-squares problems one after the other, each invariant under rotations of both bodies; what one
+//! leaves open the next decides. What the last one leaves open are translations that map the span to itself. See
+//! `docs/theory/alignment.md`.
 //!
-//! A design in canonical form is a span about its own origins; two designs are compared by how far two such spans are apart.
+//! A design in canonical form is a span about its own origins; two designs are compared by how far two such spans are
+//! apart.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
@@ -20,7 +22,8 @@ use platform::manipulator::{Leg, Manipulator};
 /// Where the entries `1, a, b` of an element stand.
 const HEAD: [usize; 7] = [0, 4, 8, 12, 1, 2, 3];
 
-/// Coordinates for two designs that are compared: the units of the first for both, each about the centroids of its own legs.
+/// Coordinates for two designs that are compared: the units of the first for both, each about the centroids of its own
+/// legs.
 pub(super) fn coordinates(of: &Manipulator, units: &Normalisation) -> Normalisation {
     let own = Normalisation::of(of);
     Normalisation { base_unit: units.base_unit, platform_unit: units.platform_unit, ..own }
@@ -95,7 +98,8 @@ impl LegSpace {
     }
 }
 
-/// `L` as a linear map from its entries `(x_0, a, b)` to its 3 x 3 block `C`, up to the elements that have nothing but `C`.
+/// `L` as a linear map from its entries `(x_0, a, b)` to its 3 x 3 block `C`, up to the elements that have nothing but
+/// `C`.
 #[derive(Debug, Clone)]
 pub(super) struct HeadMap {
     /// Orthonormal basis of the possible `(x_0, a, b)`.
@@ -211,8 +215,8 @@ fn heads(head: &HeadMap, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError>
 
 /// The block `C` of the element `(1, a, b, C)` with `(a, b)` across those with first entry zero.
 ///
-/// An open shift `(s, t)` is itself the head of an element `(0, s, t, C')`, and `s t^T` is a moment: the block changes by
-/// `s b^T + a t^T - C'`.
+/// An open shift `(s, t)` is itself the head of an element `(0, s, t, C')`, and `s t^T` is a moment: the block changes
+/// by `s b^T + a t^T - C'`.
 fn means(head: &HeadMap, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
     let first = head.split()?.0;
     let (a, b) = pair(&first[1..]);
@@ -261,7 +265,8 @@ fn solve(open: &[Vec<f64>], columns: &[Vec<f64>], target: &[f64]) -> Result<Leas
     Ok(LeastSquares { shift, open: rest, gap })
 }
 
-/// Size of the trial changes of joints that measure sensitivities, in units of the body; below the tolerance of every rank.
+/// Size of the trial changes of joints that measure sensitivities, in units of the body; below the tolerance of every
+/// rank.
 const TRIAL: f64 = 1e-11;
 /// How many of them.
 const TRIALS: u64 = 3;
@@ -297,7 +302,8 @@ impl Canonical {
         self.legs.map(|leg| Leg { base: leg.base + s, platform: leg.platform + t })
     }
 
-    /// How much the principal values and the canonical form change for a change of the joints by one unit of their body, to first order.
+    /// How much the principal values and the canonical form change for a change of the joints by one unit of their
+    /// body, to first order.
     pub(super) fn sensitivity(&self, seed: u64) -> Result<ShiftSensitivity, LinalgError> {
         let mut most = ShiftSensitivity { values: [0.0; 6], distance: 0.0 };
         for trial in 0..TRIALS {

@@ -1,8 +1,9 @@
 //! Finds the rigid motions of the base frame and of the platform frame under which one design is equivalent to another.
 //!
-//! Everything is computed from the span `L` of the leg vectors, which is all that equivalence knows of a design: its own origins (least-squares
-//! problems that rotations do not change), its own axes (principal axes of matrices formed from the projector on `L`), and from these the
-//! finitely many pairs of motions, or families of them, that can be. See `docs/theory/alignment.md`.
+//! Everything is computed from the span `L` of the leg vectors, which is all that equivalence knows of a design: its
+//! own origins (least-squares problems that rotations do not change), its own axes (principal axes of matrices formed
+//! from the projector on `L`), and from these the finitely many pairs of motions, or families of them, that can be. See
+//! `docs/theory/alignment.md`.
 
 mod leg_space;
 mod outcome;
@@ -33,8 +34,9 @@ const SAME: f64 = 1e-6;
 
 /// All pairs of rigid motions (of the base frame, of the platform frame) that make `b` equivalent to `a`.
 ///
-/// A pair takes a joint `x` of the base of `b` to `R x + p`, and likewise on the platform. Units must be the same; no body is reflected.
-/// The legs may be in any order. Pairs that lie in a continuous family of such pairs are given by one of each family.
+/// A pair takes a joint `x` of the base of `b` to `R x + p`, and likewise on the platform. Units must be the same; no
+/// body is reflected. The legs may be in any order. Pairs that lie in a continuous family of such pairs are given by
+/// one of each family.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.

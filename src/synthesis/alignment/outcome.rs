@@ -147,7 +147,8 @@ impl AlignmentUndecided {
 pub enum Alignment {
     /// These do.
     Found {
-        /// Nearest to no motion first. Their number is that of the pairs of motions that keep the span of A, one of every family.
+        /// Nearest to no motion first. Their number is that of the pairs of motions that keep the span of A, one of
+        /// every family.
         motions: Vec<Motion>,
         /// There are no others, up to the families they lie in.
         all: bool,
@@ -197,7 +198,8 @@ pub(super) fn dimensions_differ(a: &Canonical, b: &Canonical) -> Alignment {
     Alignment::None { difference, nearest: None }
 }
 
-/// The answer when no candidate makes the designs equivalent. `distance` is that of the canonical forms, where all candidates are known.
+/// The answer when no candidate makes the designs equivalent. `distance` is that of the canonical forms, where all
+/// candidates are known.
 pub(super) fn none_found(
     a: &Canonical,
     b: &Canonical,

@@ -2,8 +2,9 @@
 //!
 //! Axes of each body belong to the span.
 //!
-//! Symmetric 3 x 3 matrices formed from the projector on the span turn with the body. Their common principal axes are the axes; where two
-//! principal values agree, an angle about the third axis is left open, where all three agree, the whole rotation.
+//! Symmetric 3 x 3 matrices formed from the projector on the span turn with the body. Their common principal axes are
+//! the axes; where two principal values agree, an angle about the third axis is left open, where all three agree, the
+//! whole rotation.
 //!
 //! Gauss-Newton steps refine a pair of rigid motions until the moved legs lie in the span or cannot come nearer.
 
@@ -23,8 +24,8 @@ use platform::manipulator::Leg;
 /// Projector on a span, entry `(4 i + j, 4 k + l)`.
 pub(super) type Projector = SMatrix<f64, 16, 16>;
 
-/// Principal values closer than this (relative to the largest) count as equal. Two values that differ by less leave an angle open that
-/// other parts of the projector decide, so that nothing is lost by counting them as equal.
+/// Principal values closer than this (relative to the largest) count as equal. Two values that differ by less leave an
+/// angle open that other parts of the projector decide, so that nothing is lost by counting them as equal.
 const EQUAL: f64 = 1e-7;
 
 /// Which rotations of a body keep the principal axes.
@@ -48,7 +49,8 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// Of the base; `equal` says which principal values count as equal, for the second of two designs that are compared.
+    /// Of the base; `equal` says which principal values count as equal, for the second of two designs that are
+    /// compared.
     pub(super) fn of_base(p: &Projector, equal: Option<[bool; 2]>) -> Self {
         Self::of(|i, j, k, l| p[(4 * i + j, 4 * k + l)], equal)
     }
@@ -87,8 +89,8 @@ impl Axes {
     }
 }
 
-/// A symmetric matrix that turns with the body: a sum with fixed unequal weights of all that come to hand, so that two principal values
-/// agree by symmetry only.
+/// A symmetric matrix that turns with the body: a sum with fixed unequal weights of all that come to hand, so that two
+/// principal values agree by symmetry only.
 fn moments(p: &impl Fn(usize, usize, usize, usize) -> f64) -> Matrix3<f64> {
     let square = |m: Matrix3<f64>| m * m.transpose();
     let vector = |f: &dyn Fn(usize) -> f64| {
@@ -124,7 +126,8 @@ pub(super) type Turns = (Matrix3<f64>, Matrix3<f64>);
 pub(super) struct RotationCandidates {
     /// One of every connected family, if `complete`; starts for a search otherwise.
     pub(super) turns: Vec<Turns>,
-    /// Every pair of rotations that maps the one span to the other is in the list, up to rotations that keep both spans.
+    /// Every pair of rotations that maps the one span to the other is in the list, up to rotations that keep both
+    /// spans.
     pub(super) complete: bool,
 }
 
@@ -179,7 +182,8 @@ fn flips(freedom: Freedom, drawn: usize, seed: u64) -> Vec<Matrix3<f64>> {
     }
 }
 
-/// A part of the projector that turns by `e^{i (m theta + n phi)}`: `(m, n)`, its norm in A, the phase that takes B to A.
+/// A part of the projector that turns by `e^{i (m theta + n phi)}`: `(m, n)`, its norm in A, the phase that takes B to
+/// A.
 #[derive(Debug, Clone, Copy)]
 struct FourierPart {
     weight: (i32, i32),
@@ -351,8 +355,8 @@ fn residuals(normals: &[Vec<f64>], legs: &[Leg; 6], at: &(Pose, Pose)) -> Vec<f6
     vectors.flat_map(|v| normals.iter().map(|n| dot(n, &v)).collect::<Vec<_>>()).collect()
 }
 
-/// Derivatives of [`residuals`] by turn and shift of the base, turn and shift of the platform: one list each. The length of a leg
-/// vector is taken as constant, which is exact where the residuals vanish.
+/// Derivatives of [`residuals`] by turn and shift of the base, turn and shift of the platform: one list each. The
+/// length of a leg vector is taken as constant, which is exact where the residuals vanish.
 fn tangents(normals: &[Vec<f64>], legs: &[Leg; 6], at: &(Pose, Pose)) -> Vec<Vec<f64>> {
     let moves: Vec<(usize, bool, Vector3<f64>)> = (0..12)
         .map(|k| {

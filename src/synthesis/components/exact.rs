@@ -42,7 +42,8 @@ fn other_ends(six: &ExactLegs, body: Body, legs: &[usize]) -> Vec<AlgebraicVecto
     legs.iter().map(|i| others[*i].clone()).collect()
 }
 
-/// Dimension of the `y` in the span of independent `directions` for which `x (x) y` lies in the span of the vectors of `legs`.
+/// Dimension of the `y` in the span of independent `directions` for which `x (x) y` lies in the span of the vectors of
+/// `legs`.
 fn partners(
     six: &ExactLegs,
     body: Body,

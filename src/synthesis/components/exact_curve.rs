@@ -69,7 +69,8 @@ pub struct ExactCurve {
     pub parts: Vec<ExactPart>,
     /// The singular point of a cubic that is irreducible over the complex numbers, where it has one.
     pub singular_point: Option<ExactPoint>,
-    /// Whether a cubic has no singular point over the complex numbers; `None` for other degrees, and where the numbers are too long to decide it.
+    /// Whether a cubic has no singular point over the complex numbers; `None` for other degrees, and where the numbers
+    /// are too long to decide it.
     pub smooth: Option<bool>,
     forms: Vec<RationalPart>,
 }
@@ -119,7 +120,8 @@ fn coordinates(points: &[ExactVector], dimension: usize) -> Option<(Vec<usize>, 
     })
 }
 
-/// The bilinear equations of the legs between a plane (`near`) and a plane or space, as `M` with linear forms as entries.
+/// The bilinear equations of the legs between a plane (`near`) and a plane or space, as `M` with linear forms as
+/// entries.
 fn matrix(near: &[ExactVector], far: &[ExactVector]) -> Vec<Vec<ExactForm>> {
     let width = far[0].len();
     let rows: Vec<ExactVector> = near
@@ -255,7 +257,8 @@ impl ExactCurve {
         self.forms.iter().any(|p| p.kind == kind)
     }
 
-    /// Whether a part of one of these kinds passes through points near the body (design coordinates): `None` where the exact parts are not all known.
+    /// Whether a part of one of these kinds passes through points near the body (design coordinates): `None` where the
+    /// exact parts are not all known.
     pub(super) fn has_part(
         &self,
         kinds: impl Fn(ExactKind) -> bool,
@@ -279,7 +282,8 @@ impl ExactCurve {
     }
 }
 
-/// The exact point in which the lines through two pairs of points of a plane meet, homogeneous; `None` where they do not meet in one point.
+/// The exact point in which the lines through two pairs of points of a plane meet, homogeneous; `None` where they do
+/// not meet in one point.
 pub(super) fn meeting(lines: [[&AlgebraicVector; 2]; 2]) -> Option<AlgebraicVector> {
     let rows: Vec<AlgebraicVector> = lines.iter().flatten().map(|p| (*p).clone()).collect();
     let [relation] = <[AlgebraicVector; 1]>::try_from(relations(&rows)).ok()?;

@@ -1,8 +1,8 @@
 //! Plane curves with integer coefficients of any length, and how they split over the complex numbers, exactly.
 //!
-//! A line that is the only one of a cubic besides an irreducible conic is taken to itself by every conjugation, so that its
-//! coefficients are rational. A cubic without rational line therefore is irreducible over the complex numbers or consists of three
-//! lines, and it consists of lines exactly when it divides the determinant of its second derivatives.
+//! A line that is the only one of a cubic besides an irreducible conic is taken to itself by every conjugation, so that
+//! its coefficients are rational. A cubic without rational line therefore is irreducible over the complex numbers or
+//! consists of three lines, and it consists of lines exactly when it divides the determinant of its second derivatives.
 
 use num_bigint::BigInt;
 
@@ -145,10 +145,11 @@ impl ExactForm {
         Some(Self { degree, coefficients: integers(&relation) })
     }
 
-    /// The greatest common divisor of two forms that are not zero; `None` where it takes eliminations with numbers of more than `longest` bits.
+    /// The greatest common divisor of two forms that are not zero; `None` where it takes eliminations with numbers of
+    /// more than `longest` bits.
     ///
-    /// `g self = h other` has a solution with `deg h = deg self - k` exactly when the divisor has at least degree `k`. Where the products have full rank modulo a
-    /// prime there is none, and no long numbers are needed.
+    /// `g self = h other` has a solution with `deg h = deg self - k` exactly when the divisor has at least degree `k`.
+    /// Where the products have full rank modulo a prime there is none, and no long numbers are needed.
     pub(super) fn common_factor(&self, other: &Self, longest: u64) -> Option<Self> {
         for k in (1..=self.degree.min(other.degree)).rev() {
             let (g, h) = (other.degree - k, self.degree - k);
@@ -320,12 +321,14 @@ fn push(parts: &mut Vec<RationalPart>, kind: ExactKind, form: ExactForm) {
     }
 }
 
-/// A line with rational coefficients that divides the form: one of `lines`, or a line through rational points on two given lines.
+/// A line with rational coefficients that divides the form: one of `lines`, or a line through rational points on two
+/// given lines.
 fn rational_line(form: &ExactForm, lines: &[ExactForm]) -> Option<ExactForm> {
     if let Some(found) = lines.iter().find(|l| form.contains(l)) {
         return Some(found.clone());
     }
-    // a line that divides the form meets three lines that do not, and are not of one point, in rational points, and the first in another point than one of the others
+    // a line that divides the form meets three lines that do not, and are not of one point, in rational points, and the
+    // first in another point than one of the others
     let mut sections: Vec<(Place, Vec<Place>)> = Vec::new();
     for (p, q) in transversals() {
         let binary = form.on_line(&p, &q);
@@ -367,7 +370,8 @@ fn transversals() -> impl Iterator<Item = (Place, Place)> {
     (0..49i64).map(|k| ([2, 2 * k + 1, k * k + 3].map(BigInt::from), [1, k % 7, k / 7].map(BigInt::from)))
 }
 
-/// Rational roots of a polynomial, each once, as numerator and denominator: a root times the leading coefficient is an integer.
+/// Rational roots of a polynomial, each once, as numerator and denominator: a root times the leading coefficient is an
+/// integer.
 fn rational_roots(c: &[BigInt]) -> Vec<(BigInt, BigInt)> {
     let polynomial = IntPoly::new(c.to_vec()).primitive();
     let leading = polynomial.leading();
@@ -423,7 +427,8 @@ fn conic_kind(form: &ExactForm) -> ExactKind {
     }
 }
 
-/// Whether the cubic is proved to have no singular point over the complex numbers, modulo a prime; `false` proves nothing.
+/// Whether the cubic is proved to have no singular point over the complex numbers, modulo a prime; `false` proves
+/// nothing.
 ///
 /// The three partial derivatives, quadrics, have no common zero exactly when their products with the six monomials of
 /// degree 2 span all 15 forms of degree 4 (Macaulay 1902: a regular sequence of three quadrics contains all forms of
@@ -455,7 +460,8 @@ fn cubic_discriminant(c: &[BigInt]) -> BigInt {
 
 /// The singular point of a cubic that is irreducible over the complex numbers: one at most, hence rational.
 ///
-/// The forms of degree 4 modulo the derivatives have dimension 1 at a node and 2 at a cusp; multiplication with `x_k / l` on them has the one eigenvalue `p_k / l(p)`.
+/// The forms of degree 4 modulo the derivatives have dimension 1 at a node and 2 at a cusp; multiplication with
+/// `x_k / l` on them has the one eigenvalue `p_k / l(p)`.
 pub(super) fn cubic_point(form: &ExactForm) -> CubicPoint {
     if is_smooth(form) {
         return CubicPoint::None;
@@ -476,12 +482,14 @@ pub(super) fn cubic_point(form: &ExactForm) -> CubicPoint {
     };
     let coordinates: Place = point;
     let second = form.gradient().each_ref().map(|d| d.gradient().each_ref().map(|x| x.value(&coordinates)));
-    // rank 2 with the point in its kernel: the sum of the principal minors has the sign of the product of the two eigenvalues
+    // rank 2 with the point in its kernel: the sum of the principal minors has the sign of the product of the two
+    // eigenvalues
     let sum: BigInt = principal_minors(&second).iter().sum();
     CubicPoint::At { coordinates, cusp: sum == BigInt::ZERO, isolated: sum > BigInt::ZERO }
 }
 
-/// The point from the functionals on quartics that vanish on the products of the derivatives; `None` where `l` vanishes at it.
+/// The point from the functionals on quartics that vanish on the products of the derivatives; `None` where `l` vanishes
+/// at it.
 fn eigenvalues(dual: &[ExactVector], l: [i32; 3]) -> Option<Place> {
     let zero = || Rational::from_integer(BigInt::ZERO);
     // functionals on cubics: multiplication with a linear form first

@@ -1,8 +1,8 @@
 //! Flats that legs end on, and the pairs of flats that are looked at for families.
 //!
-//! A flat has coordinates of its own, normalised to the joints in it. The legs between two flats that are combinations of
-//! given legs satisfy bilinear equations `N_r(a, b) = 0`. Closed pairs, which hold all legs between the flats that these legs
-//! span, are found exactly and within a tolerance.
+//! A flat has coordinates of its own, normalised to the joints in it. The legs between two flats that are combinations
+//! of given legs satisfy bilinear equations `N_r(a, b) = 0`. Closed pairs, which hold all legs between the flats that
+//! these legs span, are found exactly and within a tolerance.
 
 use std::collections::BTreeMap;
 
@@ -17,8 +17,8 @@ use platform::manipulator::{Body, ExactLegs, Leg};
 /// Below this ratio of the spreads of the joints the axes follow the joints, with a unit for each.
 const NARROW: f64 = 1e-2;
 
-/// A flat `origin + sum_k xi_k axes_k` with orthogonal axes, as long as the joints reach: local coordinates are of order one,
-/// also for joints nearly on a line or nearly in a plane.
+/// A flat `origin + sum_k xi_k axes_k` with orthogonal axes, as long as the joints reach: local coordinates are of
+/// order one, also for joints nearly on a line or nearly in a plane.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Flat {
     pub(super) origin: Vector3<f64>,

@@ -232,7 +232,8 @@ pub(super) fn common_factor(
     Ok((Form::constant(1.0), above, None))
 }
 
-/// The determinant of `order` random combinations of rows and columns of a matrix of linear forms: a general combination of its minors of that order.
+/// The determinant of `order` random combinations of rows and columns of a matrix of linear forms: a general
+/// combination of its minors of that order.
 pub(super) fn random_minor(m: &[Vec<Form>], order: usize, rng: &mut Rng) -> Form {
     let (height, width) = (m.len(), m.first().map_or(0, Vec::len));
     let left: Vec<Vec<f64>> = (0..order).map(|_| random_vector(rng, height)).collect();

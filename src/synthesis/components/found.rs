@@ -1,6 +1,7 @@
 //! The families of one closed pair over points, lines, conics and planes.
 //!
-//! Which platform points belong to a base point that moves along a line or conic is the kernel of a matrix of polynomials.
+//! Which platform points belong to a base point that moves along a line or conic is the kernel of a matrix of
+//! polynomials.
 
 use nalgebra::Vector3;
 
@@ -147,7 +148,8 @@ pub(super) struct FoundComponents {
     pub(super) decisions: Vec<Decision>,
 }
 
-/// A product of flats seen from one body, which carries points over which partners stand: `product.base` belongs to `carrying`.
+/// A product of flats seen from one body, which carries points over which partners stand: `product.base` belongs to
+/// `carrying`.
 #[derive(Debug, Clone)]
 pub(super) struct View<'a> {
     pub(super) product: &'a FlatProduct,

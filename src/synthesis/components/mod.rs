@@ -1,14 +1,15 @@
 //! Finds all families of replaceable legs of a design.
 //!
-//! The squared length of a leg `(a, b)` is an affine function of those of the six legs exactly when
-//! `(1, a) (x) (1, b)` lies in the span of `v_1, .., v_6` (see [`leg_vector`](super::leg_vector())); then the leg may replace
-//! one of those it is a combination of. These legs are a variety, and this module lists its components of positive
-//! dimension with formulas, together with what they are contained in.
+//! The squared length of a leg `(a, b)` is an affine function of those of the six legs exactly when `(1, a) (x) (1, b)`
+//! lies in the span of `v_1, .., v_6` (see [`leg_vector`](super::leg_vector())); then the leg may replace one of those
+//! it is a combination of. These legs are a variety, and this module lists its components of positive dimension with
+//! formulas, together with what they are contained in.
 //!
-//! A combination of `k'` independent legs, all of them used, that is a leg between flats of dimensions `i` and `j` spanned
-//! by these legs needs `k' >= i + j + 1` (Sylvester's inequality for the rank of `sum c_l (1, a_l) (1, b_l)^T`). So for six
-//! legs only these pairs of flats have to be looked at: a point and any flat; two lines (`k' = 3, 4`); line and plane
-//! (4, 5, 6); line and space (5, 6); two planes (5, 6); plane and space (6). Proofs and formulas: `docs/theory/components.md`.
+//! A combination of `k'` independent legs, all of them used, that is a leg between flats of dimensions `i` and `j`
+//! spanned by these legs needs `k' >= i + j + 1` (Sylvester's inequality for the rank of
+//! `sum c_l (1, a_l) (1, b_l)^T`). So for six legs only these pairs of flats have to be looked at: a point and any
+//! flat; two lines (`k' = 3, 4`); line and plane (4, 5, 6); line and space (5, 6); two planes (5, 6); plane and space
+//! (6). Proofs and formulas: `docs/theory/components.md`.
 
 mod component;
 pub(super) mod exact;
@@ -49,8 +50,8 @@ use platform::manipulator::{
 /// Limits of [`components`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ComponentOptions {
-    /// Singular values, distances and residuals below this, relative to the size of the body, the largest singular value or
-    /// the norm of the equation, count as zero in the numerical reading.
+    /// Singular values, distances and residuals below this, relative to the size of the body, the largest singular
+    /// value or the norm of the equation, count as zero in the numerical reading.
     pub tolerance: f64,
     /// Seed of the generic points.
     pub seed: u64,
@@ -120,8 +121,8 @@ pub struct Components {
 
 /// All families of replaceable legs of `m`.
 ///
-/// Every rank is decided twice: exactly, on the joints as the numbers they are, and within the tolerance; the families of both
-/// readings are listed, and each says which it belongs to ([`Component::exact`]).
+/// Every rank is decided twice: exactly, on the joints as the numbers they are, and within the tolerance; the families
+/// of both readings are listed, and each says which it belongs to ([`Component::exact`]).
 ///
 /// # Errors
 /// [`ComponentsError`].
@@ -205,13 +206,15 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     Ok(Components { components, pairs, planes, leg_rank, doubts, span, options })
 }
 
-/// Whether the vector of a leg is a combination of those of six, all coordinates taken as the rational numbers they are.
+/// Whether the vector of a leg is a combination of those of six, all coordinates taken as the rational numbers they
+/// are.
 #[must_use]
 pub fn exactly_replaceable(legs: &[Leg; 6], leg: &Leg) -> bool {
     ExactLegs::of_doubles(legs).is_some_and(|six| exact::contains(&six, leg))
 }
 
-/// Homogeneous partners of a point of one body: the `y` for which point and `y` are a leg that is a combination of some of the six. Exact.
+/// Homogeneous partners of a point of one body: the `y` for which point and `y` are a leg that is a combination of some
+/// of the six. Exact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ExactPartners {
     /// Dimension of their space; zero is a proof that no replaceable leg ends there.

@@ -1,5 +1,5 @@
-//! Families over a plane: the curve on which `M(a)` loses rank and its parts, the points over which the rank falls by two,
-//! and, for two planes, the correspondence between their curves.
+//! Families over a plane: the curve on which `M(a)` loses rank and its parts, the points over which the rank falls by
+//! two, and, for two planes, the correspondence between their curves.
 
 use nalgebra::{Point3, Vector3};
 
@@ -132,7 +132,8 @@ pub(super) fn joints_on_line(line: &Form, joints: &[Vec<f64>], tolerance: f64) -
     (0..joints.len()).filter(|k| incidence(&line.coefficients, &joints[*k]).abs() <= limit).collect()
 }
 
-/// Two finite points of a line, first coordinate 1: two joints on it where there are two. `None` for the line at infinity.
+/// Two finite points of a line, first coordinate 1: two joints on it where there are two. `None` for the line at
+/// infinity.
 pub(super) fn line_points(line: &Form, joints: &[Vec<f64>], tolerance: f64) -> Option<[Vec<f64>; 2]> {
     let on = joints_on_line(line, joints, tolerance);
     if let Some(first) = on.first() {
@@ -181,17 +182,17 @@ fn functionals(view: &View<'_>, rng: &mut Rng) -> Result<Vec<Vec<f64>>, LinalgEr
     Ok(s.kernel(s.rank(COMPUTED * view.tolerance * s.values[0])).to_vec())
 }
 
-/// How many independent conditions the points of rank `j - 1` or less put on forms: ten less the dimension of the span of
-/// the minors of order `j`, cubics for a space over a plane. Zero shows that there is no such point.
+/// How many independent conditions the points of rank `j - 1` or less put on forms: ten less the dimension of the span
+/// of the minors of order `j`, cubics for a space over a plane. Zero shows that there is no such point.
 pub(super) fn conditions(view: &View<'_>, rng: &mut Rng) -> Result<usize, LinalgError> {
     Ok(functionals(view, rng)?.len())
 }
 
-/// The points of rank `j - 1` or less, as long as there are finitely many, none of them multiple and no more than forms of degree `j - 1` tell apart;
-/// and the number of complex ones.
+/// The points of rank `j - 1` or less, as long as there are finitely many, none of them multiple and no more than forms
+/// of degree `j - 1` tell apart; and the number of complex ones.
 ///
-/// The functionals are combinations of the values at the points. So `d(x_k q)` for forms `q` of degree `j - 1` is `C P_k V` with diagonal `P_k`, the coordinates of
-/// the points, and `(C P_k V) (C P_l V)^+ = C P_k / P_l C^-1`.
+/// The functionals are combinations of the values at the points. So `d(x_k q)` for forms `q` of degree `j - 1` is
+/// `C P_k V` with diagonal `P_k`, the coordinates of the points, and `(C P_k V) (C P_l V)^+ = C P_k / P_l C^-1`.
 pub(super) fn located(view: &View<'_>, rng: &mut Rng) -> Result<(Vec<Vec<f64>>, usize), LinalgError> {
     let dual = functionals(view, rng)?;
     let degree = view.product.platform.dimension();
@@ -329,7 +330,8 @@ pub struct PlanePair {
     pub base: PlaneCurve,
     /// Platform plane.
     pub platform: PlaneCurve,
-    /// `sum_pq equations[r][p][q] alpha_p beta_q = 0` for the legs, `alpha = (1, x, y)` on the base and `beta` on the platform.
+    /// `sum_pq equations[r][p][q] alpha_p beta_q = 0` for the legs, `alpha = (1, x, y)` on the base and `beta` on the
+    /// platform.
     pub equations: Vec<[[f64; 3]; 3]>,
     /// `Some(true)`: the cubic of the base plane of the exact data is proved to have no singular point, so that it does
     /// not split; `Some(false)`: it has one; `None`: there is no exact cubic, or its numbers are too long.
@@ -350,8 +352,8 @@ pub enum Partners {
 }
 
 impl PlanePair {
-    /// The points of the other plane that make a replaceable leg with a point of the plane of `body`; singular values of `M`
-    /// not above `limit` (unit equations, unit point) count as zero.
+    /// The points of the other plane that make a replaceable leg with a point of the plane of `body`; singular values
+    /// of `M` not above `limit` (unit equations, unit point) count as zero.
     ///
     /// # Errors
     /// When the decomposition does not converge.
@@ -500,7 +502,8 @@ mod tests {
     use super::super::form::same_point;
     use super::*;
 
-    /// Legs between two base lines and two platform lines, three each: a line of partners stands over the crossing of the base lines.
+    /// Legs between two base lines and two platform lines, three each: a line of partners stands over the crossing of
+    /// the base lines.
     #[test]
     fn the_crossing_of_two_pairings_is_located_and_nothing_in_a_general_design() {
         let mut rng = Rng::new(41);

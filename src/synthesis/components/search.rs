@@ -1,7 +1,7 @@
 //! The search for all families of a design.
 //!
-//! Every closed pair is looked at; each family is kept once, with the legs that belong to it, and exact arithmetic confirms
-//! or denies what floating point has found.
+//! Every closed pair is looked at; each family is kept once, with the legs that belong to it, and exact arithmetic
+//! confirms or denies what floating point has found.
 
 use nalgebra::Vector3;
 
@@ -130,8 +130,8 @@ impl FamilySearch<'_> {
         Ok(())
     }
 
-    /// Families over the parts of one kind of the curve in one plane, and over the plane itself; whether exact arithmetic
-    /// denies one of them.
+    /// Families over the parts of one kind of the curve in one plane, and over the plane itself; whether exact
+    /// arithmetic denies one of them.
     fn parts(
         &mut self,
         view: &View<'_>,
@@ -255,8 +255,9 @@ impl FamilySearch<'_> {
         Ok(())
     }
 
-    /// Points of a plane over which whole lines stand that are not joints: crossings of lines through joints, and what is left as
-    /// common zeros of the minors of order 3; that there are no others is shown by the dimension these leave of all cubics.
+    /// Points of a plane over which whole lines stand that are not joints: crossings of lines through joints, and what
+    /// is left as common zeros of the minors of order 3; that there are no others is shown by the dimension these leave
+    /// of all cubics.
     fn isolated_points(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
         let joints: Vec<Vec<f64>> = view.near.iter().map(|p| view.product.base.local(p)).collect();
         let conditions = super::planes::conditions(view, &mut self.rng)?;
@@ -486,7 +487,8 @@ impl FamilySearch<'_> {
         Ok(curve.has_part(|k| if line { lines(k) } else { k == ExactKind::Conic }, &places))
     }
 
-    /// Whether the exact data have partners of that dimension over the crossing of two lines of joints that is nearest to a point.
+    /// Whether the exact data have partners of that dimension over the crossing of two lines of joints that is nearest
+    /// to a point.
     fn exact_meeting(
         &self,
         view: &View<'_>,

@@ -293,8 +293,9 @@ impl MovingPoint {
 /// The legs of a plane cubic and its partner, by the lines through one base joint on the cubic.
 ///
 /// At the parameter `t` in `[0, 2)` the line has the direction `cos(pi t) axes_0 + sin(pi t) axes_1`; besides the
-/// centre it meets the cubic in the two points with `s = (-B +- sqrt(B^2 - 4 A C)) / (2 A)`, the upper sign for `t < 1`,
-/// where `A s^3 + B s^2 + C s` is the cubic at `(1, s cos + c1, s sin + c2)`. The platform point is the null vector of `M`.
+/// centre it meets the cubic in the two points with `s = (-B +- sqrt(B^2 - 4 A C)) / (2 A)`, the upper sign for
+/// `t < 1`, where `A s^3 + B s^2 + C s` is the cubic at `(1, s cos + c1, s sin + c2)`. The platform point is the null
+/// vector of `M`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CubicPencil {
     /// Origin and axes of the base plane, design units: `a = origin + x axes_0 + y axes_1`.
@@ -305,8 +306,8 @@ pub struct CubicPencil {
     pub centre: [f64; 3],
     /// The cubic of the base plane: coefficients of `1, x, y, x^2, xy, y^2, x^3, x^2 y, x y^2, y^3`.
     pub cubic: [f64; 10],
-    /// `equations[r][p][q]`: `sum alpha_p beta_q equations[r][p][q] = 0` for the legs with `alpha = (1, x, y)` on the base
-    /// and `beta` likewise on the platform.
+    /// `equations[r][p][q]`: `sum alpha_p beta_q equations[r][p][q] = 0` for the legs with `alpha = (1, x, y)` on the
+    /// base and `beta` likewise on the platform.
     pub equations: Vec<[[f64; 3]; 3]>,
 }
 
@@ -336,8 +337,8 @@ impl Parametrisation {
         }
     }
 
-    /// The leg at the parameters; `None` where an end is at infinity, where the line through the centre meets the cubic in
-    /// no further real point, or where parameters are missing.
+    /// The leg at the parameters; `None` where an end is at infinity, where the line through the centre meets the cubic
+    /// in no further real point, or where parameters are missing.
     ///
     /// # Errors
     /// When a singular value decomposition does not converge.

@@ -2,11 +2,13 @@
 
 use num::linalg::{LinalgError, svd};
 
-/// Kernels of computed polynomials and minors know a digit less than the data: what counts as zero there, over the tolerance of the data.
+/// Kernels of computed polynomials and minors know a digit less than the data: what counts as zero there, over the
+/// tolerance of the data.
 pub(super) const COMPUTED: f64 = 10.0;
 /// Parts of unit vectors below this add no dimension to a span of computed vectors.
 pub(super) const NO_DIMENSION: f64 = 1e-7;
-/// Unit homogeneous points and lines whose directions differ by less are one: a double root is known to the square root of rounding.
+/// Unit homogeneous points and lines whose directions differ by less are one: a double root is known to the square root
+/// of rounding.
 pub(super) const SAME: f64 = 1e-6;
 /// First coordinate of a unit homogeneous point below which the point is at infinity.
 pub(super) const AT_INFINITY: f64 = 1e-9;

@@ -288,7 +288,8 @@ fn a_joint_off_by_a_millionth_keeps_the_family_within_the_tolerance_only() {
         c.components.iter().filter(|x| x.exact == exact && x.type_name() == "point-line").count()
     };
     assert_eq!(six(&found(&legs), Some(true)), 6);
-    // along an edge the new joint is one more member of the class: the sixth side stands over the point where edges meet
+    // along an edge the new joint is one more member of the class: the sixth side stands over the point where edges
+    // meet
     let mut slid = legs;
     slid[0].base += (legs[1].base - legs[0].base) * 1e-6;
     assert_eq!(list(&found(&slid)).len(), 6);
@@ -381,7 +382,8 @@ fn dependent_legs_are_said_to_be_dependent() {
     assert!(kinds.contains(&("point-plane".to_string(), Some(true))), "{kinds:?}");
 }
 
-/// Two families over the ends `(sqrt 2, ..)` and `(-sqrt 2, ..)` of a base line, with conjugate platform lines through a common joint.
+/// Two families over the ends `(sqrt 2, ..)` and `(-sqrt 2, ..)` of a base line, with conjugate platform lines through
+/// a common joint.
 #[test]
 fn conjugate_lines_without_joints_are_exact() {
     let base = [(0, 0), (3, 0), (3, 3), (-3, 3), (-2, 1), (1, 2)];

@@ -1,7 +1,8 @@
 //! Whether a design is equivalent to an octahedral one.
 //!
-//! The replaceable legs of an octahedral design are the six sides of a hexagon of lines between two planes, and nothing else
-//! (`docs/theory/octahedral-class.md`). They are those of every equivalent design, so that anything else among them is a proof that there is no octahedral one.
+//! The replaceable legs of an octahedral design are the six sides of a hexagon of lines between two planes, and nothing
+//! else (`docs/theory/octahedral-class.md`). They are those of every equivalent design, so that anything else among
+//! them is a proof that there is no octahedral one.
 
 use super::pieces::{Piece, PlaneGroups, scroll};
 use super::sample::{Arrangement, DesignSample, leg_through};

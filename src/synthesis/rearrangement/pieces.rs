@@ -2,19 +2,22 @@
 //!
 //! Designs whose legs span a sum of stars: `L = sum_j alpha_j (x) V_j` with independent points `alpha_j` of one body.
 //!
-//! Then `(a, b)` with `(1, a) = sum_j lambda_j alpha_j` is replaceable exactly when `(1, b)` lies in `V_j` for every `j` with
-//! `lambda_j != 0`, so that the replaceable legs are the legs between the flats `span(alpha_j, j in S)` and `V_S`, the intersection of the `V_j` with `j` in `S`.
+//! Then `(a, b)` with `(1, a) = sum_j lambda_j alpha_j` is replaceable exactly when `(1, b)` lies in `V_j` for every
+//! `j` with `lambda_j != 0`, so that the replaceable legs are the legs between the flats `span(alpha_j, j in S)` and
+//! `V_S`, the intersection of the `V_j` with `j` in `S`.
 //!
-//! Designs with one body or both in space and too many joints for a sum of stars: families at the joints, and one pairing.
+//! Designs with one body or both in space and too many joints for a sum of stars: families at the joints, and one
+//! pairing.
 //!
 //! A leg that is a combination of legs `S` with coefficients all different from zero needs `|S| >= i + j + 1` (lemma of
-//! `docs/theory/components.md`). If the joints of one body used by `S` are independent the argument for stars holds for `S`;
-//! otherwise `i` and `j` are the dimensions of the bodies, and only a plane and a space with all six legs are left.
+//! `docs/theory/components.md`). If the joints of one body used by `S` are independent the argument for stars holds for
+//! `S`; otherwise `i` and `j` are the dimensions of the bodies, and only a plane and a space with all six legs are
+//! left.
 //!
 //! Replaceable legs between two planes, drawn from the pair of cubics by chords.
 //!
-//! `M(alpha) beta = 0` are the three equations of the span of six legs. A line through two points of the cubic `det M = 0`
-//! meets it once more, so that six rational legs lead to further rational ones.
+//! `M(alpha) beta = 0` are the three equations of the span of six legs. A line through two points of the cubic
+//! `det M = 0` meets it once more, so that six rational legs lead to further rational ones.
 
 use super::sample::{DesignSample, finite, integer, leg_through, meet, subsets, weighted};
 use num::Rng;
@@ -44,7 +47,8 @@ pub struct Piece {
     pub kind: PieceKind,
     /// Homogeneous coordinates of points that span the flat of the base ends.
     pub(super) base: Vec<ExactVector>,
-    /// Points that span the flat of the platform ends; for a pairing partner `k` belongs to base point `k`, and sums to sums.
+    /// Points that span the flat of the platform ends; for a pairing partner `k` belongs to base point `k`, and sums to
+    /// sums.
     pub(super) platform: Vec<ExactVector>,
     /// Where its legs lie: summands of the span of all legs, with the dimension it has in each at most.
     pub(super) parts: Vec<usize>,
@@ -83,8 +87,8 @@ impl Piece {
         }
     }
 
-    /// The summands of the span of the legs in which its legs have a part; in each they span at most [`weight`](Self::weight)
-    /// dimensions.
+    /// The summands of the span of the legs in which its legs have a part; in each they span at most
+    /// [`weight`](Self::weight) dimensions.
     #[must_use]
     pub fn parts(&self) -> &[usize] {
         &self.parts
@@ -214,7 +218,8 @@ pub(super) fn split(sample: &DesignSample, body: Body) -> SampleOutcome {
     families(sample, body, &basis).map_or(SampleOutcome::Special, SampleOutcome::Found)
 }
 
-/// The least dimension that the intersection of the `V_j` has: joints in common, and what counting dimensions guarantees.
+/// The least dimension that the intersection of the `V_j` has: joints in common, and what counting dimensions
+/// guarantees.
 fn least(basis: &[&Star], most: usize, set: &[usize]) -> usize {
     let Some((first, rest)) = set.split_first() else { return most };
     let common =
@@ -314,11 +319,11 @@ fn complete_graphs(sample: &DesignSample, legs: &[(usize, usize); 6]) -> Vec<Pie
     sets.map(piece).collect()
 }
 
-/// The pairing of the line `a1 a2` of a planar body of four joints with the line in space through the double joint `b` that
-/// meets the flats which `a1` and `a2` see, where `b` is joined to the other two joints and no other joint is.
+/// The pairing of the line `a1 a2` of a planar body of four joints with the line in space through the double joint `b`
+/// that meets the flats which `a1` and `a2` see, where `b` is joined to the other two joints and no other joint is.
 ///
-/// With `b = w1 + w2` (`wk` in the flat of `ak`) and the crossing `c = a1 + a2` (suitably scaled) of `a1 a2` with the line of the other two
-/// joints, the legs `(a1, w1)`, `(a2, w2)`, `(c, b)` are replaceable and lie between two lines.
+/// With `b = w1 + w2` (`wk` in the flat of `ak`) and the crossing `c = a1 + a2` (suitably scaled) of `a1 a2` with the
+/// line of the other two joints, the legs `(a1, w1)`, `(a2, w2)`, `(c, b)` are replaceable and lie between two lines.
 fn pairing(sample: &DesignSample, planar: Body) -> Option<Piece> {
     let space = planar.other();
     if sample.joints(planar).len() != 4 || sample.joints(space).len() != 5 {
@@ -459,12 +464,13 @@ impl PlaneGroups {
     }
 }
 
-/// Whether five of the legs and of those they imply lie between the line of two joints of a body and the other plane: then every point of
-/// the line has a line of partners.
+/// Whether five of the legs and of those they imply lie between the line of two joints of a body and the other plane:
+/// then every point of the line has a line of partners.
 pub(super) fn scroll(sample: &DesignSample) -> bool {
     Body::BOTH.into_iter().any(|body| {
         let there = body.other();
-        // two legs at a joint of the other body imply one at the crossing of the line of their joints with the line in question
+        // two legs at a joint of the other body imply one at the crossing of the line of their joints with the line in
+        // question
         let crossing = |pair: &[usize]| {
             let joints = (0..sample.joints(there).len()).map(|k| sample.neighbours(there, k));
             joints.filter(|s| s.len() == 2 && s.iter().all(|k| !pair.contains(k))).count()

@@ -1,5 +1,5 @@
-//! A member of a topology with small integer coordinates in exact arithmetic, and six exact legs as a design with the proof
-//! that it is equivalent to another one.
+//! A member of a topology with small integer coordinates in exact arithmetic, and six exact legs as a design with the
+//! proof that it is equivalent to another one.
 
 use nalgebra::Point3;
 
@@ -94,7 +94,8 @@ impl DesignSample {
         self.legs.iter().map(leg).collect()
     }
 
-    /// Whether no joints coincide, any joints of a body as many as its flat allows are independent, and so are the six leg vectors.
+    /// Whether no joints coincide, any joints of a body as many as its flat allows are independent, and so are the six
+    /// leg vectors.
     pub(super) fn is_general(&self, planar: (bool, bool)) -> bool {
         let vectors: Vec<ExactVector> = self.legs().iter().map(ExactLeg::vector).collect();
         let general = |body: Body, planar: bool| {

@@ -52,7 +52,8 @@ pub struct Rearrangement {
     pub fewest_shared: usize,
     /// The least value of twelve less the number of joints.
     pub fewest_merged: usize,
-    /// An equivalent design with [`fewest_shared`](Self::fewest_shared) such joints and [`fewest_merged`](Self::fewest_merged).
+    /// An equivalent design with [`fewest_shared`](Self::fewest_shared) such joints and
+    /// [`fewest_merged`](Self::fewest_merged).
     pub fewest: Arrangement,
     /// Why there cannot be fewer shared joints.
     pub obstructions: Vec<Obstruction>,
@@ -70,7 +71,8 @@ pub struct NotDecided {
     pub planar: PlanarBodies,
 }
 
-/// Every topology of the catalogue with its bodies in space or in a plane; bodies with three joints are in a plane anyway.
+/// Every topology of the catalogue with its bodies in space or in a plane; bodies with three joints are in a plane
+/// anyway.
 ///
 /// # Errors
 /// [`NotDecided`], which does not happen.
@@ -283,7 +285,8 @@ pub(super) struct FamilySpread {
     pub(super) counts: Vec<usize>,
 }
 
-/// An upper bound of the rank of the legs of some families: in every summand the sum of their dimensions, at most its own.
+/// An upper bound of the rank of the legs of some families: in every summand the sum of their dimensions, at most its
+/// own.
 fn rank_bound<'a>(pieces: impl Iterator<Item = &'a Piece>, summands: &[usize]) -> usize {
     let mut filled = vec![0; summands.len()];
     for piece in pieces {
@@ -292,7 +295,8 @@ fn rank_bound<'a>(pieces: impl Iterator<Item = &'a Piece>, summands: &[usize]) -
     filled.iter().zip(summands).map(|(f, s)| f.min(s)).sum()
 }
 
-/// All ways to take six legs such that no families hold more of them than their rank bound, those that share fewest joints first.
+/// All ways to take six legs such that no families hold more of them than their rank bound, those that share fewest
+/// joints first.
 fn spreads(pieces: &[Piece], summands: &[usize]) -> Vec<FamilySpread> {
     let bounds: Vec<usize> = (0..1usize << pieces.len())
         .map(|set| {

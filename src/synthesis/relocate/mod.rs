@@ -1,13 +1,16 @@
 //! Moves legs of any platform along their families of replaceable legs, which leads to the platforms equivalent to it.
 //!
-//! With `v' = sum c_l v_l` the vector of a replaceable leg (see [`components`](super::components)), putting it in the place of leg `k` gives the
-//! leg map whose row `k` is `c` and whose other rows are those of the identity: `det A = c_k`. Several legs moved together give the matrix with
-//! their rows `c`; its determinant decides, not those of the single moves.
+//! With `v' = sum c_l v_l` the vector of a replaceable leg (see [`components`](super::components)), putting it in the
+//! place of leg `k` gives the leg map whose row `k` is `c` and whose other rows are those of the identity:
+//! `det A = c_k`. Several legs moved together give the matrix with their rows `c`; its determinant decides, not those
+//! of the single moves.
 //!
-//! A regular move does not change the span of the six leg vectors. So **the families never change**, whatever is moved, and every platform equivalent to a
-//! given one is reached by single moves in a suitable order (`docs/theory/moves.md`).
+//! A regular move does not change the span of the six leg vectors. So **the families never change**, whatever is moved,
+//! and every platform equivalent to a given one is reached by single moves in a suitable order
+//! (`docs/theory/moves.md`).
 //!
-//! [`relocate`] moves legs, [`Chain`] composes moves made one after another, [`search`](mod@search) looks for equivalent platforms that fulfil wishes.
+//! [`relocate`] moves legs, [`Chain`] composes moves made one after another, [`search`](mod@search) looks for
+//! equivalent platforms that fulfil wishes.
 
 mod names;
 pub mod search;
@@ -52,15 +55,18 @@ pub struct MovedLeg {
     pub request: LegMove,
     /// The old leg.
     pub from: Leg,
-    /// The new leg, its coordinates as doubles; an end that is a joint of the platform within rounding has the coordinates of that joint.
+    /// The new leg, its coordinates as doubles; an end that is a joint of the platform within rounding has the
+    /// coordinates of that joint.
     pub to: Leg,
     /// Coefficients of its vector in those of the six legs it was moved from: the row of `A`.
     pub coefficients: [f64; 6],
     /// Distance of its vector from their span over its length.
     pub residual: f64,
-    /// Whether the doubles of the new joints, as rational numbers, fulfil the span condition exactly. In general they are rounded and do not.
+    /// Whether the doubles of the new joints, as rational numbers, fulfil the span condition exactly. In general they
+    /// are rounded and do not.
     pub exact: bool,
-    /// Where on the family the determinant of the whole move vanishes, the other moves and the other parameters being what they are.
+    /// Where on the family the determinant of the whole move vanishes, the other moves and the other parameters being
+    /// what they are.
     pub singular: SingularParameters,
 }
 
@@ -129,10 +135,11 @@ pub enum RelocateError {
     Linalg(#[from] LinalgError),
 }
 
-/// Moves legs together: the families are those of `m`, [`components`](super::components::components())`(m, ..)`, for all of them.
+/// Moves legs together: the families are those of `m`, [`components`](super::components::components())`(m, ..)`, for
+/// all of them.
 ///
-/// The answer with `det A = 0` is a value too: [`Relation::Singular`](super::Relation::Singular), with the parameters where that happens. A single move of a leg on which the family does not
-/// depend at all is refused.
+/// The answer with `det A = 0` is a value too: [`Relation::Singular`](super::Relation::Singular), with the parameters
+/// where that happens. A single move of a leg on which the family does not depend at all is refused.
 ///
 /// ```
 /// # mod equipod { pub mod methods { pub use equipod_synthesis as synthesis; pub use platform::manipulator; } }
@@ -315,7 +322,8 @@ pub struct Chain {
     pub composed: AffineLegMap,
     /// The map computed from the first platform and the legs of the last one.
     pub direct: LegMapOutcome,
-    /// Largest difference of the two matrices over the largest entry, and of the constants over the squared size: rounding, when all is well.
+    /// Largest difference of the two matrices over the largest entry, and of the constants over the squared size:
+    /// rounding, when all is well.
     pub disagreement: f64,
 }
 

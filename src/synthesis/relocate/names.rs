@@ -12,7 +12,8 @@ use num::linalg::LinalgError;
 use num::small::bounded_svd;
 use platform::manipulator::Manipulator;
 
-/// Orthonormal directions of the flat through the points, and one of them; what is within `limit` of the flat of the points before adds nothing.
+/// Orthonormal directions of the flat through the points, and one of them; what is within `limit` of the flat of the
+/// points before adds nothing.
 struct Through {
     origin: Point3<f64>,
     axes: Vec<Vector3<f64>>,
@@ -61,7 +62,8 @@ fn limit(m: &Manipulator, found: &Components) -> f64 {
     (100.0 * found.options.tolerance).max(1e-7) * m.size()
 }
 
-/// Indices of the families whose base ends span the flat of the base points given, and whose platform ends span that of the platform points.
+/// Indices of the families whose base ends span the flat of the base points given, and whose platform ends span that of
+/// the platform points.
 ///
 /// # Errors
 /// When a decomposition does not converge.
@@ -90,8 +92,8 @@ pub fn family_between(
     Ok(out)
 }
 
-/// Joints of `m` (indices on the base, indices on the platform) that span the two flats of a family; `None` when the joints of the
-/// platform do not.
+/// Joints of `m` (indices on the base, indices on the platform) that span the two flats of a family; `None` when the
+/// joints of the platform do not.
 ///
 /// # Errors
 /// When a decomposition does not converge.
@@ -152,10 +154,12 @@ impl AffineEnd {
     }
 }
 
-/// The formulas of a family with parameters counted from joints: on an end that is affine in its parameters, `x_0 + sum s_j (x_j - x_0)` with the points
-/// given for that body, in that order. Ends that follow (partners on a line, a plane) follow the new parameters.
+/// The formulas of a family with parameters counted from joints: on an end that is affine in its parameters,
+/// `x_0 + sum s_j (x_j - x_0)` with the points given for that body, in that order. Ends that follow (partners on a
+/// line, a plane) follow the new parameters.
 ///
-/// `None` when no end is affine in parameters and has one more point than those: conics and cubics keep their own parameters.
+/// `None` when no end is affine in parameters and has one more point than those: conics and cubics keep their own
+/// parameters.
 #[must_use]
 pub fn counted_from(
     formulas: &Parametrisation,

@@ -13,8 +13,8 @@ use platform::manipulator::Leg;
 pub enum SingularParameters {
     /// Everywhere on the family.
     Everywhere,
-    /// At these values of the first parameter, in order; the other parameters, if any, being those of the move. For plane cubics the
-    /// changes of sign are found, those of the determinant at 360 lines through the centre.
+    /// At these values of the first parameter, in order; the other parameters, if any, being those of the move. For
+    /// plane cubics the changes of sign are found, those of the determinant at 360 lines through the centre.
     At(Vec<f64>),
 }
 
@@ -23,7 +23,8 @@ const ZERO: f64 = 1e-9;
 /// Lines of the pencil of a cubic that are looked at.
 const LINES: usize = 360;
 
-/// The determinant of `a` with the row of the move replaced by the coefficients of the leg, times the denominators of the leg's ends.
+/// The determinant of `a` with the row of the move replaced by the coefficients of the leg, times the denominators of
+/// the leg's ends.
 struct RowDeterminant<'a> {
     found: &'a Components,
     step: &'a LegMove,

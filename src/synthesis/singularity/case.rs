@@ -1,7 +1,7 @@
 //! Names for architectural singularities, each with an exact test.
 //!
-//! Whether corresponding points of two planes are images under a projectivity is decided exactly too. A singular design that
-//! is known in doubles only gets its name with a tolerance.
+//! Whether corresponding points of two planes are images under a projectivity is decided exactly too. A singular design
+//! that is known in doubles only gets its name with a tolerance.
 
 use nalgebra::{Point3, Vector3};
 
@@ -35,15 +35,17 @@ pub enum Case {
         /// The body with the line.
         line: Body,
     },
-    /// Four or five legs with ends on two lines: the pairing of four is projective (equal cross-ratios), five are always dependent.
+    /// Four or five legs with ends on two lines: the pairing of four is projective (equal cross-ratios), five are
+    /// always dependent.
     LineLine,
-    /// Dependent legs with ends on a line of one body and in a plane or in space on the other: five legs and a plane (six and a plane or space
-    /// have all ends of a body on a line).
+    /// Dependent legs with ends on a line of one body and in a plane or in space on the other: five legs and a plane
+    /// (six and a plane or space have all ends of a body on a line).
     LineOther {
         /// The body with the line.
         line: Body,
     },
-    /// Both bodies planar, corresponding joints under a projectivity of the planes, the joints on a conic (Ma, Angeles 1991).
+    /// Both bodies planar, corresponding joints under a projectivity of the planes, the joints on a conic (Ma, Angeles
+    /// 1991).
     Conic {
         /// What takes the base joints to the platform joints.
         map: PlanarMap,
@@ -52,8 +54,8 @@ pub enum Case {
     GriffisDuffy,
     /// Both bodies planar, dependent leg vectors, no special name.
     PlanarBodies,
-    /// Three legs from one point `X`, two from one point `Y` of the other body to points on a line through `X`: the plane pencil at `Y` holds
-    /// the line `XY`, and so does the bundle at `X`.
+    /// Three legs from one point `X`, two from one point `Y` of the other body to points on a line through `X`: the
+    /// plane pencil at `Y` holds the line `XY`, and so does the bundle at `X`.
     StarAndPencil {
         /// The body of `X`.
         star: Body,
@@ -296,8 +298,8 @@ fn plane_coordinates(m: &Manipulator, points: &[Point3<f64>]) -> Result<Principa
     Ok(PrincipalSpread { dimension, coordinates })
 }
 
-/// Whether a projectivity takes one set to the other: `b_i x T a_i = 0`, linear in the nine entries of `T`, has a solution. With dependent leg
-/// vectors the points then lie on a conic.
+/// Whether a projectivity takes one set to the other: `b_i x T a_i = 0`, linear in the nine entries of `T`, has a
+/// solution. With dependent leg vectors the points then lie on a conic.
 fn projective_within(a: &[[f64; 3]], b: &[[f64; 3]]) -> Result<bool, LinalgError> {
     let mut rows = Vec::new();
     for (a, b) in a.iter().zip(b) {
@@ -408,8 +410,8 @@ mod tests {
     use num::exact::rational;
     use platform::manipulator::{Leg, homogeneous};
 
-    /// The names for singular designs with independent leg vectors that are not of the known kinds; no such design is known, so that the names
-    /// are tested on designs that are not singular.
+    /// The names for singular designs with independent leg vectors that are not of the known kinds; no such design is
+    /// known, so that the names are tested on designs that are not singular.
     #[test]
     fn lines_without_a_known_kind_are_named_by_what_their_joints_do() {
         let joints = [[0., 0., 0.], [7., 1., 0.], [9., 6., 1.], [4., 9., -1.], [-3., 5., 2.], [-5., -2., 3.]];

@@ -11,9 +11,11 @@ use platform::manipulator::{Manipulator, inverse_condition, jacobian};
 pub struct Conditioning {
     /// Singular values of the six normalised leg vectors, largest first.
     pub leg_vectors: [f64; 6],
-    /// Number of poses: any rotation, middle of the platform within the size of the middle of the base in every coordinate.
+    /// Number of poses: any rotation, middle of the platform within the size of the middle of the base in every
+    /// coordinate.
     pub poses: usize,
-    /// Greatest `sigma_min / sigma_max` of the length-normalised Jacobian among the poses: small for a design near singular.
+    /// Greatest `sigma_min / sigma_max` of the length-normalised Jacobian among the poses: small for a design near
+    /// singular.
     pub best: f64,
     /// Their median.
     pub median: f64,

@@ -11,7 +11,8 @@ use platform::manipulator::{Body, ExactLegs, SquaredLegLengths};
 pub struct Dependency {
     /// The legs, 0-based, ascending.
     pub legs: Vec<usize>,
-    /// `c_1 .. c_6`, zero for the legs outside; small integers where there are such, otherwise scaled to a largest of 1.
+    /// `c_1 .. c_6`, zero for the legs outside; small integers where there are such, otherwise scaled to a largest
+    /// of 1.
     pub coefficients: [f64; 6],
     /// `sum c_i (|a_i|^2 + |b_i|^2)`, design units squared, computed exactly and rounded once.
     pub constant: f64,
@@ -22,7 +23,8 @@ pub struct Dependency {
 }
 
 impl Dependency {
-    /// How far squared lengths are from the condition: `sum c_i s_i - constant`, over the sum of the moduli of its terms.
+    /// How far squared lengths are from the condition: `sum c_i s_i - constant`, over the sum of the moduli of its
+    /// terms.
     #[must_use]
     pub fn defect(&self, s: &SquaredLegLengths) -> f64 {
         let terms = self.coefficients.iter().zip(s.get()).map(|(c, s)| c * s);
@@ -89,7 +91,8 @@ fn scaled_to_one(c: &[Algebraic]) -> Vec<Algebraic> {
     if negative { ratios.iter().map(|x| -x).collect() } else { ratios }
 }
 
-/// A multiple of `c` with a positive first entry: integers below a million without a common factor, or a largest modulus of 1.
+/// A multiple of `c` with a positive first entry: integers below a million without a common factor, or a largest
+/// modulus of 1.
 fn scaled(c: &[Rational]) -> Vec<Rational> {
     let zero = Rational::from_integer(0.into());
     let Some(first) = c.iter().find(|x| **x != zero) else { return c.to_vec() };

@@ -11,11 +11,13 @@ fn plane(p: &Vector3<f64>, q: &Vector3<f64>, r: &Vector3<f64>) -> Vector4<f64> {
     Vector4::new(n.x, n.y, n.z, -n.dot(p))
 }
 
-/// Determinants of the two sets of four alternate faces of the octahedron: base with the three triangles of a platform edge and
-/// a base joint; platform with the three triangles of a base edge and a platform joint. Units: design units to the ninth power.
+/// Determinants of the two sets of four alternate faces of the octahedron: base with the three triangles of a platform
+/// edge and a base joint; platform with the three triangles of a base edge and a platform joint. Units: design units to
+/// the ninth power.
 ///
-/// Each vanishes exactly when its four planes have a common point (or direction), which is when the pose is singular: both are `det J` of the
-/// leg lines that are not divided by lengths (rows `[n, a x n]` about the base origin), up to sign. Source: Downing, Samuel, Hunt 2002; Rojas, Borras, Thomas, sec. 3.
+/// Each vanishes exactly when its four planes have a common point (or direction), which is when the pose is singular:
+/// both are `det J` of the leg lines that are not divided by lengths (rows `[n, a x n]` about the base origin), up to
+/// sign. Source: Downing, Samuel, Hunt 2002; Rojas, Borras, Thomas, sec. 3.
 #[must_use]
 pub fn four_planes(octahedral: &Octahedral, pose: &Pose) -> [f64; 2] {
     let [p1, p2, p3] = octahedral.base().map(|p| p.coords);

@@ -6,18 +6,20 @@
 //! B1B2 - C1,   B2 - C1C2,   B2B3 - C2,   B3 - C2C3,   B3B1 - C3,   B1 - C3C1,
 //! ```
 //!
-//! a side standing for a point of its line at the fraction `t_k` from the first vertex. They are the inner points of the hexagon of
-//! the octahedral platform: `v_k = (1 - t_k) w_k + t_k w_(k+1)` with the six octahedral leg vectors `w`. These are independent for any two
-//! triangles, so that the platform is architecturally singular exactly on the surface
+//! a side standing for a point of its line at the fraction `t_k` from the first vertex. They are the inner points of
+//! the hexagon of the octahedral platform: `v_k = (1 - t_k) w_k + t_k w_(k+1)` with the six octahedral leg vectors `w`.
+//! These are independent for any two triangles, so that the platform is architecturally singular exactly on the surface
 //!
 //! ```text
 //! det A = prod (1 - t_k) - prod t_k = 0.
 //! ```
 //!
-//! [`assembly`] says which leg lengths a singular platform of this type can be assembled with. On the surface `det A = 0` the squared lengths `s` determine the octahedral squared lengths `o` behind them up to one parameter,
-//! `A o = s + k`, `k_i = t_i (1 - t_i) d_i^2`, if they satisfy the one affine condition: `o = o_0 + x n` with `A n = 0`. Each `x` whose octahedral
-//! platform has a real pose gives one pose; they form curves. For a real pose six triangles have to close, those of consecutive
-//! legs and the side on which they end: `16 area^2 = 4 o_k d_k^2 - (o_k + d_k^2 - o_(k+1))^2 >= 0`, concave in `x`: an interval.
+//! [`assembly`] says which leg lengths a singular platform of this type can be assembled with. On the surface
+//! `det A = 0` the squared lengths `s` determine the octahedral squared lengths `o` behind them up to one parameter,
+//! `A o = s + k`, `k_i = t_i (1 - t_i) d_i^2`, if they satisfy the one affine condition: `o = o_0 + x n` with
+//! `A n = 0`. Each `x` whose octahedral platform has a real pose gives one pose; they form curves. For a real pose six
+//! triangles have to close, those of consecutive legs and the side on which they end: `16 area^2 = 4 o_k d_k^2 - (o_k +
+//! d_k^2 - o_(k+1))^2 >= 0`, concave in `x`: an interval.
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
@@ -48,8 +50,8 @@ const ON_SIDE: f64 = 1e-9;
 impl GriffisDuffy {
     /// Recognises the type in any order of the legs, base and platform as they stand.
     ///
-    /// Joints may be off their sides by `1e-9` of the size; [`deviation`](Self::deviation) tells how far they are. Of several
-    /// ways the one with the least deviation is taken.
+    /// Joints may be off their sides by `1e-9` of the size; [`deviation`](Self::deviation) tells how far they are. Of
+    /// several ways the one with the least deviation is taken.
     #[must_use]
     pub fn recognise(m: &Manipulator) -> Option<Self> {
         let limit = Self::limit(m);
@@ -130,10 +132,11 @@ impl GriffisDuffy {
         if most > 0.0 { c.map(|x| x / most) } else { c }
     }
 
-    /// The constant of the assembly condition `sum c_i s_i = constant`, with `c` from [`coefficients`](Self::coefficients):
-    /// `- sum c t (1 - t) d^2`, `d` the length of the side.
+    /// The constant of the assembly condition `sum c_i s_i = constant`, with `c` from
+    /// [`coefficients`](Self::coefficients): `- sum c t (1 - t) d^2`, `d` the length of the side.
     ///
-    /// Follows from `s_k = (1 - t_k) o_k + t_k o_(k+1) - t_k (1 - t_k) d_k^2` with the octahedral squared lengths `o`, which `c` cancels.
+    /// Follows from `s_k = (1 - t_k) o_k + t_k o_(k+1) - t_k (1 - t_k) d_k^2` with the octahedral squared lengths `o`,
+    /// which `c` cancels.
     #[must_use]
     pub fn constant(&self) -> f64 {
         let c = self.coefficients();

@@ -72,11 +72,12 @@ pub fn hold_at(m: &Manipulator, pose: &Pose) -> PoseHold {
     }
 }
 
-/// The sign of `det J` with moments about the mean of the platform ends and lengths over the size of the platform, so that a platform far smaller than the base is
-/// judged by its own size. `None` where the determinant may be zero to rounding.
+/// The sign of `det J` with moments about the mean of the platform ends and lengths over the size of the platform, so
+/// that a platform far smaller than the base is judged by its own size. `None` where the determinant may be zero to
+/// rounding.
 ///
-/// Rows `[u_i, (r_i x u_i) / rho]` have norms of at most `sqrt(7)`, and each is off by `err` at most, so that the determinant is off by `6 err 7^(5/2) < 800 err`
-/// (Hadamard); the elimination adds less than as much again.
+/// Rows `[u_i, (r_i x u_i) / rho]` have norms of at most `sqrt(7)`, and each is off by `err` at most, so that the
+/// determinant is off by `6 err 7^(5/2) < 800 err` (Hadamard); the elimination adds less than as much again.
 fn sign_in_scale(m: &Manipulator, pose: &Pose) -> Option<Sign> {
     let legs = m.legs();
     let centre = legs.iter().map(|leg| leg.platform.coords).sum::<Vector3<f64>>() / 6.0;
@@ -211,7 +212,8 @@ mod tests {
     use num::Rng;
     use platform::geom::random_rotation;
 
-    /// Platforms of all sizes beside a base of one: the sign is that of the intervals where these decide, and a platform of a ten-millionth is held as one of a half is.
+    /// Platforms of all sizes beside a base of one: the sign is that of the intervals where these decide, and a
+    /// platform of a ten-millionth is held as one of a half is.
     #[test]
     fn the_size_of_the_platform_decides_nothing() {
         let mut rng = Rng::new(5);

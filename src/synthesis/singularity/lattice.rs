@@ -1,13 +1,14 @@
 //! The generic rank of the Jacobian, decided exactly at finitely many poses.
 //!
-//! Theorem (proof in `docs/theory/architectural-singularity.md`). With the rotation of the Cayley vector `c` every minor of the
-//! matrix of leg lines, times `(1 + c.c)^3`, is a polynomial of degree at most 6 in `c` and at most 3 in `p`. It is zero
-//! at all poses as soon as it is zero at the 84 x 20 poses with `c` in `{i + j + k <= 6}` and `p` in `{i + j + k <= 3}`
-//! (natural numbers; `p` in any unit).
+//! Theorem (proof in `docs/theory/architectural-singularity.md`). With the rotation of the Cayley vector `c` every
+//! minor of the matrix of leg lines, times `(1 + c.c)^3`, is a polynomial of degree at most 6 in `c` and at most 3 in
+//! `p`. It is zero at all poses as soon as it is zero at the 84 x 20 poses with `c` in `{i + j + k <= 6}` and `p` in
+//! `{i + j + k <= 3}` (natural numbers; `p` in any unit).
 //!
-//! Minors are looked at modulo primes. With a common denominator of the coordinates taken out a minor is an algebraic integer of a field of degree `n`, and so are its
-//! conjugates, none of which exceeds `B` (Hadamard). Its norm is an integer below `B^n`, which every prime divides whose residue field has the minor zero:
-//! it is zero when the product of these primes is `B^n` or more. Doubles are the case `n = 1`.
+//! Minors are looked at modulo primes. With a common denominator of the coordinates taken out a minor is an algebraic
+//! integer of a field of degree `n`, and so are its conjugates, none of which exceeds `B` (Hadamard). Its norm is an
+//! integer below `B^n`, which every prime divides whose residue field has the minor zero: it is zero when the product
+//! of these primes is `B^n` or more. Doubles are the case `n = 1`.
 
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 
@@ -17,7 +18,8 @@ use num::small::singular_values;
 use platform::geom::Pose;
 use platform::manipulator::{ExactJoints, LegResidues, Manipulator, plucker_matrix};
 
-/// A pose whose numbers are integers: `R` of the quaternion `(q0, q1, q2, q3)`, `p` in powers of two of the design unit.
+/// A pose whose numbers are integers: `R` of the quaternion `(q0, q1, q2, q3)`, `p` in powers of two of the design
+/// unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RationalPose {
     /// Quaternion, scalar part first, of any norm.
@@ -77,8 +79,8 @@ const DEGREES: [i64; 2] = [6, 3];
 /// Candidates among which the witness is chosen.
 const CANDIDATES: u64 = 96;
 
-/// The generic rank of the lines of some legs of `m`, whose joints are `joints`; `leg_rank` is the exact rank of their leg vectors. `None` for coordinates with too many square
-/// roots.
+/// The generic rank of the lines of some legs of `m`, whose joints are `joints`; `leg_rank` is the exact rank of their
+/// leg vectors. `None` for coordinates with too many square roots.
 pub(super) fn generic_rank(
     m: &Manipulator,
     joints: &ExactJoints,
@@ -140,8 +142,8 @@ pub(super) fn lattice(unit: i32) -> impl Iterator<Item = RationalPose> {
     })
 }
 
-/// Poses with small numbers around the middle of the design, first those whose lines are the furthest from having a rank below `leg_rank`, by singular
-/// values: those beyond that rank are rounding errors.
+/// Poses with small numbers around the middle of the design, first those whose lines are the furthest from having a
+/// rank below `leg_rank`, by singular values: those beyond that rank are rounding errors.
 fn candidates(m: &Manipulator, unit: i32, leg_rank: usize) -> Vec<RationalPose> {
     let mut rng = Rng::new(0);
     let mut digit = |reach: i64| (rng.next_u64() % (2 * reach.cast_unsigned() + 1)).cast_signed() - reach;
@@ -168,10 +170,12 @@ fn candidates(m: &Manipulator, unit: i32, leg_rank: usize) -> Vec<RationalPose> 
     list.into_iter().map(|(_, pose)| pose).collect()
 }
 
-/// Primes whose product exceeds the norm of every minor of so many legs at every pose of the lattice, with a common denominator taken out of the coordinates.
+/// Primes whose product exceeds the norm of every minor of so many legs at every pose of the lattice, with a common
+/// denominator taken out of the coordinates.
 ///
-/// With `X` a bound of `|a| + |b| + |p|` (scaled, at least 1) and `N = q.q` a row `(N (p - a) + M b, a x (N p + M b))` is shorter than
-/// `N X (1 + X) <= 2 N X^2`, and a minor is less than the product of its rows (Hadamard). So are its conjugates.
+/// With `X` a bound of `|a| + |b| + |p|` (scaled, at least 1) and `N = q.q` a row `(N (p - a) + M b, a x (N p + M b))`
+/// is shorter than `N X (1 + X) <= 2 N X^2`, and a minor is less than the product of its rows (Hadamard). So are its
+/// conjugates.
 fn primes_needed([denominator, magnitude]: [i64; 2], degree: usize, legs: usize, unit: i32) -> usize {
     // lattice positions are shorter than 2^2 units, and multiples of one unit
     let (unit, denominator) = (i64::from(unit), denominator.max(-i64::from(unit)));

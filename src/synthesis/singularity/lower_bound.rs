@@ -1,16 +1,17 @@
 //! A lower bound of the distance to the nearest singular design, from one well conditioned pose.
 //!
-//! An architecturally singular design has dependent lines at every pose, also at the one looked at. With `e = R b + p` and moments about
-//! a point `o` in units of `L` the row of a leg is `(e - a, (a - o) x (e - o) / L)`. When its ends move by `da` and `db`, `|da|^2 + |db|^2 = d^2`, it
-//! changes by at most
+//! An architecturally singular design has dependent lines at every pose, also at the one looked at. With `e = R b + p`
+//! and moments about a point `o` in units of `L` the row of a leg is `(e - a, (a - o) x (e - o) / L)`. When its ends
+//! move by `da` and `db`, `|da|^2 + |db|^2 = d^2`, it changes by at most
 //!
 //! ```text
 //! sqrt(2 d^2 + ((g + d / 2) d / L)^2),   g^2 = |a - o|^2 + |e - o|^2,
 //! ```
 //!
-//! and the matrix, in Frobenius norm, by at most `sqrt(k) D sqrt(2 + (G + D / 2)^2 / L^2)` for a change `D` of all joints, `k` the most legs at one joint and
-//! `G` the largest `g`. As long as this is below the smallest singular value the lines stay independent (Weyl). Doubles choose the pose; the bound there is computed
-//! with intervals, the joints and the quaternion being taken as the numbers they are.
+//! and the matrix, in Frobenius norm, by at most `sqrt(k) D sqrt(2 + (G + D / 2)^2 / L^2)` for a change `D` of all
+//! joints, `k` the most legs at one joint and `G` the largest `g`. As long as this is below the smallest singular value
+//! the lines stay independent (Weyl). Doubles choose the pose; the bound there is computed with intervals, the joints
+//! and the quaternion being taken as the numbers they are.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
@@ -26,8 +27,8 @@ const POSES: usize = 300;
 /// Random steps from the best of them.
 const CLIMB: usize = 300;
 
-/// No design within this distance of `m` (norm of the change of all joints, design units) is architecturally singular: proved, rounding included; 0 where nothing
-/// was proved.
+/// No design within this distance of `m` (norm of the change of all joints, design units) is architecturally singular:
+/// proved, rounding included; 0 where nothing was proved.
 #[must_use]
 pub fn singular_distance_at_least(m: &Manipulator, seed: u64) -> f64 {
     let mut rng = Rng::new(seed);
@@ -128,8 +129,8 @@ pub(super) fn proved_at_pose(m: &Manipulator, pose: &Pose) -> f64 {
     low
 }
 
-/// A number that the smallest singular value of every matrix in `j` exceeds: with `B` near the inverse and `|I - B j| <= e < 1`, `|1 / j| <= |B| / (1 - e)`, and
-/// `|B|^2 < x` when `x I - B^T B` is positive definite.
+/// A number that the smallest singular value of every matrix in `j` exceeds: with `B` near the inverse and
+/// `|I - B j| <= e < 1`, `|1 / j| <= |B| / (1 - e)`, and `|B|^2 < x` when `x I - B^T B` is positive definite.
 fn smallest_singular_value(j: &IntervalMatrix) -> Option<f64> {
     let inverse = Matrix6::from_fn(|r, c| j[r][c].centre_and_radius().0).try_inverse()?;
     let one = Interval::from(1.0);

@@ -1,10 +1,13 @@
 //! Finds out where, and whether at all, the legs hold the platform.
 //!
-//! *Architectural singularity*: platforms that no pose can hold, decided exactly and explained. *Parallel singularities*: single poses at which the legs
-//! do not hold the platform, and boxes of poses without any. *Self-motions*: curves of poses with constant leg lengths.
+//! *Architectural singularity*: platforms that no pose can hold, decided exactly and explained. *Parallel
+//! singularities*: single poses at which the legs do not hold the platform, and boxes of poses without any.
+//! *Self-motions*: curves of poses with constant leg lengths.
 //!
-//! A design is *architecturally singular* when its six leg lines are dependent at every pose. [`Architecture::of`] decides it about the joints as written: the exact joints of a design with
-//! constructions, the binary numbers of plain ones. [`SingularityVerdict`] is what every command says of it: plain numbers may be rounded values of a singular design. Theory: `docs/theory/architectural-singularity.md`.
+//! A design is *architecturally singular* when its six leg lines are dependent at every pose. [`Architecture::of`]
+//! decides it about the joints as written: the exact joints of a design with constructions, the binary numbers of plain
+//! ones. [`SingularityVerdict`] is what every command says of it: plain numbers may be rounded values of a singular
+//! design. Theory: `docs/theory/architectural-singularity.md`.
 
 mod case;
 mod conditioning;
@@ -49,7 +52,8 @@ use platform::manipulator::{ExactJoints, ExactLegs, Level, Manipulator};
 /// The answer for a design as it is written, with what proves it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Architecture {
-    /// The joints that the answer is proved about; `None` where nothing is proved, because joints are known between bounds only: then the ranks are those of the middles.
+    /// The joints that the answer is proved about; `None` where nothing is proved, because joints are known between
+    /// bounds only: then the ranks are those of the middles.
     pub level: Option<Level>,
     /// Rank of the six leg vectors, exact.
     pub leg_rank: usize,
@@ -66,8 +70,9 @@ pub struct Architecture {
 impl Architecture {
     /// Decides the design as it is written: no tolerance takes part.
     ///
-    /// Joints that are numbers of a field of square roots are decided in that field, doubles as the rational numbers they are. Joints between bounds are decided where one pose
-    /// is proved to hold the platform whatever they are; otherwise nothing is ([`level`](Self::level)).
+    /// Joints that are numbers of a field of square roots are decided in that field, doubles as the rational numbers
+    /// they are. Joints between bounds are decided where one pose is proved to hold the platform whatever they are;
+    /// otherwise nothing is ([`level`](Self::level)).
     #[must_use]
     pub fn of(m: &Manipulator) -> Self {
         let level = m.level();
@@ -124,7 +129,8 @@ impl Architecture {
     }
 }
 
-/// Whether a regular design has doubles that are singular: what follows its legs in doubles follows those of another design.
+/// Whether a regular design has doubles that are singular: what follows its legs in doubles follows those of another
+/// design.
 pub fn rounds_to_singular(m: &Manipulator) -> bool {
     m.level() == Level::ExactJoints
         && Architecture::of(m).is_singular() == Some(false)

@@ -1,11 +1,13 @@
 //! How far a design is from being architecturally singular.
 //!
-//! Distance is the Euclidean norm of the change of all joints together, design units; a shared joint moves as one. What is found is an explicit
-//! singular design, hence an upper bound of the distance; nothing is claimed about the best one.
+//! Distance is the Euclidean norm of the change of all joints together, design units; a shared joint moves as one. What
+//! is found is an explicit singular design, hence an upper bound of the distance; nothing is claimed about the best
+//! one.
 //!
-//! The nearest design with a relation between its leg vectors is found by Gauss-Newton steps on joints and relation together.
-//! Minimise `|y|^2` over changes `y` of the joints and unit vectors `c` with `F = sum c_i v_i(x_0 + y) = 0` (sixteen equations). Each step solves the
-//! linearised problem: the part of the equations that a change of `c` cannot reach is met by the least `y`, the rest by `c`.
+//! The nearest design with a relation between its leg vectors is found by Gauss-Newton steps on joints and relation
+//! together. Minimise `|y|^2` over changes `y` of the joints and unit vectors `c` with `F = sum c_i v_i(x_0 + y) = 0`
+//! (sixteen equations). Each step solves the linearised problem: the part of the equations that a change of `c` cannot
+//! reach is met by the least `y`, the rest by `c`.
 //!
 //! The nearest designs in which joints meet or line up so that no pose is held are known in closed form.
 
@@ -34,12 +36,14 @@ pub struct NearestSingular {
     pub base: Vec<Point3<f64>>,
     /// Its platform joints.
     pub platform: Vec<Point3<f64>>,
-    /// What rounding of these joints leaves: smallest over largest singular value of the normalised leg vectors for a relation between them,
-    /// otherwise 0.
+    /// What rounding of these joints leaves: smallest over largest singular value of the normalised leg vectors for a
+    /// relation between them, otherwise 0.
     pub residual: f64,
-    /// Whether every coordinate changes by at most `2^-50` of the largest coordinate of its body: rounding of the file may hide it.
+    /// Whether every coordinate changes by at most `2^-50` of the largest coordinate of its body: rounding of the file
+    /// may hide it.
     pub within_rounding: bool,
-    /// Half a unit of the last decimal that is given, design units, where no coordinate changes by more: the design is singular to the digits given.
+    /// Half a unit of the last decimal that is given, design units, where no coordinate changes by more: the design is
+    /// singular to the digits given.
     pub within_digits: Option<f64>,
 }
 
@@ -60,7 +64,8 @@ impl NearestSingular {
     }
 }
 
-/// The singular design that plain doubles may be rounded values of, if any; asked of designs that are regular as written.
+/// The singular design that plain doubles may be rounded values of, if any; asked of designs that are regular as
+/// written.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.
@@ -78,7 +83,8 @@ fn largest(points: &[Point3<f64>]) -> f64 {
     points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max)
 }
 
-/// Half a unit of the last decimal of the coordinates as they are written, design units; `None` where it is a large share of the design, so that the numbers are not meant to be rounded.
+/// Half a unit of the last decimal of the coordinates as they are written, design units; `None` where it is a large
+/// share of the design, so that the numbers are not meant to be rounded.
 fn half_unit_given(m: &Manipulator) -> Option<f64> {
     let decimals = |x: f64| format!("{x}").split_once('.').map_or(0, |(_, digits)| digits.len());
     let used = m.legs().into_iter().flat_map(|leg| [leg.base, leg.platform]);
@@ -103,7 +109,8 @@ impl Change {
     }
 }
 
-/// Seed of the search for a singular design that may have been meant: the verdict on a design is one, whatever seed a command is given.
+/// Seed of the search for a singular design that may have been meant: the verdict on a design is one, whatever seed a
+/// command is given.
 const SEED: u64 = 1;
 /// Share of the largest coordinate that counts as rounding: eight half units in its last place.
 const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
@@ -114,8 +121,8 @@ const SAME: f64 = 1e-6;
 /// Random starts besides the six singular vectors.
 const STARTS: u64 = 12;
 
-/// The nearest singular design found: closed forms for joints that have to meet or to line up, local optimisation from several
-/// starts (with `seed`) for relations between leg vectors.
+/// The nearest singular design found: closed forms for joints that have to meet or to line up, local optimisation from
+/// several starts (with `seed`) for relations between leg vectors.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.
@@ -197,7 +204,8 @@ const SETTLED: f64 = 1e-10;
 /// Legs with a smaller share in the relation count as not taking part.
 const SHARE: f64 = 1e-7;
 
-/// Coordinates below this, relative to the size, are left out of the search; what it finds is measured from the joints as they are.
+/// Coordinates below this, relative to the size, are left out of the search; what it finds is measured from the joints
+/// as they are.
 const LEAST: f64 = 1e-100;
 
 /// Joints in use, centred and scaled to the size.
@@ -221,7 +229,8 @@ impl NearestProblem {
             let first = at[list[0]];
             let mean = list.iter().map(|j| at[*j] - first).sum::<Vector3<f64>>() / list.len() as f64;
             let scaled = |j: &usize| (at[*j] - first - mean) / m.size();
-            // parts that no sum with a part of order one can hold: products of them are below the range of doubles, where iterations do not settle
+            // parts that no sum with a part of order one can hold: products of them are below the range of doubles,
+            // where iterations do not settle
             let held = |x: f64| if x.abs() < LEAST { 0.0 } else { x };
             x.extend(list.iter().flat_map(|j| scaled(j).iter().map(|x| held(*x)).collect::<Vec<_>>()));
         }
@@ -334,11 +343,11 @@ fn change(m: &Manipulator, problem: &NearestProblem, x: &DVector<f64>, c: &DVect
     Change { kind: "leg_vectors_dependent", legs, coefficients: Some(coefficients), base, platform }
 }
 
-/// The nearest member of each simple family: coincident legs, four legs at one point, two points that hold all legs, a collinear body,
-/// three legs of a pencil, a bundle and a pencil with a common line.
+/// The nearest member of each simple family: coincident legs, four legs at one point, two points that hold all legs, a
+/// collinear body, three legs of a pencil, a bundle and a pencil with a common line.
 ///
-/// Each is the least change within its family: points that have to meet meet in their centroid, points that have to line up go
-/// to the line through their centroid along the principal axis.
+/// Each is the least change within its family: points that have to meet meet in their centroid, points that have to
+/// line up go to the line through their centroid along the principal axis.
 pub(super) fn changes(m: &Manipulator) -> Vec<Change> {
     let mut found = Vec::new();
     let bodies = Body::BOTH;
@@ -424,8 +433,8 @@ fn meet_again(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) 
     }
 }
 
-/// Moves the ends of each group to one point, and these points to a line: the line through the weighted centroid along the principal axis
-/// leaves the least change.
+/// Moves the ends of each group to one point, and these points to a line: the line through the weighted centroid along
+/// the principal axis leaves the least change.
 fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize>]) {
     let at = m.joints(body);
     let groups: Vec<Vec<usize>> = groups.iter().map(|g| joints(m, body, g)).collect();

@@ -17,7 +17,8 @@ use platform::manipulator::{Level, Manipulator};
 pub struct SingularityVerdict {
     /// The decision on the joints as written, in exact arithmetic, with its proof.
     pub architecture: Architecture,
-    /// The singular design that may have been meant: within rounding, or to the digits given. Only for plain numbers that are regular as written.
+    /// The singular design that may have been meant: within rounding, or to the digits given. Only for plain numbers
+    /// that are regular as written.
     pub meant: Option<NearestSingular>,
 }
 
@@ -41,7 +42,8 @@ impl SingularityVerdict {
         if self.meant.is_some() { None } else { self.architecture.is_singular() }
     }
 
-    /// The joints that the verdict is proved about; `None` where they are known between bounds only and nothing is decided.
+    /// The joints that the verdict is proved about; `None` where they are known between bounds only and nothing is
+    /// decided.
     #[must_use]
     pub fn level(&self) -> Option<Level> {
         if self.meant.is_some() { Some(Level::WithinRounding) } else { self.architecture.level }

@@ -1,4 +1,5 @@
-//! `cargo bench --package equipod-benches --features divan --bench closure`: exact closure polynomials of random members of the topologies that have one.
+//! `cargo bench --package equipod-benches --features divan --bench closure`: exact closure polynomials of random
+//! members of the topologies that have one.
 
 use divan::Bencher;
 use equipod::methods::bench::{Class, LengthsFrom, Planar, Problem, problem};

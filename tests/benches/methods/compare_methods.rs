@@ -1,7 +1,7 @@
 //! Times and completeness of the forward-kinematics methods on random problems, drawn as in Martyushev, sec. 5.
 //!
-//! `cargo bench --package equipod-benches --bench compare_methods -- [COUNT] [SEED]` prints one Markdown table for each class:
-//! first joints at the origins, the other coordinates uniform in [-2, 2], squared lengths uniform in [0.5, 3].
+//! `cargo bench --package equipod-benches --bench compare_methods -- [COUNT] [SEED]` prints one Markdown table for each
+//! class: first joints at the origins, the other coordinates uniform in [-2, 2], squared lengths uniform in [0.5, 3].
 #![allow(clippy::print_stdout, reason = "a program that prints tables")]
 
 use std::error::Error;

@@ -1,4 +1,5 @@
-//! Medians of the two methods made for control loops. Run with `cargo bench --package equipod-benches --bench fast_methods`.
+//! Medians of the two methods made for control loops. Run with `cargo bench --package equipod-benches --bench
+//! fast_methods`.
 //!
 //! Each problem is solved in batches; a batch's mean is one sample, the best of its samples is the problem's time,
 //! and the median over the problems is printed. One thread.

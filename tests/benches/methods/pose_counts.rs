@@ -1,7 +1,8 @@
-//! `cargo bench --package equipod-benches --bench pose_counts -- SEED`: how many finite poses, real and complex, platforms of special families have for generic leg lengths.
+//! `cargo bench --package equipod-benches --bench pose_counts -- SEED`: how many finite poses, real and complex,
+//! platforms of special families have for generic leg lengths.
 //!
-//! Each family is drawn with exact joints, counted modulo two random primes (`docs/theory/completeness.md`), and held against the bound that is proved for all lengths.
-//! The seed draws the joints; without a number it is 1.
+//! Each family is drawn with exact joints, counted modulo two random primes (`docs/theory/completeness.md`), and held
+//! against the bound that is proved for all lengths. The seed draws the joints; without a number it is 1.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -141,7 +142,8 @@ fn scaled(joints: &[Joint], factor: &str) -> Hexagon {
     joints.iter().map(|p| p.each_ref().map(|x| format!("({factor})*({x})"))).collect()
 }
 
-/// The image of a point under a projective map, rows `m` of the numerators and of the denominator, whose last entry is 1.
+/// The image of a point under a projective map, rows `m` of the numerators and of the denominator, whose last entry
+/// is 1.
 fn quotient(m: &[String], p: &Joint, spatial: bool) -> Joint {
     let n = if spatial { 3 } else { 2 };
     let row = |k: usize| {

@@ -7,8 +7,8 @@ const MOST_STEPS: usize = 200;
 
 /// Centre of the smallest cap around unit vectors that lie within less than 90 degrees of some direction.
 ///
-/// The cap is that of two directions (centred half way) or of three (on the normal of their plane). The direction farthest from the centre joins
-/// the support until none is outside.
+/// The cap is that of two directions (centred half way) or of three (on the normal of their plane). The direction
+/// farthest from the centre joins the support until none is outside.
 pub(crate) fn centre(directions: &[Vector3<f64>]) -> Vector3<f64> {
     let Some(first) = directions.first() else { return Vector3::z() };
     let (mut support, mut c) = (vec![*first], *first);

@@ -1,4 +1,5 @@
-//! The judge of problems with requirements: builds the platform and looks for its worst poses with code that the optimiser does not use.
+//! The judge of problems with requirements: builds the platform and looks for its worst poses with code that the
+//! optimiser does not use.
 
 use std::collections::BTreeMap;
 use std::sync::RwLock;
@@ -289,7 +290,8 @@ impl DimensionalJudge {
         (sum, found)
     }
 
-    /// The least margin over all poses in shares, by a search for every leg and pair that comes close to its limit, and the points where something is violated.
+    /// The least margin over all poses in shares, by a search for every leg and pair that comes close to its limit, and
+    /// the points where something is violated.
     fn least_margin(&self, built: &Built, points: usize) -> (f64, Vec<Vector6<f64>>) {
         let space = self.space(built.home);
         let mut rng = Rng::new(0x6c6d);

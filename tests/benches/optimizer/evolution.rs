@@ -1,5 +1,5 @@
-//! CMA-ES with restarts: two regimes of population sizes as in BIPOP (Hansen 2009), two ways to treat requirements, and runs that start from the best
-//! answer so far.
+//! CMA-ES with restarts: two regimes of population sizes as in BIPOP (Hansen 2009), two ways to treat requirements, and
+//! runs that start from the best answer so far.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -142,7 +142,8 @@ struct Run {
     handling: Handling,
 }
 
-/// Restarts on every thread until the processor time of all of them together is used up; the first ones from the points given, best last.
+/// Restarts on every thread until the processor time of all of them together is used up; the first ones from the points
+/// given, best last.
 pub(crate) fn evolution(
     judge: &dyn Judge,
     given: &[Vec<f64>],

@@ -22,7 +22,8 @@ pub(crate) trait Judge: Sync {
     fn is_feasible(&self, x: &[f64]) -> bool {
         self.violation(x) <= 0.0
     }
-    /// The value of a feasible point that may be the best so far, looked at more closely; `None` when that finds a violation.
+    /// The value of a feasible point that may be the best so far, looked at more closely; `None` when that finds a
+    /// violation.
     fn confirm(&self, x: &[f64]) -> Option<f64> {
         Some(self.value(x))
     }
@@ -57,7 +58,8 @@ impl OffsetJudge {
         }
     }
 
-    /// The legs at offsets `t`: on the side from leg `i` to leg `i + 1` of the cycle `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`.
+    /// The legs at offsets `t`: on the side from leg `i` to leg `i + 1` of the cycle
+    /// `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`.
     pub(crate) fn legs(&self, t: &[f64]) -> [Leg; 6] {
         std::array::from_fn(|i| {
             let (k, next) = (i / 2, (i / 2 + 1) % 3);

@@ -6,10 +6,14 @@
 //! tests/optimizer/run --gaps 100 [--threads 2] [--seed 1]
 //! ```
 //!
-//! Default: all designs of `designs/`, `designs/worked/` and `designs/presets/`. The problem of a design is that of `equipod optimize`. Octahedral ones are taken without their requirements too: the offsets alone,
-//! once with the joints up to one edge length out and once inside the edges. Random search draws from the box of the variables for `--seconds` of processor time; where fewer than `--random` feasible
-//! designs come to light, walks inside the feasible set, from the feasible designs that either rival found, go on to that number or for `--walk-seconds`. Prints a Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem (rows of other problems that stand there already are kept). Exit 1 when
-//! the optimiser loses. `--timing`: the time of problems with 200 poses instead. `--gaps`: the gaps proved on so many random pairs of triangles.
+//! Default: all designs of `designs/`, `designs/worked/` and `designs/presets/`. The problem of a design is that of
+//! `equipod optimize`. Octahedral ones are taken without their requirements too: the offsets alone, once with the
+//! joints up to one edge length out and once inside the edges. Random search draws from the box of the variables for
+//! `--seconds` of processor time; where fewer than `--random` feasible designs come to light, walks inside the feasible
+//! set, from the feasible designs that either rival found, go on to that number or for `--walk-seconds`. Prints a
+//! Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem (rows of
+//! other problems that stand there already are kept). Exit 1 when the optimiser loses. `--timing`: the time of problems
+//! with 200 poses instead. `--gaps`: the gaps proved on so many random pairs of triangles.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints tables")]
 
 mod cap;

@@ -7,7 +7,8 @@ use equipod::methods::num::Rng;
 use super::judge::Judge;
 use super::record::{Record, Rival};
 
-/// Uniform draws from the box of the variables until `wanted` feasible ones were evaluated, or `seconds` of processor time are over.
+/// Uniform draws from the box of the variables until `wanted` feasible ones were evaluated, or `seconds` of processor
+/// time are over.
 pub(crate) fn random_search(
     judge: &dyn Judge,
     wanted: usize,
@@ -33,7 +34,8 @@ pub(crate) fn random_search(
     })
 }
 
-/// Threads that evaluate their share of the wanted designs each and tell how many points they asked for; they are given their number, their share and the record.
+/// Threads that evaluate their share of the wanted designs each and tell how many points they asked for; they are given
+/// their number, their share and the record.
 fn shared(
     judge: &dyn Judge,
     wanted: usize,
@@ -57,9 +59,11 @@ const STEPS: usize = 500;
 /// A chord is given up when so short a share of it is left.
 const SHORTEST: f64 = 1e-9;
 
-/// Feasible designs without rejection of nearly all: hit-and-run walks, whose points tend to the uniform distribution on the feasible set around their start (Smith 1984; chords shrunk as by Neal 2003).
+/// Feasible designs without rejection of nearly all: hit-and-run walks, whose points tend to the uniform distribution
+/// on the feasible set around their start (Smith 1984; chords shrunk as by Neal 2003).
 ///
-/// The walks take turns with feasible starts until `wanted` designs were evaluated, or `seconds` of processor time are over. Nothing without starts.
+/// The walks take turns with feasible starts until `wanted` designs were evaluated, or `seconds` of processor time are
+/// over. Nothing without starts.
 pub(crate) fn walks(
     judge: &dyn Judge,
     starts: &[Vec<f64>],
@@ -91,7 +95,8 @@ pub(crate) fn walks(
     })
 }
 
-/// A uniform point of the feasible part, near `x`, of a chord of random direction through it; `None` where none is found.
+/// A uniform point of the feasible part, near `x`, of a chord of random direction through it; `None` where none is
+/// found.
 fn step(judge: &dyn Judge, x: &[f64], asked: &mut usize, rng: &mut Rng) -> Option<Vec<f64>> {
     let bounds = judge.bounds();
     // directions in the unit cube of the variables

@@ -9,7 +9,8 @@ use super::verdict::Judged;
 
 /// Processor time of all threads of this process in seconds; `None` where the system does not tell.
 pub(crate) fn cpu_seconds() -> Option<f64> {
-    // Linux: fields 14 and 15 in hundredths of a second; the name before them may hold blanks but ends with the last bracket
+    // Linux: fields 14 and 15 in hundredths of a second; the name before them may hold blanks but ends with the last
+    // bracket
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
     let mut fields = stat.rsplit(')').next()?.split_whitespace().skip(11);
     let ticks: f64 = fields.next()?.parse::<f64>().ok()? + fields.next()?.parse::<f64>().ok()?;

@@ -146,7 +146,8 @@ impl Report {
         out
     }
 
-    /// `optimizer.md`, `optimizer.csv` and one picture for each problem. Rows of other problems are kept: a run over everything takes hours and may be made in parts.
+    /// `optimizer.md`, `optimizer.csv` and one picture for each problem. Rows of other problems are kept: a run over
+    /// everything takes hours and may be made in parts.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), Failure> {
         std::fs::create_dir_all(folder)?;
         kept(&folder.join("optimizer.md"), &self.markdown(), |line| line.split('|').nth(1).map(str::trim))?;

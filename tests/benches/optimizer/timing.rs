@@ -32,7 +32,8 @@ fn reference(judge: &OffsetJudge, seed: u64) -> f64 {
     clock.spent().elapsed
 }
 
-/// The published example with 200 poses of its workspace: home, the corners, and points of a Halton sequence and random ones in halves.
+/// The published example with 200 poses of its workspace: home, the corners, and points of a Halton sequence and random
+/// ones in halves.
 pub(crate) fn run(threads: usize) -> Result<(), Failure> {
     let design = load(&Path::new(ROOT).join("designs/rbt-octahedral.toml"))?;
     let home = design.home.ok_or("the design has no home")?;

@@ -114,7 +114,8 @@ fn margins_of_cranks_are_those_of_their_kinematics() {
     assert!(least(TermKind::CrankTransmission) < -20.0 && least(TermKind::CrankTorque) == f64::NEG_INFINITY);
 }
 
-/// What is proved of a workspace holds at poses that the proof did not look at, and what is violated is shown by its pose.
+/// What is proved of a workspace holds at poses that the proof did not look at, and what is violated is shown by its
+/// pose.
 #[test]
 fn proved_margins_of_cranks_hold_over_the_workspace() {
     let design = limited();

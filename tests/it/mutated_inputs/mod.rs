@@ -1,10 +1,13 @@
-//! Every reader of user input against files that are nearly right: designs, tables of lengths and of poses, answers read back, folders of results, requests of the page.
+//! Every reader of user input against files that are nearly right: designs, tables of lengths and of poses, answers
+//! read back, folders of results, requests of the page.
 //!
-//! Whatever stands in a file, the program ends by itself with 0, 1, 2 or 3 and one JSON document, which has an error record when the code is 2. Exit 4 would be a panic.
-//! It takes at most 1 GiB of memory and, in a build with optimisation, two seconds of processor time to read or refuse a file, ten where it computes with what it has read: lengths of 1e19
-//! are numbers that can be asked about. The system ends it beyond that, which is a fault.
+//! Whatever stands in a file, the program ends by itself with 0, 1, 2 or 3 and one JSON document, which has an error
+//! record when the code is 2. Exit 4 would be a panic. It takes at most 1 GiB of memory and, in a build with
+//! optimisation, two seconds of processor time to read or refuse a file, ten where it computes with what it has read:
+//! lengths of 1e19 are numbers that can be asked about. The system ends it beyond that, which is a fault.
 //!
-//! Cases are drawn from a fixed seed and named by their number: `EQUIPOD_FUZZ_SEED` takes another seed, `EQUIPOD_FUZZ_CASES` that many times as many cases. Ten thousand inputs:
+//! Cases are drawn from a fixed seed and named by their number: `EQUIPOD_FUZZ_SEED` takes another seed,
+//! `EQUIPOD_FUZZ_CASES` that many times as many cases. Ten thousand inputs:
 //!
 //! ```sh
 //! EQUIPOD_FUZZ_CASES=50 cargo test --profile evidence --test it mutated_inputs

@@ -1,4 +1,5 @@
-//! Platforms nearly special, with 40 poses as they are written: all of them are found, or the answer says that some may be missing.
+//! Platforms nearly special, with 40 poses as they are written: all of them are found, or the answer says that some may
+//! be missing.
 
 mod family;
 
@@ -117,7 +118,8 @@ fn the_real_pose_far_off_home_of_nearly_congruent_bodies_is_found() {
     assert_eq!(found.solution_set, SolutionSet::Isolated);
 }
 
-/// `NEARLY_SPECIAL=1000 cargo test --release --test it nearly_special -- --ignored --nocapture`: numbers for a thousand members of each family.
+/// `NEARLY_SPECIAL=1000 cargo test --release --test it nearly_special -- --ignored --nocapture`: numbers for a thousand
+/// members of each family.
 #[test]
 #[ignore = "minutes; prints what it measures"]
 #[allow(clippy::print_stdout, reason = "a table for people")]

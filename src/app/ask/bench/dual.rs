@@ -1,8 +1,8 @@
 //! The validator's Newton method far out.
 //!
 //! With `|R|` of `10^7` doubles hold `R`, `p` so coarsely that Newton's method in them does not converge. In dual
-//! quaternions `(e, g)`, `g = p e`, the same root is an ordinary point: here the claimed pose is carried there, improved on
-//! `|g + e b_i - a_i e|^2 = s_i e.e`, `e.g = 0`, `e_k = 1`, and carried back. All in double-double.
+//! quaternions `(e, g)`, `g = p e`, the same root is an ordinary point: here the claimed pose is carried there,
+//! improved on `|g + e b_i - a_i e|^2 = s_i e.e`, `e.g = 0`, `e_k = 1`, and carried back. All in double-double.
 
 use num_complex::Complex64;
 
@@ -64,8 +64,8 @@ fn quaternion(x: &Point) -> (Quaternion, usize) {
     (columns[k].map(|z| z / columns[k][k]), k)
 }
 
-/// The root in dual quaternions near `start`, as a pose, and its relative error (the last correction, grown by what the division by
-/// `e.e` loses); `None` when Newton's method fails.
+/// The root in dual quaternions near `start`, as a pose, and its relative error (the last correction, grown by what the
+/// division by `e.e` loses); `None` when Newton's method fails.
 ///
 /// It starts at the claimed dual quaternion, or where there is none at that of the pose.
 pub(super) fn refine_dual(

@@ -83,8 +83,8 @@ fn quaternion(pose: &ComplexPose) -> [Complex64; 4] {
 }
 
 /// `1/2 log10 sum_i eps_i^2` with `eps_i = |M z_i| / |z_i|`: `M` the coefficients of the six polynomials in the Cayley
-/// vector and `t` with unit rows, `z_i` their monomials at root `i`. Written homogeneously, so that half turns are no exception.
-/// `-inf` for no roots.
+/// vector and `t` with unit rows, `z_i` their monomials at root `i`. Written homogeneously, so that half turns are no
+/// exception. `-inf` for no roots.
 #[must_use]
 pub fn error_metric(m: &Manipulator, s: &SquaredLegLengths, roots: &[ComplexPose]) -> f64 {
     let legs = m.legs();

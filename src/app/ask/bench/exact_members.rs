@@ -1,6 +1,7 @@
 //! Members of the classes whose joints satisfy relations: drawn as exact numbers, so that they are of the class.
 //!
-//! Numbers drawn are multiples of `2^-12`, which keeps those that follow short: but for the thirds of a turn of hexapods they are doubles.
+//! Numbers drawn are multiples of `2^-12`, which keeps those that follow short: but for the thirds of a turn of
+//! hexapods they are doubles.
 
 use num::Rng;
 use num::surd::Surd;
@@ -37,8 +38,8 @@ fn zip(base: &[Coordinates; 6], platform: &[Coordinates; 6]) -> [ExactEnds; 6] {
     std::array::from_fn(|i| [base[i].clone(), platform[i].clone()])
 }
 
-/// Octahedral legs `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`; the end of leg `i` that differs from leg `i + 1` is moved towards the
-/// latter's by a part of the edge between 0.1 and 0.45.
+/// Octahedral legs `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`; the end of leg `i` that differs from leg `i + 1` is moved
+/// towards the latter's by a part of the edge between 0.1 and 0.45.
 pub(super) fn griffis_duffy(rng: &mut Rng) -> ExactMember {
     let mut triangle = || [(); 3].map(|()| point(rng, false));
     let (b, p) = (triangle(), triangle());
@@ -71,7 +72,8 @@ pub(super) fn linear(rng: &mut Rng) -> PlaneMap {
     std::array::from_fn(|_| number(rng, -1.0, 1.0))
 }
 
-/// A planar hexagon as base and its image under a linear map of the plane as platform: a turn of the platform's frame would change coordinates, not the platform.
+/// A planar hexagon as base and its image under a linear map of the plane as platform: a turn of the platform's frame
+/// would change coordinates, not the platform.
 pub(super) fn images(rng: &mut Rng, map: impl FnOnce(&mut Rng) -> PlaneMap) -> ExactMember {
     let base = [(); 6].map(|()| point(rng, true));
     let map = map(rng);
@@ -90,7 +92,8 @@ fn turn(q: &Surd) -> Option<(Surd, Surd)> {
     Some((one.minus(&square)?.times(&inverse)?, q.plus(q)?.times(&inverse)?))
 }
 
-/// Three base joints of legs 1-3 on a line, three platform joints of legs 4-6 on a line; the first joints at the origin.
+/// Three base joints of legs 1-3 on a line, three platform joints of legs 4-6 on a line; the first joints at the
+/// origin.
 pub(super) fn collinear(rng: &mut Rng) -> ExactMember {
     let mut body = || -> [Coordinates; 6] {
         std::array::from_fn(|i| {
@@ -103,7 +106,8 @@ pub(super) fn collinear(rng: &mut Rng) -> ExactMember {
     Some(zip(&base, &platform))
 }
 
-/// Pairs of joints on circles of radius 1 and `radius` with half the angle of a pair in `[5, 25]` degrees, threefold symmetric, base pairs between platform pairs.
+/// Pairs of joints on circles of radius 1 and `radius` with half the angle of a pair in `[5, 25]` degrees, threefold
+/// symmetric, base pairs between platform pairs.
 pub(super) fn hexapod(rng: &mut Rng) -> ExactMember {
     let radius = number(rng, 0.4, 0.9);
     let half = |rng: &mut Rng| {

@@ -60,8 +60,9 @@ pub enum NotDrawn {
 /// Draws problem `k` of `class`; it depends on `seed`, `class`, `lengths` and `k` only.
 ///
 /// Joints lie in `[-2, 2]^3`, planar bodies in `z = 0`; the first joint of each body is at the origin for the classes
-/// of Martyushev. [`Class::Hexapod`] is drawn about its home pose, [`Class::ClosePair`] from a singular pose with squared lengths
-/// `1e-12` off it, [`Class::DoubleRoot`] exactly at one, [`Class::Spread`] from leg lengths spaced evenly by ratio between `10^-1.5` and `10^1.5`.
+/// of Martyushev. [`Class::Hexapod`] is drawn about its home pose, [`Class::ClosePair`] from a singular pose with
+/// squared lengths `1e-12` off it, [`Class::DoubleRoot`] exactly at one, [`Class::Spread`] from leg lengths spaced
+/// evenly by ratio between `10^-1.5` and `10^1.5`.
 ///
 /// # Errors
 /// [`NotDrawn`]; only [`NotDrawn::NeedsPose`] ever happened.
@@ -171,8 +172,8 @@ fn joints(class: Class, rng: &mut Rng) -> [Leg; 6] {
     }
 }
 
-/// Pairs of joints on circles, threefold symmetric, base pairs between platform pairs; at most `off` times 20 degrees and
-/// a fifth of the base radius off home.
+/// Pairs of joints on circles, threefold symmetric, base pairs between platform pairs; at most `off` times 20 degrees
+/// and a fifth of the base radius off home.
 fn hexapod(rng: &mut Rng, off: f64) -> Result<Problem, NotDrawn> {
     let manipulator = exact(exact_members::hexapod(rng))?;
     let axis = nalgebra::Unit::new_normalize(Vector3::from_fn(|_, _| rng.normal()));

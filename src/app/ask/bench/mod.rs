@@ -1,9 +1,9 @@
-//! Shows how reliable and how fast the solver is: this module draws random problems of a class, solves them, validates every answer with code that shares
-//! nothing with the solver, counts and times.
+//! Shows how reliable and how fast the solver is: this module draws random problems of a class, solves them, validates
+//! every answer with code that shares nothing with the solver, counts and times.
 //!
 //! Generator ([`Class`], [`problem`]) -> any [`ForwardKinematics`](fk::ForwardKinematics) -> [`validate`]
-//! (double-double Newton in the twelve entries of `R` and `p`, on the data as given) -> [`BenchReport`]. Problem `k` of a class
-//! depends on the seed, the class and `k` only, so that a failure is named by three values.
+//! (double-double Newton in the twelve entries of `R` and `p`, on the data as given) -> [`BenchReport`]. Problem `k` of
+//! a class depends on the seed, the class and `k` only, so that a failure is named by three values.
 //!
 //! This module measures time; nothing else below `cli` does.
 

@@ -151,14 +151,15 @@ impl ValidationEquations {
     }
 
     /// Newton from `start` until corrections stop shrinking. Corrections are solved for in double; where that does not
-    /// converge (far out, near `e.e = 0`, the Jacobian's condition grows with a power of the pose) in double-double, and where
-    /// even that does not in dual quaternions.
+    /// converge (far out, near `e.e = 0`, the Jacobian's condition grows with a power of the pose) in double-double,
+    /// and where even that does not in dual quaternions.
     pub(super) fn refine(&self, start: &Point) -> NewtonEnd {
         self.refine_from(start, None)
     }
 
-    /// Lengths of the first Newton steps from a relative distance beside a point, relative to its scale, in double-double: they halve where the root is a double one (Reddien 1978), shrink to two
-    /// thirds where it is threefold, and quadratically where it is simple.
+    /// Lengths of the first Newton steps from a relative distance beside a point, relative to its scale, in
+    /// double-double: they halve where the root is a double one (Reddien 1978), shrink to two thirds where it is
+    /// threefold, and quadratically where it is simple.
     pub(super) fn steps_from_beside(&self, point: &Point, distance: f64) -> Vec<f64> {
         let scale = point.scale();
         let mut x = *point;
@@ -204,8 +205,9 @@ const CLOSE: f64 = 1e-20;
 
 /// Relative length below which the last correction of an iteration that has converged lies.
 ///
-/// Far out the condition of the Jacobian, and with it the rounding of a correction, grows like the power 2.5 of the pose (measured: `1e-19` at
-/// `1e5`). Near by the limit must be small: from close to a double root even halving gets below `1e-17`.
+/// Far out the condition of the Jacobian, and with it the rounding of a correction, grows like the power 2.5 of the
+/// pose (measured: `1e-19` at `1e5`). Near by the limit must be small: from close to a double root even halving gets
+/// below `1e-17`.
 fn converged_below(scale: f64) -> f64 {
     (1e-30 * scale * scale * scale.sqrt()).max(1e-20)
 }

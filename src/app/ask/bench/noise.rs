@@ -11,7 +11,8 @@ use num::Rng;
 use platform::geom::{Pose, turn_between};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// Standard deviations of the relative error of a leg length that are looked at by default; the published figure ends at `8e-4`.
+/// Standard deviations of the relative error of a leg length that are looked at by default; the published figure ends
+/// at `8e-4`.
 pub const NOISE_LEVELS: [f64; 16] =
     [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1e-3, 1e-2, 1e-1];
 
@@ -126,8 +127,8 @@ fn spread(values: &[f64]) -> Option<Spread> {
 /// Disturbs the leg lengths of random poses and measures how far the nearest real pose is from the true one.
 ///
 /// Platforms as [`problem`] draws them, position and Cayley vector of the pose standard normal, squared lengths
-/// `s_i (1 + sigma n_i)^2` with standard normal `n_i`, errors by eqs. (20) and (21) of Martyushev (2025). Unlike there, all
-/// levels share platforms, poses and `n_i`, so that what differs between levels is the noise.
+/// `s_i (1 + sigma n_i)^2` with standard normal `n_i`, errors by eqs. (20) and (21) of Martyushev (2025). Unlike there,
+/// all levels share platforms, poses and `n_i`, so that what differs between levels is the noise.
 ///
 /// # Errors
 /// [`RunError::NotDrawn`].

@@ -87,7 +87,8 @@ pub(super) struct ProblemOutcome {
     pub(super) solver: String,
 }
 
-/// The claims of a set of solutions, with the enclosures of their certificates, and the time that making certificates again takes.
+/// The claims of a set of solutions, with the enclosures of their certificates, and the time that making certificates
+/// again takes.
 pub(super) fn claims_of(problem: &Problem, found: &FkSolutions) -> (Vec<Claim>, f64) {
     let start = Instant::now();
     let certifier = Certifier::new(&problem.manipulator, &problem.squares).ok();
@@ -169,7 +170,8 @@ fn one(
     })
 }
 
-/// Runs `plan` with `solver`; `reference` computes the number of poses to expect and looks for missed ones from other starts.
+/// Runs `plan` with `solver`; `reference` computes the number of poses to expect and looks for missed ones from other
+/// starts.
 ///
 /// # Errors
 /// [`RunError`]; a problem the solver fails on is a failure in the report, not an error.

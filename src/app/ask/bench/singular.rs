@@ -60,9 +60,9 @@ fn cube_rotation(rng: &mut Rng) -> Matrix3<f64> {
 
 /// A pose at which all leg lines belong to one linear complex, all of it integers over 32.
 ///
-/// For a twist `(v, w)` of small integers every leg vector is `d = (v + w x t) x e`, `t` its tip on the platform, so that no
-/// leg length changes to first order along the twist. The pose turns by a rotation of the cube. Joints and squared lengths are
-/// then computed without rounding and the pose is a double root, not two close ones.
+/// For a twist `(v, w)` of small integers every leg vector is `d = (v + w x t) x e`, `t` its tip on the platform, so
+/// that no leg length changes to first order along the twist. The pose turns by a rotation of the cube. Joints and
+/// squared lengths are then computed without rounding and the pose is a double root, not two close ones.
 pub(super) fn double_root(rng: &mut Rng) -> Result<Problem, NotDrawn> {
     singular_design(rng).map(|(problem, _)| problem)
 }

@@ -1,7 +1,8 @@
 //! Roots that must come in pairs.
 //!
 //! When base and platform are planar, reflecting the scene in the base plane and the platform in its own leaves all leg
-//! lengths alone: `x -> S R S' x + ...` is a pose again. (One planar body is not enough: the mirror image of the other is another body.)
+//! lengths alone: `x -> S R S' x + ...` is a pose again. (One planar body is not enough: the mirror image of the other
+//! is another body.)
 
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;

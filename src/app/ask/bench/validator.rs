@@ -19,7 +19,8 @@ const MOVED: f64 = 1e-6;
 const SINGULAR_RADIUS: f64 = 1e-3;
 /// Two refined roots closer than this are one.
 const SAME: f64 = 1e-14;
-/// Relative distances from a multiple root at which the steps of Newton's method are looked at: nearer than the next root.
+/// Relative distances from a multiple root at which the steps of Newton's method are looked at: nearer than the next
+/// root.
 const BESIDE: [f64; 3] = [1e-5, 1e-9, 1e-13];
 /// What a certificate without an enclosure claims: half of the digits of a double.
 const CLAIMED: f64 = 4e-8;
@@ -69,9 +70,9 @@ struct Root {
     own: f64,
 }
 
-/// Validates `claims` for `problem`. `others` are poses believed to be roots (the generating pose, roots found from another
-/// start): each that refines to a regular root must be among the claims, as must conjugates and, for two
-/// planar bodies, mirror images.
+/// Validates `claims` for `problem`. `others` are poses believed to be roots (the generating pose, roots found from
+/// another start): each that refines to a regular root must be among the claims, as must conjugates and, for two planar
+/// bodies, mirror images.
 #[must_use]
 pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> Validation {
     let equations = ValidationEquations::new(&problem.manipulator, &problem.squares);
@@ -119,7 +120,8 @@ fn is_regular(start: &Point, refined: &NewtonEnd) -> bool {
     refined.converged && start.distance(&refined.point) <= MOVED * start.scale()
 }
 
-/// Steps of Newton's method from beside a root of multiplicity `m` shrink by `(m - 1) / m`, once the directions in which the root is simple are settled; the claimed discs hold the pose.
+/// Steps of Newton's method from beside a root of multiplicity `m` shrink by `(m - 1) / m`, once the directions in
+/// which the root is simple are settled; the claimed discs hold the pose.
 fn is_multiple(equations: &ValidationEquations, claim: &Claim, start: &Point) -> bool {
     let expected = 1.0 - 1.0 / f64::from(claim.multiplicity);
     let shrink_so = |distance: f64| {
@@ -133,8 +135,8 @@ fn is_multiple(equations: &ValidationEquations, claim: &Claim, start: &Point) ->
     slow && held
 }
 
-/// The claimed discs hold both what is claimed and the root the iteration converged to. Far out, where discs are wider than
-/// [`MOVED`], this is the better rule.
+/// The claimed discs hold both what is claimed and the root the iteration converged to. Far out, where discs are wider
+/// than [`MOVED`], this is the better rule.
 fn encloses(claim: &Claim, start: &Point, refined: &NewtonEnd, unit: f64) -> bool {
     let discs = claim.enclosure.as_deref().filter(|_| claim.certified && refined.converged);
     discs.is_some_and(|discs| {

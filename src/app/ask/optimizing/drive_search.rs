@@ -15,7 +15,8 @@ use optimize::dimensional::{DimensionalOutcome, Progress, ShapeSearchOptions};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DriveRanking {
-    /// The lowest price, and of equal prices the best value of the first objective: every drive of the table has a price.
+    /// The lowest price, and of equal prices the best value of the first objective: every drive of the table has a
+    /// price.
     Price,
     /// The best value of the first objective: some drive of the table has no price.
     Objective,
@@ -91,14 +92,16 @@ impl DriveSearch {
         self.drives.first().filter(|d| d.gain().is_some()).map(|d| &d.drive)
     }
 
-    /// The answer: the platform with the drive chosen; where there is none that of the drive with which most was reached. `None` where no search was begun.
+    /// The answer: the platform with the drive chosen; where there is none that of the drive with which most was
+    /// reached. `None` where no search was begun.
     #[must_use]
     pub fn answer(&self) -> Option<&DrivenPlatform> {
         self.drives.iter().find_map(SearchedDrive::searched)
     }
 }
 
-/// What a drive allows, the reserves taken off: shortest and longest leg, force, speed, stiffness, and whether its mass counts.
+/// What a drive allows, the reserves taken off: shortest and longest leg, force, speed, stiffness, and whether its mass
+/// counts.
 struct DriveRange {
     legs: [f64; 2],
     most: [f64; 2],
@@ -126,8 +129,8 @@ impl DriveRange {
         }
     }
 
-    /// Whether every platform that meets the requirements with the other drive meets them with this one: each limit of the other is at least as tight, and what is no
-    /// limit (mass, stiffness) is the same.
+    /// Whether every platform that meets the requirements with the other drive meets them with this one: each limit of
+    /// the other is at least as tight, and what is no limit (mass, stiffness) is the same.
     fn covers(&self, other: &Self) -> bool {
         let same = |a: Option<f64>, b: Option<f64>| match (a, b) {
             (None, None) => true,
@@ -142,8 +145,8 @@ impl DriveRange {
     }
 }
 
-/// The order in which drives are tried: by price, then mass, so that the first with which the requirements are met is the answer; else the longest and strongest first, because what it
-/// cannot do others cannot.
+/// The order in which drives are tried: by price, then mass, so that the first with which the requirements are met is
+/// the answer; else the longest and strongest first, because what it cannot do others cannot.
 fn order_of_trials(drives: &[Drive], ranking: DriveRanking) -> Vec<&Drive> {
     let mut out: Vec<&Drive> = drives.iter().collect();
     let last = |x: Option<f64>| x.unwrap_or(f64::INFINITY);
@@ -158,7 +161,8 @@ fn order_of_trials(drives: &[Drive], ranking: DriveRanking) -> Vec<&Drive> {
     out
 }
 
-/// The best first: requirements met, by price and gain; then by how much was reached; then what was not searched, as in the table.
+/// The best first: requirements met, by price and gain; then by how much was reached; then what was not searched, as in
+/// the table.
 fn order_of_answers(a: &SearchedDrive, b: &SearchedDrive, ranking: DriveRanking) -> Ordering {
     let met = |d: &SearchedDrive| d.gain().is_some();
     let reached = |d: &SearchedDrive| {
@@ -179,8 +183,9 @@ fn order_of_answers(a: &SearchedDrive, b: &SearchedDrive, ranking: DriveRanking)
 
 /// Searches the best platform of a design with each drive of a table, and ranks the drives.
 ///
-/// A drive is left out where it cannot win: with prices, where a cheaper one does; and where it can do nothing that a drive cannot with which no start met the
-/// requirements. When `progress` says to break the drives tried until then are ranked.
+/// A drive is left out where it cannot win: with prices, where a cheaper one does; and where it can do nothing that a
+/// drive cannot with which no start met the requirements. When `progress` says to break the drives tried until then are
+/// ranked.
 ///
 /// # Errors
 /// As [`find_platform`].

@@ -128,8 +128,8 @@ pub enum FreedomOutcome {
 pub struct OpenedFreedom {
     /// Which.
     pub freedom: ConflictFreedom,
-    /// By how much a limit gave way in the last search, design units; for a variable by how much the platform found differs: its height in design units; `None` where there is no such
-    /// number.
+    /// By how much a limit gave way in the last search, design units; for a variable by how much the platform found
+    /// differs: its height in design units; `None` where there is no such number.
     pub amount: Option<f64>,
     /// What came of it.
     pub outcome: FreedomOutcome,
@@ -180,7 +180,8 @@ const LOOSE: f64 = 1e-3;
 /// A demand is eased where it has to give less by more than this share.
 const EASED: f64 = 1e-2;
 
-/// The design without the least `|det A|` that it does not state; `None` where it states one, or where the search holds none.
+/// The design without the least `|det A|` that it does not state; `None` where it states one, or where the search holds
+/// none.
 fn without_default_determinant(design: &Design, extension: f64) -> Option<Design> {
     let v = dimensional_problem(design, extension).variables;
     let holds = (v.offsets || v.components) && v.triangles == Triangles::Fixed;
@@ -204,7 +205,8 @@ fn eased(before: &ConstraintConflict, after: &ConstraintConflict) -> Vec<EasedDe
     before.demands.iter().filter_map(less).collect()
 }
 
-/// The freedoms that a design does not have: defaults of the search first, then those of its variables, then the limits of the conflict.
+/// The freedoms that a design does not have: defaults of the search first, then those of its variables, then the limits
+/// of the conflict.
 fn closed(design: &Design, report: &DimensionalReport, extension: f64) -> Vec<ConflictFreedom> {
     let has = |kind| design.search.variables.contains(&kind);
     let mut out = Vec::new();
@@ -241,7 +243,8 @@ fn gives(report: &DimensionalReport, kind: TermKind) -> f64 {
     own.map_or(0.0, |g| g.alone.unwrap_or(g.together))
 }
 
-/// The design with a limit that gives way by an amount; for the stroke `ends` says how much of it is added at the short end and at the long one of a range.
+/// The design with a limit that gives way by an amount; for the stroke `ends` says how much of it is added at the short
+/// end and at the long one of a range.
 fn wider(design: &Design, freedom: ConflictFreedom, amount: f64, ends: [f64; 2]) -> Design {
     let mut out = design.clone();
     let grown = |e: &mut Option<Envelope>| {
@@ -407,7 +410,8 @@ impl FreedomSearch<'_, '_> {
         })
     }
 
-    /// The search without the least `|det A|`. Where that does not resolve the conflict, the conflict without it: `None` where nothing has to give less.
+    /// The search without the least `|det A|`. Where that does not resolve the conflict, the conflict without it:
+    /// `None` where nothing has to give less.
     fn without_default(&mut self) -> Result<Option<OpenedFreedom>, VerifyError> {
         let freedom = ConflictFreedom::MinAbsDet;
         let told = |outcome, eased| Some(OpenedFreedom { freedom, amount: None, outcome, eased });
@@ -430,8 +434,9 @@ impl FreedomSearch<'_, '_> {
         Ok(if less.is_empty() { None } else { told(FreedomOutcome::Unresolved, less) })
     }
 
-    /// The search for a design with more freedom, and what `assess` says of what it finds; `None` where it cannot be asked. A design that has three-fold symmetry and names none is searched with it
-    /// first, which has few variables, and without it where nothing is found.
+    /// The search for a design with more freedom, and what `assess` says of what it finds; `None` where it cannot be
+    /// asked. A design that has three-fold symmetry and names none is searched with it first, which has few variables,
+    /// and without it where nothing is found.
     fn search(
         &mut self,
         freedom: ConflictFreedom,

@@ -124,14 +124,16 @@ pub struct Checked {
     pub assessed: Option<AssessReport>,
     /// Objectives, densely.
     pub objectives: Vec<(Objective, f64)>,
-    /// Of the poses that the search held, the one with the worst conditioning and its place among them, where the first objective is the worst conditioning.
+    /// Of the poses that the search held, the one with the worst conditioning and its place among them, where the first
+    /// objective is the worst conditioning.
     pub worst_pose: Option<(usize, Pose)>,
     /// Equivalence with the design, where the variables keep it.
     pub verification: Option<Verification>,
 }
 
 impl Checked {
-    /// Whether the platform meets the requirements with the reserve on each: proved by [`Design::assess`] either way, or `None`.
+    /// Whether the platform meets the requirements with the reserve on each: proved by [`Design::assess`] either way,
+    /// or `None`.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         if self.assessment.all_met() { met_or_nothing_required(self.assessed.as_ref()) } else { Some(false) }
@@ -178,7 +180,8 @@ pub(crate) fn checked_offsets(
     judged(design, &general, out, (&design.home_or_default(), &problem.poses), true, judging)
 }
 
-/// A platform found for a design over poses that were held, evaluated by code that no search uses; `keeps_class`: it is meant to be equivalent to the design.
+/// A platform found for a design over poses that were held, evaluated by code that no search uses; `keeps_class`: it is
+/// meant to be equivalent to the design.
 fn judged(
     design: &Design,
     problem: &DimensionalProblem,
@@ -263,7 +266,8 @@ mod tests {
     use super::*;
     use num::Rng;
 
-    /// Over random triangles, leg orders and offsets: the joint `X` is where the design has it, the joint `X_Y` on the line of `X` and `Y` and on no vertex.
+    /// Over random triangles, leg orders and offsets: the joint `X` is where the design has it, the joint `X_Y` on the
+    /// line of `X` and `Y` and on no vertex.
     #[test]
     fn joints_are_where_their_names_say() {
         let mut rng = Rng::new(8);

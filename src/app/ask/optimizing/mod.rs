@@ -132,7 +132,8 @@ impl Default for OptimizeOptions<'_> {
 }
 
 impl<'a> OptimizeOptions<'a> {
-    /// The defaults: seed 1, a thread for each processor, joints at most 0.3 of a side beyond its corners, optimal within one per cent.
+    /// The defaults: seed 1, a thread for each processor, joints at most 0.3 of a side beyond its corners, optimal
+    /// within one per cent.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -166,36 +167,40 @@ impl<'a> OptimizeOptions<'a> {
         self
     }
 
-    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer counts as optimal.
+    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer counts
+    /// as optimal.
     #[must_use]
     pub fn gap(mut self, gap: f64) -> Self {
         self.gap = gap;
         self
     }
 
-    /// Whether the other local optima under requirements are judged too, which takes as long for each as for the answer.
+    /// Whether the other local optima under requirements are judged too, which takes as long for each as for the
+    /// answer.
     #[must_use]
     pub fn candidates(mut self, candidates: bool) -> Self {
         self.candidates = candidates;
         self
     }
 
-    /// Whether, where nothing meets the requirements, the search is made again with one more freedom each: a longer stroke, another height of home, a wider envelope.
+    /// Whether, where nothing meets the requirements, the search is made again with one more freedom each: a longer
+    /// stroke, another height of home, a wider envelope.
     #[must_use]
     pub fn freedoms(mut self, freedoms: bool) -> Self {
         self.freedoms = freedoms;
         self
     }
 
-    /// The drives to choose from: the search is made with each drive that could win, and the answer is the best platform with its drive, the cheapest with which the
-    /// requirements are met where every drive has a price.
+    /// The drives to choose from: the search is made with each drive that could win, and the answer is the best
+    /// platform with its drive, the cheapest with which the requirements are met where every drive has a price.
     #[must_use]
     pub fn drives(mut self, table: &'a DriveTable) -> Self {
         self.drives = Some(table);
         self
     }
 
-    /// How long it may take from now on. The last quarter of the time, at most ten seconds, is for the judging of the best until then.
+    /// How long it may take from now on. The last quarter of the time, at most ten seconds, is for the judging of the
+    /// best until then.
     #[must_use]
     pub fn time_limit(mut self, limit: Duration) -> Self {
         let ends = ends_of(limit);
@@ -251,9 +256,11 @@ impl<'a> OptimizeOptions<'a> {
 pub enum OptimizeStatus {
     /// The requirements are met, and no offsets are better by more than `tolerance`: proved.
     Optimal,
-    /// The requirements are met, and the platform is a local optimum, the best of all starts; that none is better is not proved.
+    /// The requirements are met, and the platform is a local optimum, the best of all starts; that none is better is
+    /// not proved.
     BestFound,
-    /// The requirements are met; better platforms may be near, or a bound on all others was asked for and is not proved to within `tolerance`.
+    /// The requirements are met; better platforms may be near, or a bound on all others was asked for and is not proved
+    /// to within `tolerance`.
     Feasible,
     /// There is no platform: proved where `conflict` says so, else no start met the requirements.
     Infeasible,
@@ -296,7 +303,8 @@ impl std::fmt::Display for OptimizeStatus {
 pub struct OptimizeReport {
     /// The outcome in a word.
     pub status: OptimizeStatus,
-    /// The design that the search began with: the one asked about, with the drive chosen, or with the variables that were chosen for it.
+    /// The design that the search began with: the one asked about, with the drive chosen, or with the variables that
+    /// were chosen for it.
     pub asked: Design,
     /// Whether the sizes of the bodies and the height of home were chosen because no leg of the design can be replaced.
     pub chooses_sizes: bool,
@@ -304,7 +312,8 @@ pub struct OptimizeReport {
     pub drives: Option<DriveSearch>,
     /// Where nothing that meets the requirements was found: what came of one more freedom; `None` where none was tried.
     pub freedoms: Option<Vec<OpenedFreedom>>,
-    /// Other local optima that meet the requirements at the poses that the search held, best first; `None` where they were not asked for.
+    /// Other local optima that meet the requirements at the poses that the search held, best first; `None` where they
+    /// were not asked for.
     pub candidates: Option<Vec<Checked>>,
     /// The platforms, with the evidence for them.
     pub evidence: OptimizeEvidence,
@@ -389,7 +398,8 @@ impl OptimizeReport {
         self.checked().map(|c| &c.design)
     }
 
-    /// What became of the three-fold symmetry of a design that names no symmetry; `None` where it has none, names one, or the search could not break it.
+    /// What became of the three-fold symmetry of a design that names no symmetry; `None` where it has none, names one,
+    /// or the search could not break it.
     #[must_use]
     pub fn symmetry(&self) -> Option<StartSymmetry> {
         match &self.evidence {
@@ -441,16 +451,18 @@ impl OptimizeReport {
 }
 
 impl Design {
-    /// The best platform for this design: under all its requirements where it has any, else the equivalent platform without shared joints with the best
-    /// worst-case conditioning.
+    /// The best platform for this design: under all its requirements where it has any, else the equivalent platform
+    /// without shared joints with the best worst-case conditioning.
     ///
     /// # Errors
-    /// A design that cannot be optimised as it asks: one that is not octahedral and names no other variables, for instance.
+    /// A design that cannot be optimised as it asks: one that is not octahedral and names no other variables, for
+    /// instance.
     pub fn optimize(&self) -> Result<OptimizeReport, Error> {
         self.optimize_with(OptimizeOptions::new())
     }
 
-    /// As [`optimize`](Self::optimize), with options. The command `equipod optimize`, `explore`, sweeps and the Python package ask this function.
+    /// As [`optimize`](Self::optimize), with options. The command `equipod optimize`, `explore`, sweeps and the Python
+    /// package ask this function.
     ///
     /// # Errors
     /// As [`optimize`](Self::optimize).

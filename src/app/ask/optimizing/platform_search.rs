@@ -1,5 +1,5 @@
-//! The search for platforms under the requirements of a design. Where the design has a three-fold symmetry and names none, the symmetry is kept first, and given up where nothing that has it meets
-//! the requirements.
+//! The search for platforms under the requirements of a design. Where the design has a three-fold symmetry and names
+//! none, the symmetry is kept first, and given up where nothing that has it meets the requirements.
 
 use std::ops::ControlFlow;
 
@@ -17,8 +17,8 @@ use optimize::dimensional::{
 use platform::manipulator::{Body, Octahedral};
 use verify::VerifyError;
 
-/// Whether the search keeps the three-fold symmetry of a design that names no symmetry: the design has it at home, the variables of `free`, the problem without it, could break it, and the holes that
-/// the design states turn with it.
+/// Whether the search keeps the three-fold symmetry of a design that names no symmetry: the design has it at home, the
+/// variables of `free`, the problem without it, could break it, and the holes that the design states turn with it.
 pub(super) fn keeps_symmetry_of_start(
     design: &Design,
     free: &DimensionalProblem,
@@ -84,7 +84,8 @@ impl FoundPlatform {
         self.checked.as_ref().and_then(Checked::met) == Some(true)
     }
 
-    /// How much was reached: a platform that meets the requirements, one that is not known to, one that misses some, none.
+    /// How much was reached: a platform that meets the requirements, one that is not known to, one that misses some,
+    /// none.
     pub fn rank(&self) -> u8 {
         match self.checked.as_ref().map(Checked::met) {
             Some(Some(true)) => 3,
@@ -95,7 +96,8 @@ impl FoundPlatform {
     }
 }
 
-/// The best platform of a design under its requirements, with the symmetry of the design where the search keeps it unasked. `explains`: where nothing meets the requirements a conflict is looked for.
+/// The best platform of a design under its requirements, with the symmetry of the design where the search keeps it
+/// unasked. `explains`: where nothing meets the requirements a conflict is looked for.
 ///
 /// # Errors
 /// A problem that cannot be asked, or a platform that cannot be compared with the design.

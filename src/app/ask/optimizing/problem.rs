@@ -9,7 +9,8 @@ use optimize::offsets::{DEFAULT_MIN_ABS_DET, OffsetProblem};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Octahedral};
 
-/// How far a joint may stand beyond a corner, in lengths of its side, where nothing is said: room for the joint, and a body half as wide again at most.
+/// How far a joint may stand beyond a corner, in lengths of its side, where nothing is said: room for the joint, and a
+/// body half as wide again at most.
 pub const EXTENSION: f64 = 0.3;
 /// The reserve on every limit that `explore` keeps where the design states none, percent.
 pub const RESERVE_PERCENT: f64 = 5.0;
@@ -45,8 +46,8 @@ pub fn hopeless_home(design: &Design, extension: f64) -> Option<SingularHome> {
     design.home_that_no_equivalent_holds().filter(|_| stays)
 }
 
-/// Whether a design asks for anything besides offsets with the best worst-case conditioning: requirements, other variables or objectives, or legs moved on families
-/// because it has no offsets.
+/// Whether a design asks for anything besides offsets with the best worst-case conditioning: requirements, other
+/// variables or objectives, or legs moved on families because it has no offsets.
 fn asks_for_more(design: &Design) -> bool {
     let plain = Requirements {
         min_joint_distance: design.optimize.min_joint_distance,
@@ -65,7 +66,8 @@ pub fn with_default_reserve(design: &Design) -> Option<Design> {
     design.reserves.is_empty().then_some(careful)
 }
 
-/// The limits of a search for offsets without and with the reserves of the design: the least distance of joints and the least `|det A|`.
+/// The limits of a search for offsets without and with the reserves of the design: the least distance of joints and the
+/// least `|det A|`.
 fn offset_limits(design: &Design, octahedral: &Octahedral) -> [[f64; 2]; 2] {
     let default = OffsetProblem::with_defaults(octahedral.clone(), Vec::new());
     let table = &design.optimize;
@@ -82,7 +84,8 @@ pub fn offset_reserves(design: &Design, octahedral: &Octahedral) -> [f64; 2] {
     offset_limits(design, octahedral).map(|[stated, held]| held - stated)
 }
 
-/// The offsets of an octahedral design over these poses, within the limits of its `[optimize]` and with its reserves on them.
+/// The offsets of an octahedral design over these poses, within the limits of its `[optimize]` and with its reserves on
+/// them.
 pub(super) fn offset_problem(
     design: &Design,
     octahedral: Octahedral,
@@ -100,7 +103,8 @@ pub(super) fn offset_problem(
     }
 }
 
-/// The design with the sizes of its bodies and the height of home to choose, where it requires something, names no variables, and no leg of it can be replaced; else `None`.
+/// The design with the sizes of its bodies and the height of home to choose, where it requires something, names no
+/// variables, and no leg of it can be replaced; else `None`.
 pub(super) fn with_sizes_to_choose(design: &Design) -> Option<Design> {
     let usual = design.search.variables.is_empty() && Octahedral::recognise(design.manipulator()).is_err();
     if !usual || design.requirements() == Requirements::default() {

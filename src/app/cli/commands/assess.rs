@@ -25,7 +25,8 @@ pub(crate) struct AssessArgs {
     /// Number of local searches for the worst pose of each requirement
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     searches: u32,
-    /// Greatest number of cells of the workspace over which the margins of one kind of requirement, and det J, are bounded for a proof; default: 6000, and 60000 for a requirement that these leave undecided
+    /// Greatest number of cells of the workspace over which the margins of one kind of requirement, and det J, are
+    /// bounded for a proof; default: 6000, and 60000 for a requirement that these leave undecided
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=100_000_000))]
     cells: Option<u32>,
 }

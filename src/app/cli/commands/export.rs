@@ -43,7 +43,8 @@ pub(crate) struct ExportArgs {
     /// Diameter of the balls, design units
     #[arg(long, value_name = "LENGTH")]
     ball_diameter: Option<f64>,
-    /// Greatest allowed error of the tool point and of the orientation: hole plans and tables then say how far the joints may be off, as `build tolerances` does
+    /// Greatest allowed error of the tool point and of the orientation: hole plans and tables then say how far the
+    /// joints may be off, as `build tolerances` does
     #[arg(long, value_name = "LENGTH,DEG")]
     bound: Option<String>,
     /// Tool point whose position counts, platform frame
@@ -104,7 +105,8 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
     Ok(files::write_into(folder, &file.name, &file.text)?.display().to_string())
 }
 
-/// The diameter in which the centre of each hole has to lie, where an accuracy is asked for: the joints are where their holes are.
+/// The diameter in which the centre of each hole has to lie, where an accuracy is asked for: the joints are where their
+/// holes are.
 fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<Option<f64>, Failure> {
     let Some(bound) = &args.bound else {
         context.no_effect("tool", "it is the point whose accuracy --bound asks for")?;
@@ -122,7 +124,8 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
     let design = context.load_with_cranks(&args.design)?;
     let coupled = Context::coupled_of(&design)?.is_some();
     if args.bound.is_some() || (coupled && !wanted(args).iter().any(|f| f.takes_coupled())) {
-        // cranks and joints that are not ideal are refused with the place in the file: no format asked for holds them, or their tolerances are not known
+        // cranks and joints that are not ideal are refused with the place in the file: no format asked for holds them,
+        // or their tolerances are not known
         context.load(&args.design)?;
     }
     let simulated = args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name());

@@ -8,10 +8,10 @@
 //! 3. give it a place and an example in `cli/guide.rs`, from which `--help` is made;
 //! 4. describe it in `docs/cli.md` and test the process in `tests/it/cli_foo.rs`.
 //!
-//! Load designs with [`Context::load`], take the seed from [`Context::seed`], write files with
-//! `files::write_text`. The answer is a record (`src/app/records`), and its text is made from that; numbers
-//! that may be infinite or not a number are `records::Number`. Print nothing: the record and its text are the [`Answer`],
-//! why there is none is the [`Failure`].
+//! Load designs with [`Context::load`], take the seed from [`Context::seed`], write files with `files::write_text`. The
+//! answer is a record (`src/app/records`), and its text is made from that; numbers that may be infinite or not a number
+//! are `records::Number`. Print nothing: the record and its text are the [`Answer`], why there is none is the
+//! [`Failure`].
 
 mod assess;
 mod bench;

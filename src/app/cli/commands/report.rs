@@ -27,7 +27,8 @@ const MOST_BYTES: u64 = 64 << 20;
 /// Arguments of `report`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReportArgs {
-    /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); of folders in it only the bill of materials machine/parts.csv is read
+    /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); of folders in it only the
+    /// bill of materials machine/parts.csv is read
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Write the page to this file; report.html in the folder when absent
@@ -108,7 +109,8 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
         .with_help("name a folder with results, for instance that of `explore`")
 }
 
-/// All files of a folder but an earlier page in the place of this one. What is not a page is an input like the others, and not to be written over.
+/// All files of a folder but an earlier page in the place of this one. What is not a page is an input like the others,
+/// and not to be written over.
 fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
     let entries = std::fs::read_dir(folder).map_err(|e| unreadable(folder, &e))?;
     let is_page =

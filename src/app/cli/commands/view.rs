@@ -13,7 +13,8 @@ use records::{AssessAnswer, ViewAnswer};
 /// Arguments of `view`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ViewArgs {
-    /// Design file (.toml or .json); without it the page asks for a hexapod: from a data sheet, twelve points or an example
+    /// Design file (.toml or .json); without it the page asks for a hexapod: from a data sheet, twelve points or an
+    /// example
     design: Option<PathBuf>,
     /// Write the page to this file; the name of the design file with .html when absent, equipod.html without a design
     #[arg(short, long, value_name = "FILE")]
@@ -30,7 +31,8 @@ pub(crate) struct ViewArgs {
         requires = "design"
     )]
     offsets: Option<Vec<f64>>,
-    /// Use another WebAssembly core, plain or compressed by gzip, instead of the one in this program; `none` gives a page with recorded data only
+    /// Use another WebAssembly core, plain or compressed by gzip, instead of the one in this program; `none` gives a
+    /// page with recorded data only
     #[arg(long, value_name = "FILE|none")]
     core: Option<PathBuf>,
 }

@@ -1,7 +1,8 @@
 //! Reading and writing files: the only door of the program to the file system.
 //!
-//! Three rules keep the user's files. What a run has read it never writes over, by whatever path, link or spelling the file is named; nothing is written
-//! twice by one run; and a design gives way to another design only, not to a picture or a table. A file appears whole or not at all.
+//! Three rules keep the user's files. What a run has read it never writes over, by whatever path, link or spelling the
+//! file is named; nothing is written twice by one run; and a design gives way to another design only, not to a picture
+//! or a table. A file appears whole or not at all.
 
 use std::cell::RefCell;
 use std::ffi::OsString;
@@ -131,7 +132,8 @@ impl Deref for OutputPath {
 struct Identity {
     /// Without links and dots; of a file that does not exist yet, that of its folder with its name.
     path: PathBuf,
-    /// Device and number of the file: the same for hard links and for other spellings where the file system takes them for one.
+    /// Device and number of the file: the same for hard links and for other spellings where the file system takes them
+    /// for one.
     #[cfg(unix)]
     node: Option<(u64, u64)>,
 }
@@ -215,7 +217,8 @@ fn written_twice(path: &Path) -> Failure {
     Failure::refused("file::written_twice", message).with_help("name a file for each")
 }
 
-/// Refuses before anything is computed: outputs among the arguments that are inputs among them, or the same as other outputs.
+/// Refuses before anything is computed: outputs among the arguments that are inputs among them, or the same as other
+/// outputs.
 ///
 /// # Errors
 /// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::standard_output`.
@@ -295,7 +298,8 @@ pub(crate) fn open_regular(path: &Path) -> std::io::Result<File> {
 /// Bytes of a file in a folder of results at most: the plan of a sweep, with its table of poses, is the largest.
 const MAX_FOUND_BYTES: u64 = 64 << 20;
 
-/// The bytes of a file that a folder of results should hold; `None` where there is none, or a larger one than this program writes.
+/// The bytes of a file that a folder of results should hold; `None` where there is none, or a larger one than this
+/// program writes.
 pub(crate) fn found_in_folder(path: &Path) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     open_regular(path).ok()?.take(MAX_FOUND_BYTES + 1).read_to_end(&mut bytes).ok()?;
@@ -349,7 +353,8 @@ pub(crate) fn check_input(path: &Path) -> Result<(), Failure> {
 /// Refuses what would cost the user a file.
 ///
 /// # Errors
-/// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable` (write-protected).
+/// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable`
+/// (write-protected).
 fn check_target(path: &Path, text: &str) -> Result<(), Failure> {
     check_input(path)?;
     let target = Identity::of(path);
@@ -389,10 +394,12 @@ pub(crate) fn not_written(shown: &str, error: &std::io::Error) -> Failure {
     }
 }
 
-/// Writes a file whole: first beside it, then renamed, so that a half-written file never stands there. `-` is standard output.
+/// Writes a file whole: first beside it, then renamed, so that a half-written file never stands there. `-` is standard
+/// output.
 ///
 /// # Errors
-/// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable`. Exit 4: `file::disk_full`.
+/// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable`. Exit 4:
+/// `file::disk_full`.
 pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
     let failed = |error: std::io::Error| not_written(&path.display().to_string(), &error);
     if is_standard(path) {

@@ -1,7 +1,7 @@
 //! Which command is for what job: the order and the examples of `--help`.
 //!
-//! The table below is the only list of commands beside their definitions. A test holds that it names every command once, and another one runs every
-//! example on the designs of the project.
+//! The table below is the only list of commands beside their definitions. A test holds that it names every command
+//! once, and another one runs every example on the designs of the project.
 
 use std::fmt::Write as _;
 
@@ -20,7 +20,8 @@ struct CommandGroup {
 pub(crate) struct GuideEntry {
     /// The words after `equipod`.
     pub(crate) path: &'static str,
-    /// Command lines after `equipod` that work on the designs of the project; the first one stands in the help of the program and of the group.
+    /// Command lines after `equipod` that work on the designs of the project; the first one stands in the help of the
+    /// program and of the group.
     pub(crate) examples: &'static [&'static str],
     /// Other words under which a reader may look for it: it is named when they are typed.
     pub(crate) words: &'static [&'static str],

@@ -42,8 +42,8 @@ fn words(line: &str) -> Vec<String> {
         .collect()
 }
 
-/// What is wrong with a command line in a text: a command that does not exist, or an option that it does not have. A line without words in capitals
-/// stands for itself and has to be understood whole.
+/// What is wrong with a command line in a text: a command that does not exist, or an option that it does not have. A
+/// line without words in capitals stands for itself and has to be understood whole.
 fn fault(words: &[String]) -> Option<String> {
     let mut command = program().disable_help_subcommand(true);
     command.build();
@@ -82,7 +82,8 @@ fn fault(words: &[String]) -> Option<String> {
     program().try_get_matches_from(line).err().map(|e| e.to_string())
 }
 
-/// Command lines in a text: pieces of code in a sentence, and in Markdown the lines of code. What a program puts together (`{path}`) is none.
+/// Command lines in a text: pieces of code in a sentence, and in Markdown the lines of code. What a program puts
+/// together (`{path}`) is none.
 fn command_lines(text: &str, markdown: bool) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     let mut fenced = false;

@@ -353,7 +353,8 @@ pub(super) fn of_mark(mark: &str) -> Option<String> {
     Some(format!("\n{}", fields.table(record)?))
 }
 
-/// The table behind `<!-- keys of design [TABLES] -->`: the keys at the top of a design file, or those of some of its tables. `None` where one is not a table.
+/// The table behind `<!-- keys of design [TABLES] -->`: the keys at the top of a design file, or those of some of its
+/// tables. `None` where one is not a table.
 pub(super) fn of_design(mark: &str) -> Option<String> {
     let mut names = mark.split(' ');
     let mut schema: Value = serde_json::from_str(&SCHEMA).ok()?;

@@ -1,5 +1,5 @@
-//! `equipod reference`, hidden: what each command is for, its options, its examples and the fields of its answer written into the manual, from the
-//! definitions they are read by.
+//! `equipod reference`, hidden: what each command is for, its options, its examples and the fields of its answer
+//! written into the manual, from the definitions they are read by.
 
 mod fields;
 
@@ -19,7 +19,8 @@ use records::{ReferenceAnswer, schema_names};
 /// Arguments of `reference`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReferenceArgs {
-    /// Page with marks `<!-- options of COMMAND -->`, `<!-- fields of ANSWER -->`, `<!-- keys of design -->` or `<!-- all records -->`, each up to `<!-- end of options -->` and so on; what is between them is replaced
+    /// Page with marks `<!-- options of COMMAND -->`, `<!-- fields of ANSWER -->`, `<!-- keys of design -->` or
+    /// `<!-- all records -->`, each up to `<!-- end of options -->` and so on; what is between them is replaced
     page: PathBuf,
 }
 
@@ -81,7 +82,8 @@ fn examples(command: &Command) -> String {
     format!("{heading}:\n\n{}\n", lines.concat())
 }
 
-/// What one command and its own commands are for, usage, table and examples; the options all commands take stand at the program alone.
+/// What one command and its own commands are for, usage, table and examples; the options all commands take stand at the
+/// program alone.
 fn block(command: &Command, global: bool) -> String {
     let usage = command.clone().render_usage().to_string();
     let mut out = String::from("\n");
@@ -147,7 +149,8 @@ impl OpenEntries {
     }
 }
 
-/// The page with the blocks of this program. In the manual every command of the guide has its mark, or its group has one for all, and so has every answer.
+/// The page with the blocks of this program. In the manual every command of the guide has its mark, or its group has
+/// one for all, and so has every answer.
 fn written(page: &str) -> Result<String, Failure> {
     let bad = |message: String| Failure::refused("reference::bad_page", message);
     let mut open = OpenEntries::new();

@@ -1,8 +1,8 @@
 //! The four doors of the WebAssembly module.
 //!
-//! The page writes a text to [`input`](equipod_input), calls [`open`](equipod_open) or [`answer`](equipod_answer), and reads as many bytes as
-//! these return at [`output`](equipod_output). The design stays open between calls: this is the one place of the library with a state, and it
-//! exists in WebAssembly only.
+//! The page writes a text to [`input`](equipod_input), calls [`open`](equipod_open) or [`answer`](equipod_answer), and
+//! reads as many bytes as these return at [`output`](equipod_output). The design stays open between calls: this is the
+//! one place of the library with a state, and it exists in WebAssembly only.
 #![allow(
     unsafe_code,
     reason = "an exported name must be unique in the whole program; these four are, and no other unsafe code is here"

@@ -37,7 +37,8 @@ pub enum CertificateRecord {
         /// What holds the pose of the root.
         enclosure: Box<EnclosureRecord>,
     },
-    /// Roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1, that are close or one: all lie on a curve through the centre, parametrised by t with |t| below `reach`.
+    /// Roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1, that are close or one: all lie
+    /// on a curve through the centre, parametrised by t with |t| below `reach`.
     Cluster {
         /// Their number, each counted with its multiplicity; 2 or more.
         multiplicity: usize,
@@ -55,14 +56,17 @@ pub enum CertificateRecord {
         uniqueness_radius: Number,
         /// Radius of the disc of t.
         reach: Number,
-        /// What is left beside the power of t that has the multiplicity as exponent, over this power, on the circle; below 1.
+        /// What is left beside the power of t that has the multiplicity as exponent, over this power, on the circle;
+        /// below 1.
         dominance: Number,
         /// `non_real` when none is real; else it is undecided.
         reality: ProvedReality,
         /// What holds all of their poses.
         enclosure: Box<EnclosureRecord>,
     },
-    /// In three angles: legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles h^2 + z^2 = rho about P1 P2, P2 P3, P3 P1, with z along n = (P2 - P1) x (P3 - P1) and h towards the left of the way from the first joint to the second; with u = h + i z the distance is the largest of the three |log(u / centre)|.
+    /// In three angles: legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles h^2 + z^2 = rho about P1 P2, P2 P3, P3 P1,
+    /// with z along n = (P2 - P1) x (P3 - P1) and h towards the left of the way from the first joint to the second;
+    /// with u = h + i z the distance is the largest of the three |log(u / centre)|.
     Octahedral {
         /// Legs 14 24 25 35 36 16, from 0.
         order: [usize; 6],

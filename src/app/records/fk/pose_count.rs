@@ -19,8 +19,9 @@ pub struct PoseCountRecord {
     pub degree: Option<usize>,
     /// Why there is no count.
     pub undecided: Option<CountUndecided>,
-    /// The lengths it is the count of: those given, exactly as they stand, or generic ones, which have as many isolated poses as any or more. Where the lengths are known to
-    /// rounding only, as images under a leg map are, the latter are counted.
+    /// The lengths it is the count of: those given, exactly as they stand, or generic ones, which have as many isolated
+    /// poses as any or more. Where the lengths are known to rounding only, as images under a leg map are, the latter
+    /// are counted.
     pub lengths: CountedLengths,
     /// By a theorem and certificates, or modulo random primes.
     pub evidence: EvidenceWord,

@@ -12,7 +12,8 @@ use optimize::dimensional::DimensionalOutcome;
 /// The search over the drives of a table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DriveSearchRecord {
-    /// The name of the drive of the answer; null: with no drive was a platform found that is proved to meet the requirements.
+    /// The name of the drive of the answer; null: with no drive was a platform found that is proved to meet the
+    /// requirements.
     pub chosen: Option<String>,
     /// What decides between drives with which the requirements are met.
     pub ranked_by: DriveRanking,
@@ -47,7 +48,8 @@ pub struct SearchedDriveRecord {
     pub outcome: DriveSearchWord,
     /// Value of the first objective of the platform found; null: none was.
     pub objective: Option<Number>,
-    /// What the platform found, or the one that misses the requirements least, leaves of the lengths, the force and the speed of the drive; empty where the drive was not searched.
+    /// What the platform found, or the one that misses the requirements least, leaves of the lengths, the force and the
+    /// speed of the drive; empty where the drive was not searched.
     pub margins: Vec<MarginRecord>,
     /// What became of the three-fold symmetry of the design; null as in an answer without a table.
     pub symmetry: Option<SymmetryRecord>,

@@ -15,7 +15,8 @@ pub struct FreedomRecord {
     pub freedom: ConflictFreedom,
     /// What came of it.
     pub outcome: FreedomWord,
-    /// By how much the limit gave way in the last search, or by how much the platform found is higher; null: no such number.
+    /// By how much the limit gave way in the last search, or by how much the platform found is higher; null: no such
+    /// number.
     pub amount: Option<Number>,
     /// Of the amount.
     pub unit: String,

@@ -38,7 +38,8 @@ const SIZES: &str = "no leg of the design can be replaced without another kinema
 /// Runners-up that are listed.
 const RUNNERS_UP: usize = 5;
 
-/// The answer of `optimize`. Every field is there whichever search found it; null: it does not apply, or nothing is known of it.
+/// The answer of `optimize`. Every field is there whichever search found it; null: it does not apply, or nothing is
+/// known of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OptimizeAnswer {
     /// What came of the search.
@@ -58,17 +59,23 @@ pub struct OptimizeAnswer {
     pub conflict: Option<ConflictRecord>,
     /// Why the search failed to decide, a sentence; null: it decided, or nothing failed.
     pub failure: Option<String>,
-    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what came of a search that had it; null where none was looked at.
+    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what
+    /// came of a search that had it; null where none was looked at.
     pub freedoms: Option<Vec<FreedomRecord>>,
-    /// What became of the three-fold symmetry of the design; null where it has none, names one, or the search could not break it or did not look at it.
+    /// What became of the three-fold symmetry of the design; null where it has none, names one, or the search could not
+    /// break it or did not look at it.
     pub symmetry: Option<SymmetryRecord>,
-    /// The drives of a table, with what the search came to with each; null where no table was given. The rest of the answer is about the drive chosen; where none is, about that with which most was reached.
+    /// The drives of a table, with what the search came to with each; null where no table was given. The rest of the
+    /// answer is about the drive chosen; where none is, about that with which most was reached.
     pub drive_search: Option<DriveSearchRecord>,
-    /// Other local optima that meet the requirements at the poses that were held, best first; null where they were not asked for.
+    /// Other local optima that meet the requirements at the poses that were held, best first; null where they were not
+    /// asked for.
     pub candidates: Option<Vec<OptimumRecord>>,
-    /// With mode = "pareto": platforms of which none is better in every objective, by falling gain of the first objective; else null.
+    /// With mode = "pareto": platforms of which none is better in every objective, by falling gain of the first
+    /// objective; else null.
     pub front: Option<Vec<FrontMemberRecord>>,
-    /// Why the sizes of the bodies and the height of home are chosen, a sentence; null: the variables are those of the design, or the usual ones.
+    /// Why the sizes of the bodies and the height of home are chosen, a sentence; null: the variables are those of the
+    /// design, or the usual ones.
     pub choice: Option<String>,
     /// What the search itself was held to.
     pub limits: SearchLimitsRecord,

@@ -59,7 +59,8 @@ pub struct FoundPlatformRecord {
     pub constraint_margins: Option<Vec<MarginRecord>>,
     /// By how much what the search demands besides them is met.
     pub search_margins: Option<SearchMarginsRecord>,
-    /// What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies have grown; null: nothing.
+    /// What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies have grown;
+    /// null: nothing.
     pub riding: Option<RidingRecord>,
     /// Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     pub requirements_met: Option<bool>,

@@ -13,8 +13,8 @@ use records::{OptimizeAnswer, RoundAnswer, TolerancesAnswer, VerifyAnswer};
 
 type Fields = Map<String, Value>;
 
-/// An answer as its document shows it: fields that no other has, a heading, and the sheet that its command prints. The names
-/// are those of the designs.
+/// An answer as its document shows it: fields that no other has, a heading, and the sheet that its command prints. The
+/// names are those of the designs.
 struct DocumentKind(&'static [&'static str], &'static str, fn(&Fields, [&str; 2]) -> Option<Sheet>);
 
 /// The first whose fields are there.
@@ -67,8 +67,8 @@ pub fn heading(fields: &Fields) -> &'static str {
     kind(fields).map_or("Result", |kind| kind.1)
 }
 
-/// The sheet that the command of the answer prints; all fields of an answer without one, and of one of another version, which
-/// may lack a field of today.
+/// The sheet that the command of the answer prints; all fields of an answer without one, and of one of another version,
+/// which may lack a field of today.
 #[must_use]
 pub fn document(fields: &Fields) -> Sheet {
     let name = |k: usize| fields.get("provenance")?.get("designs")?.get(k)?.get("name")?.as_str();

@@ -62,7 +62,8 @@ fn table(answer: &DrivesAnswer) -> Table {
     table
 }
 
-/// The requirements that a drive misses or that are not proved; of one that fits what the drive leaves: length, force and speed.
+/// The requirements that a drive misses or that are not proved; of one that fits what the drive leaves: length, force
+/// and speed.
 fn binding(drive: &DriveRecord) -> Vec<String> {
     let with = |m: &MarginRecord| format!("{} {} {}", m.name.code(), short(m.margin.0), m.unit);
     let mut out = Vec::new();

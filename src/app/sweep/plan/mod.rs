@@ -96,7 +96,8 @@ pub enum PoseChoice {
     Workspace,
     /// Home alone.
     Home,
-    /// Home, the corners of the region of the workspace, so many points of a Halton sequence in it and as many random ones.
+    /// Home, the corners of the region of the workspace, so many points of a Halton sequence in it and as many random
+    /// ones.
     Region(usize),
     /// These, in the base frame.
     Listed(Vec<Pose>),

@@ -53,8 +53,8 @@ impl BasePlan {
         Ok(self)
     }
 
-    /// The same with the table of poses that the workspace of the design names. Its name then is that of a file beside the design, since the files of candidates stand
-    /// elsewhere.
+    /// The same with the table of poses that the workspace of the design names. Its name then is that of a file beside
+    /// the design, since the files of candidates stand elsewhere.
     ///
     /// # Errors
     /// A text that is no table of poses.

@@ -35,7 +35,8 @@ pub struct PlanAxis {
 /// The values of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AxisValues {
-    /// From one number to another, with steps of the same size or, on a logarithmic scale, of the same ratio; `count` values on a grid.
+    /// From one number to another, with steps of the same size or, on a logarithmic scale, of the same ratio; `count`
+    /// values on a grid.
     Range {
         /// The first value.
         from: f64,
@@ -105,8 +106,8 @@ impl PlanBlock {
         }
     }
 
-    /// Whether offsets from number `used` on have their first values in candidate `j` of the block: those of a grid each by itself, those of lists and points where nothing else varies
-    /// with them.
+    /// Whether offsets from number `used` on have their first values in candidate `j` of the block: those of a grid
+    /// each by itself, those of lists and points where nothing else varies with them.
     fn has_first_of_unused(&self, used: usize, mut j: u64) -> bool {
         let unused = |axis: &PlanAxis| matches!(axis.quantity, FreeQuantity::Offset(i) if i >= used);
         if self.spreading != Spreading::Grid {
@@ -132,12 +133,14 @@ impl SweepPlan {
         numbers
     }
 
-    /// Whether candidate `k` is the first of those that differ only in offsets from number `used` on, as far as blocks tell: of points that mix them with other quantities all are.
+    /// Whether candidate `k` is the first of those that differ only in offsets from number `used` on, as far as blocks
+    /// tell: of points that mix them with other quantities all are.
     pub fn has_first_of_unused(&self, k: u64, used: usize) -> bool {
         self.blocks.iter().zip(self.of_blocks(k)).all(|(block, j)| block.has_first_of_unused(used, j))
     }
 
-    /// The values of the free quantities of candidate `k`, in the order of their columns: candidate `j` of each block, of which the last one is the fastest.
+    /// The values of the free quantities of candidate `k`, in the order of their columns: candidate `j` of each block,
+    /// of which the last one is the fastest.
     ///
     /// They depend on the plan, the seed and `k` alone.
     pub fn values(&self, seed: u64, k: u64) -> Vec<SweepCell> {

@@ -1,4 +1,5 @@
-//! Points by their number alone: candidate `k` of a block is computed from the seed, the block and `k`, whatever else is computed and where.
+//! Points by their number alone: candidate `k` of a block is computed from the seed, the block and `k`, whatever else
+//! is computed and where.
 
 mod sobol;
 
@@ -59,11 +60,13 @@ impl PointPlace {
 /// The greatest double below 1.
 const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 
-/// Rounds of the network below; four make it a permutation that tests do not tell from a random one (Luby, Rackoff 1988), two more cost little.
+/// Rounds of the network below; four make it a permutation that tests do not tell from a random one (Luby, Rackoff
+/// 1988), two more cost little.
 const ROUNDS: u64 = 6;
 
-/// The place of `k` in a permutation of the numbers below `count`: a Feistel network over the next even number of bits, applied until the number is below
-/// `count` (cycle walking; Black, Rogaway 2002). The domain is less than four times `count`, so that a few turns do on average.
+/// The place of `k` in a permutation of the numbers below `count`: a Feistel network over the next even number of bits,
+/// applied until the number is below `count` (cycle walking; Black, Rogaway 2002). The domain is less than four times
+/// `count`, so that a few turns do on average.
 fn permuted(k: u64, count: u64, key: u64) -> u64 {
     let bits = (64 - count.saturating_sub(1).leading_zeros()).max(2).next_multiple_of(2);
     let half = bits / 2;

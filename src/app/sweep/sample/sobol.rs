@@ -1,7 +1,7 @@
 //! Sobol points by their number, scrambled after Owen.
 //!
-//! None of the crates there are fits: `sobol_burley` has single precision and 2^16 points, `sobol` and `sobol-qmc` walk from the first point and do not scramble. The direction
-//! numbers are those of Joe and Kuo (2008).
+//! None of the crates there are fits: `sobol_burley` has single precision and 2^16 points, `sobol` and `sobol-qmc` walk
+//! from the first point and do not scramble. The direction numbers are those of Joe and Kuo (2008).
 
 use std::sync::LazyLock;
 
@@ -51,10 +51,11 @@ fn digits(d: usize, k: u64) -> u32 {
     (0..DIGITS).filter(|i| k >> i & 1 == 1).fold(0, |x, i| x ^ v[i])
 }
 
-/// Coordinate `d` of point `k` with nested uniform scrambling (Owen 1995): each digit is changed or not by random bits that belong to the digits before it, and
-/// behind the last digit follows `rest`, uniform in `[0, 1)`.
+/// Coordinate `d` of point `k` with nested uniform scrambling (Owen 1995): each digit is changed or not by random bits
+/// that belong to the digits before it, and behind the last digit follows `rest`, uniform in `[0, 1)`.
 ///
-/// The points of a power of two have, as those without scrambling, one point in each elementary interval that should have one; each point by itself is uniform.
+/// The points of a power of two have, as those without scrambling, one point in each elementary interval that should
+/// have one; each point by itself is uniform.
 pub(super) fn scrambled(d: usize, k: u64, key: u64, rest: f64) -> f64 {
     let plain = digits(d, k);
     let mut out = 0u32;

@@ -1,4 +1,5 @@
-//! How a design says where a joint is: coordinates as expressions, points on lines, polar coordinates, copies turned and mirrored.
+//! How a design says where a joint is: coordinates as expressions, points on lines, polar coordinates, copies turned
+//! and mirrored.
 
 mod cranks;
 pub(super) mod expression;
@@ -206,7 +207,8 @@ impl WrittenHome {
     }
 }
 
-/// What a design says about its joints beside three numbers each, with the exact coordinates that follow; and about its home pose beside plain numbers.
+/// What a design says about its joints beside three numbers each, with the exact coordinates that follow; and about its
+/// home pose beside plain numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Constructions {
     /// Names and values of `[parameters]`, in the order of the file.
@@ -272,7 +274,8 @@ pub(super) fn exact_double(p: &Point3<f64>) -> RealPoint {
 pub struct ExactJoint {
     /// Whether its coordinates are fractions, sums of square roots and cosines, or known between bounds.
     pub exactness: Exactness,
-    /// The three coordinates in the frame of the body, as expressions such as `"6*sqrt(3)"`; one that is known between bounds is `"[low, high]"`, rounded outward to doubles.
+    /// The three coordinates in the frame of the body, as expressions such as `"6*sqrt(3)"`; one that is known between
+    /// bounds is `"[low, high]"`, rounded outward to doubles.
     pub coordinates: [String; 3],
 }
 
@@ -293,7 +296,8 @@ impl ExactJoint {
 /// How exactly the joints of a design are known, all together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DesignExactness {
-    /// The least exact of its joints; `None` where every joint is given by three plain numbers and so is the three doubles that are read.
+    /// The least exact of its joints; `None` where every joint is given by three plain numbers and so is the three
+    /// doubles that are read.
     pub exactness: Option<Exactness>,
     /// The integers whose square roots generate the field of all exact coordinates, with the fractions and the
     /// cosines of `divisions`.

@@ -18,10 +18,11 @@ pub enum Origin {
 }
 
 impl DesignModel {
-    /// The same with the constructions of the joints it has from another design, and with those of joints on the lines of its joints.
+    /// The same with the constructions of the joints it has from another design, and with those of joints on the lines
+    /// of its joints.
     ///
-    /// What a construction starts from may be missing here; the joint is then given by its exact coordinates, and by three doubles where those are not known as
-    /// a short expression. So is a joint that is elsewhere now.
+    /// What a construction starts from may be missing here; the joint is then given by its exact coordinates, and by
+    /// three doubles where those are not known as a short expression. So is a joint that is elsewhere now.
     pub fn constructed_from(self, old: &Self, origins: [&[Origin]; 2]) -> Self {
         let mut made = Constructions::default();
         for body in Body::BOTH {

@@ -52,7 +52,8 @@ pub(in crate::design) struct Joints<'a> {
 }
 
 impl Constructions {
-    /// The exact coordinates of all joints, which are kept, and the doubles nearest to them; and the home pose, which is kept.
+    /// The exact coordinates of all joints, which are kept, and the doubles nearest to them; and the home pose, which
+    /// is kept.
     ///
     /// Every fault is reported once: what depends on a faulty value is silent.
     pub(in crate::design) fn resolve(
@@ -378,7 +379,8 @@ fn circle<'a>(owner: Owner, what: &str, names: impl Iterator<Item = &'a str>) ->
     }
 }
 
-/// An order in which everything comes after what it needs, and the circles, each from its first member on, that keep the rest from having one.
+/// An order in which everything comes after what it needs, and the circles, each from its first member on, that keep
+/// the rest from having one.
 pub(super) fn ordered(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
     #[derive(Clone, Copy, PartialEq)]
     enum ResolvingState {

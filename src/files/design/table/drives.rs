@@ -168,7 +168,8 @@ impl DriveColumn {
         Some((column, unit))
     }
 
-    /// How much one of the unit of the table is in that of the design; 1 without a unit. `None` where it is not of this kind.
+    /// How much one of the unit of the table is in that of the design; 1 without a unit. `None` where it is not of this
+    /// kind.
     fn factor(self, unit: &str, of: &DesignUnits<'_>) -> Option<UnitRatio> {
         if unit.is_empty() {
             return Some(UnitRatio::Known(1.0));
@@ -207,8 +208,10 @@ enum UnitRatio {
 const NEAR: f64 = 0.7;
 
 impl DriveTable {
-    /// Reads a table whose first line names the columns, with their units: `stroke_mm`, `force_N`, `speed_mm/s`, `mass_kg`, `stiffness_N/mm`; a column without one is in the units
-    /// of the design. `stroke` and one of `dead_length` (least length less the stroke) and `retracted_length` (least length) are needed; empty cells of the others say nothing.
+    /// Reads a table whose first line names the columns, with their units: `stroke_mm`, `force_N`, `speed_mm/s`,
+    /// `mass_kg`, `stiffness_N/mm`; a column without one is in the units of the design. `stroke` and one of
+    /// `dead_length` (least length less the stroke) and `retracted_length` (least length) are needed; empty cells of
+    /// the others say nothing.
     ///
     /// # Errors
     /// [`InvalidDriveTable`].

@@ -1,4 +1,5 @@
-//! The pins of `LinuxCNC`'s hexapod kinematics: lines `setp genhexkins.base.0.x 300`, as `export --to hal` writes them and machines have them.
+//! The pins of `LinuxCNC`'s hexapod kinematics: lines `setp genhexkins.base.0.x 300`, as `export --to hal` writes them
+//! and machines have them.
 
 use nalgebra::Point3;
 

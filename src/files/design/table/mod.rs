@@ -1,7 +1,8 @@
-//! Tables of numbers as people have them: exports of spreadsheets, of CAD programs and of scripts; and legs in models of `MuJoCo`.
+//! Tables of numbers as people have them: exports of spreadsheets, of CAD programs and of scripts; and legs in models
+//! of `MuJoCo`.
 //!
-//! Nothing says how such a table is written, so that its form is guessed from its text, and every guess is a sentence that the reader of the answer sees.
-//! What cannot be read is refused; no cell is passed over without a word.
+//! Nothing says how such a table is written, so that its form is guessed from its text, and every guess is a sentence
+//! that the reader of the answer sees. What cannot be read is refused; no cell is passed over without a word.
 
 mod drives;
 mod hal;

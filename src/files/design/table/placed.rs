@@ -15,7 +15,8 @@ pub(super) struct FileUnit {
     pub(super) per: f64,
 }
 
-/// The number between `before` and `after` in a line that this program's exports have, such as `Lengths in mm; one unit of the design is 25.4 mm`.
+/// The number between `before` and `after` in a line that this program's exports have, such as `Lengths in mm; one unit
+/// of the design is 25.4 mm`.
 pub(super) fn number_between(line: &str, before: &str, after: &str) -> Option<f64> {
     let number = line.trim().strip_prefix(before)?.strip_suffix(after)?;
     number.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0)
@@ -88,7 +89,8 @@ impl Decimals {
 
     fn round(&self, x: f64) -> f64 {
         let Some(digits) = self.0 else { return x };
-        // by way of the decimal, so that the double is the one that the shortest decimal names; without the sign of zero
+        // by way of the decimal, so that the double is the one that the shortest decimal names; without the sign of
+        // zero
         format!("{x:.digits$}").parse().map_or(x, |rounded: f64| rounded + 0.0)
     }
 

@@ -1,13 +1,16 @@
-//! The parameters by which motion-simulator programs know a hexapod: four lengths of sides, and crank and rod or a middle length.
+//! The parameters by which motion-simulator programs know a hexapod: four lengths of sides, and crank and rod or a
+//! middle length.
 //!
-//! The joints of each body stand in three pairs on a circle. The hexagon of the joints has the sides `short` (inside a pair) and `long` (from pair to pair) by turns; neighbouring sides make
-//! 120 degrees, so that every second corner is at the distance `sqrt(3) R` from the next one, and
+//! The joints of each body stand in three pairs on a circle. The hexagon of the joints has the sides `short` (inside a
+//! pair) and `long` (from pair to pair) by turns; neighbouring sides make 120 degrees, so that every second corner is
+//! at the distance `sqrt(3) R` from the next one, and
 //!
 //! ```text
 //! R^2 = (long^2 + short^2 + long short) / 3,      spread = 2 asin(short / (2 R)).
 //! ```
 //!
-//! `L1` and `L2` are the sides of the platform, the long one first, in every program known. `L3` and `L4` are those of the base, and programs disagree on which is the long one ([`SheetDialect`]).
+//! `L1` and `L2` are the sides of the platform, the long one first, in every program known. `L3` and `L4` are those of
+//! the base, and programs disagree on which is the long one ([`SheetDialect`]).
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -23,7 +26,8 @@ use num::names::{UnknownName, named};
 /// Whose sheet it is: it says which of `L3` and `L4` is the long side of the base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SheetDialect {
-    /// `Motion4Sim`, whose parameters are those of `FlyPT` Mover: `L3` is the short side of the base, `L4` the long one.
+    /// `Motion4Sim`, whose parameters are those of `FlyPT` Mover: `L3` is the short side of the base, `L4` the long
+    /// one.
     Motion4Sim,
     /// DR Sim Manager of Departed Reality: `L3` is the long side of the base, `L4` the short one.
     DrSimManager,
@@ -91,7 +95,8 @@ pub enum SheetLegs {
         rod: f64,
         /// `middle_angle`: of the cranks above the plane of the base at home, degrees.
         middle_deg: f64,
-        /// `crank_angle_1` to `crank_angle_6`: directions of the axes in the plane of the base from x, counterclockwise seen from above, degrees. At the angle 0 a crank points to the left of its axis.
+        /// `crank_angle_1` to `crank_angle_6`: directions of the axes in the plane of the base from x, counterclockwise
+        /// seen from above, degrees. At the angle 0 a crank points to the left of its axis.
         axes_deg: [f64; 6],
     },
 }
@@ -225,7 +230,8 @@ fn circle([long, short]: [f64; 2]) -> (f64, f64) {
     (radius, 2.0 * (0.5 * short / radius).clamp(-1.0, 1.0).asin())
 }
 
-/// Joints in leg order, as [`HexapodSizes`] has them: the pairs of the base around 0, 120 and 240 degrees, those of the platform between them.
+/// Joints in leg order, as [`HexapodSizes`] has them: the pairs of the base around 0, 120 and 240 degrees, those of the
+/// platform between them.
 fn joints((radius, spread): (f64, f64), is_platform: bool) -> [Point3<f64>; 6] {
     std::array::from_fn(|i| {
         let side = if i % 2 == 0 { -1.0 } else { 1.0 };
@@ -389,7 +395,8 @@ impl RigSheet {
                 let [base, platform] = [joints((rb, sb), false), joints((rp, sp), true)];
                 for (i, degrees) in axes_deg.into_iter().enumerate() {
                     let (sin, cos) = degrees.to_radians().sin_cos();
-                    // where the tip is nearest to the platform joint: cranks above it are on the side of the greater angle
+                    // where the tip is nearest to the platform joint: cranks above it are on the side of the greater
+                    // angle
                     let d = platform[i] - base[i] + Vector3::z() * height;
                     let nearest = d.z.atan2(d.y * cos - d.x * sin);
                     let away = (middle_deg.to_radians() - nearest).sin();

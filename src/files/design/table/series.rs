@@ -89,10 +89,11 @@ struct SeriesColumns {
 }
 
 impl SeriesKind {
-    /// Reads a table in any usual notation; `record` reads the values of a row, written with decimal points and separated by commas.
+    /// Reads a table in any usual notation; `record` reads the values of a row, written with decimal points and
+    /// separated by commas.
     ///
-    /// A header may name a column of times and, in any order, those of the values; without names the values are all columns but the time, in their order. Lines without
-    /// numbers before the first row are titles.
+    /// A header may name a column of times and, in any order, those of the values; without names the values are all
+    /// columns but the time, in their order. Lines without numbers before the first row are titles.
     ///
     /// # Errors
     /// [`InvalidSeries`].
@@ -213,7 +214,8 @@ fn without_angle_units(names: &[String]) -> Vec<String> {
     names.iter().map(less).collect()
 }
 
-/// The six columns that have the same word and the numbers 1 to 6 after it, in the order of the numbers; of several lists those with one of the words.
+/// The six columns that have the same word and the numbers 1 to 6 after it, in the order of the numbers; of several
+/// lists those with one of the words.
 fn numbered_columns(names: &[String], wanted: &[&str]) -> Option<Vec<usize>> {
     let parted: Vec<(&str, &str)> =
         names.iter().map(|n| n.split_at(n.trim_end_matches(|c: char| c.is_ascii_digit()).len())).collect();

@@ -50,7 +50,8 @@ const SEPARATORS: [(char, &str); 5] =
 const COMMENTS: [&str; 3] = ["#", "%", "//"];
 
 impl CellTable {
-    /// Reads a table whose rows have at least `least` numbers; rows without any number are kept, since they may be titles.
+    /// Reads a table whose rows have at least `least` numbers; rows without any number are kept, since they may be
+    /// titles.
     ///
     /// # Errors
     /// [`InvalidSheet`].
@@ -77,7 +78,8 @@ impl CellTable {
                 let numbers =
                     |row: &SheetRow| row.cells.iter().filter(|c| number(c, decimal).is_some()).count();
                 let rows = records.iter().filter(|row| !is_comment(row));
-                // every number counts, so that `1,5 2,5` is two numbers with decimal commas and not two beside a cell `5 2`
+                // every number counts, so that `1,5 2,5` is two numbers with decimal commas and not two beside a cell
+                // `5 2`
                 let found: usize = rows.map(numbers).filter(|n| *n >= least).sum();
                 if found > best.as_ref().map_or(0, |(n, ..)| *n) {
                     best = Some((found, separator, decimal, records.clone()));
@@ -169,8 +171,8 @@ fn uncommented(row: &SheetRow) -> Vec<String> {
     cells
 }
 
-/// The rows of a list in brackets, a line each, with what is written before a bracket on a line of its own: `base = [[1, 2, 3], ..` for example. `None`: the text
-/// has no such rows.
+/// The rows of a list in brackets, a line each, with what is written before a bracket on a line of its own:
+/// `base = [[1, 2, 3], ..` for example. `None`: the text has no such rows.
 fn bracketed(text: &str) -> Option<String> {
     let opens = |c: char| matches!(c, '[' | '(' | '{');
     let content = text
@@ -212,7 +214,8 @@ fn bracketed(text: &str) -> Option<String> {
     Some(out)
 }
 
-/// Cells of all lines that are not blank. A cell in quotation marks may hold separators and ends of lines; two marks in it are one.
+/// Cells of all lines that are not blank. A cell in quotation marks may hold separators and ends of lines; two marks in
+/// it are one.
 // The crate `csv` reads a quotation mark without an end in silence, and it counts each blank of a run as a separator.
 fn records(text: &str, separator: char) -> Result<Vec<SheetRow>, InvalidSheet> {
     let mut rows = Vec::new();

@@ -2,7 +2,8 @@
 //!
 //! `equipod.c` and `equipod.h` are the same for every design and stand beside this file. They compute what
 //! [`NearSolver`] computes, operation by operation, so that in double the poses are those of the library bit for bit;
-//! `equipod_vectors.h` holds numbers of the library that `equipod_selftest.c` compares. What is written here are the numbers of the design.
+//! `equipod_vectors.h` holds numbers of the library that `equipod_selftest.c` compares. What is written here are the
+//! numbers of the design.
 
 mod cranks;
 mod drives;
@@ -66,8 +67,9 @@ impl Writer for C {
     }
 }
 
-/// Kinematics for `LinuxCNC`, which include the other files. They have a folder of their own, so that a C compiler takes all sources
-/// of the folder above as one program; the header there is for builds with that folder alone on their include path.
+/// Kinematics for `LinuxCNC`, which include the other files. They have a folder of their own, so that a C compiler
+/// takes all sources of the folder above as one program; the header there is for builds with that folder alone on their
+/// include path.
 fn kinematics_modules() -> [ExportedFile; 4] {
     [
         ExportedFile::new("equipodkins.h", "#include \"linuxcnc/equipodkins.h\"\n".to_string()),

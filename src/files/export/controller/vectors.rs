@@ -1,4 +1,5 @@
-//! Numbers of the library for the self-test of the C: poses about home, ways between them, and inputs that must be refused.
+//! Numbers of the library for the self-test of the C: poses about home, ways between them, and inputs that must be
+//! refused.
 
 use std::fmt::Write as _;
 
@@ -102,7 +103,8 @@ fn inverse(export: &Export, pose: &Pose) -> Option<String> {
     Some(braces(entries.into_iter().chain(margins)))
 }
 
-/// The covariance of a pose, `J^-1 E C E^T J^-T` with the covariance `C` of joints and offsets by legs; `None` at a singular pose.
+/// The covariance of a pose, `J^-1 E C E^T J^-T` with the covariance `C` of joints and offsets by legs; `None` at a
+/// singular pose.
 fn covariance(export: &Export, by_legs: &DMatrix<f64>, pose: &Pose) -> Option<String> {
     let m = &export.manipulator;
     let j = jacobian(m, pose, 1.0);

@@ -22,7 +22,8 @@ const AXES: [DimensionAxis; 2] = [
     DimensionAxis { along: Vector2::new(0.0, 1.0), out: Vector2::new(-1.0, 0.0), angle: 90.0 },
 ];
 
-/// What is between `from` and `to` along an axis, as a DIMENSION and the block that R12 readers draw; the dimension line is `level` out from the origin.
+/// What is between `from` and `to` along an axis, as a DIMENSION and the block that R12 readers draw; the dimension
+/// line is `level` out from the origin.
 fn dimension(page: &mut Page, number: usize, axis: &DimensionAxis, level: f64, [from, to]: [Point2<f64>; 2]) {
     let h = page.text_height;
     let foot = |p: &Point2<f64>| Point2::from(axis.along * axis.along.dot(&p.coords) + axis.out * level);
@@ -54,7 +55,8 @@ fn dimension(page: &mut Page, number: usize, axis: &DimensionAxis, level: f64, [
     page.reaches(end + axis.out * h);
 }
 
-/// All dimensions of a plate: `holes` and the corners of its extent. They start at the datum, or where there is none at the lowest hole.
+/// All dimensions of a plate: `holes` and the corners of its extent. They start at the datum, or where there is none at
+/// the lowest hole.
 pub(super) fn dimensions(
     page: &mut Page,
     holes: &[Point2<f64>],

@@ -1,4 +1,5 @@
-//! Six cranks on hinges with rods: each rod hangs on its crank by a universal joint (two hinges, the first along the axis of the crank) and is joined to the platform.
+//! Six cranks on hinges with rods: each rod hangs on its crank by a universal joint (two hinges, the first along the
+//! axis of the crank) and is joined to the platform.
 
 use std::fmt::Write as _;
 
@@ -10,7 +11,8 @@ use crate::export::model::ExportCranks;
 use crate::export::text::{real, reals};
 use platform::geom::Pose;
 
-/// Natural gains of the actuators over those of legs that change their lengths, times the square of the length of the crank.
+/// Natural gains of the actuators over those of legs that change their lengths, times the square of the length of the
+/// crank.
 fn gains(scale: &Scale, length: f64) -> (f64, f64) {
     let arm = (length * scale.metres).powi(2);
     (scale.kp * arm, scale.kv * arm)
@@ -22,7 +24,8 @@ fn seen(parent: &Pose, child: &Pose) -> Pose {
     Pose { rotation: back * child.rotation, position: back * (child.position - parent.position) }
 }
 
-/// Frames of a crank, first axis along it and third along its axis, and of its rod, third axis along it, at home in the base frame.
+/// Frames of a crank, first axis along it and third along its axis, and of its rod, third axis along it, at home in the
+/// base frame.
 fn frames(cranks: &ExportCranks, leg: usize, end: &Vector3<f64>) -> Result<[Pose; 2], Unsupported> {
     let crank = &cranks.platform.legs()[leg].crank;
     let tip = cranks.platform.tip(leg, cranks.home_angles[leg]).coords;
@@ -39,7 +42,8 @@ fn frames(cranks: &ExportCranks, leg: usize, end: &Vector3<f64>) -> Result<[Pose
 
 /// Range of the second hinge of a rod, where the design limits how far the rod leans out of the plane of its crank.
 ///
-/// The first hinge turns about the axis of the crank and leaves that angle as it is, and the second is across both: turned by `b` it makes the angle larger by `b` than at home.
+/// The first hinge turns about the axis of the crank and leaves that angle as it is, and the second is across both:
+/// turned by `b` it makes the angle larger by `b` than at home.
 fn lean_range(cranks: &ExportCranks, at_home: f64) -> String {
     cranks.tip_swing.map_or_else(String::new, |most| {
         format!(" range=\"{} {}\"", real(-most - at_home), real(most - at_home))

@@ -1,14 +1,17 @@
 //! How the masses of the design are shared out among bodies that a simulator can move.
 //!
-//! Legs without masses, or with little, are more than a solver of constraints can hold: the drive of a leg acts on a body that weighs nothing. But a point mass in the joint of a leg
-//! and the platform moves as well with the platform as with the rod. So each rod carries a share `m` of the mass of the platform in that joint, `b`, and the platform the rest:
+//! Legs without masses, or with little, are more than a solver of constraints can hold: the drive of a leg acts on a
+//! body that weighs nothing. But a point mass in the joint of a leg and the platform moves as well with the platform as
+//! with the rod. So each rod carries a share `m` of the mass of the platform in that joint, `b`, and the platform the
+//! rest:
 //!
 //! ```text
 //! M' = M - 6 m,   M' c' = M c - m sum b,   S' = S - m sum b b^T,
 //! ```
 //!
-//! with the second moments `S = tr(I) / 2 - I + M c c^T` about the platform origin. The model then moves as the platform, payload and legs of the design do, and its drives push as much.
-//! `m` is as great as leaves `S'` about `c'` positive, since `MuJoCo` takes no other bodies.
+//! with the second moments `S = tr(I) / 2 - I + M c c^T` about the platform origin. The model then moves as the
+//! platform, payload and legs of the design do, and its drives push as much. `m` is as great as leaves `S'` about `c'`
+//! positive, since `MuJoCo` takes no other bodies.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
@@ -18,15 +21,15 @@ use machine::requirements::{LegMasses, LegPart};
 
 /// Each rod has this share of the mass of the platform moving along it where the platform can spare it.
 const WANTED: f64 = 0.05;
-/// The same at which the time step is that of the size; with less it is shorter in proportion. `MuJoCo` followed a bench with this share,
-/// and lost it with a quarter of it.
+/// The same at which the time step is that of the size; with less it is shorter in proportion. `MuJoCo` followed a
+/// bench with this share, and lost it with a quarter of it.
 const ENOUGH: f64 = 0.02;
 /// The least share that is looked for.
 const LEAST: f64 = 5e-4;
 /// How much of the least second moment of the platform remains.
 const REMAINS: f64 = 0.25;
-/// Mass of a body over that of the rods, and moment of inertia over mass times squared size, where the design says none: bodies without any are refused, and these change no force by a
-/// millionth.
+/// Mass of a body over that of the rods, and moment of inertia over mass times squared size, where the design says
+/// none: bodies without any are refused, and these change no force by a millionth.
 const NEARLY_NONE: f64 = 1e-9;
 /// `MuJoCo` refuses less (`mjMINVAL` is 1e-15).
 const ACCEPTED: f64 = 2e-15;
@@ -133,7 +136,8 @@ impl ModelMasses {
         self.thin(&self.leg.cylinder, self.leg.cylinder.center)
     }
 
-    /// The rod with its share, in a frame whose third axis leads along it and in which the joint of the platform is so many metres from the origin.
+    /// The rod with its share, in a frame whose third axis leads along it and in which the joint of the platform is so
+    /// many metres from the origin.
     pub(super) fn rod(&self, tip: f64) -> String {
         let (own, share) = (&self.leg.rod, self.share);
         let mass = own.mass + share;
@@ -181,7 +185,8 @@ impl ModelMasses {
 }
 
 impl Export {
-    /// What each rod of the simulator's model weighs that the design doesn't have, kilograms; `None` where the platform can spare it.
+    /// What each rod of the simulator's model weighs that the design doesn't have, kilograms; `None` where the platform
+    /// can spare it.
     #[must_use]
     pub fn added_rod_mass(&self) -> Option<f64> {
         let masses = ModelMasses::of(self);

@@ -1,4 +1,5 @@
-//! `MuJoCo` model: six legs of universal joint (two hinges) and slide, or of crank and rod, the platform on leg 1, loops closed by `connect`.
+//! `MuJoCo` model: six legs of universal joint (two hinges) and slide, or of crank and rod, the platform on leg 1,
+//! loops closed by `connect`.
 
 mod cranks;
 mod masses;
@@ -48,7 +49,8 @@ impl Writer for Mjcf {
     }
 }
 
-/// Natural frequency of the platform on its actuators times the square root of the size, rad/s: a platform of 20 kg and 1 m on six legs of 1e5 N/m.
+/// Natural frequency of the platform on its actuators times the square root of the size, rad/s: a platform of 20 kg and
+/// 1 m on six legs of 1e5 N/m.
 const STIFFNESS: f64 = 173.2;
 /// Time step over the square root of the size in metres, seconds.
 const STEP: f64 = 1e-3;
@@ -138,8 +140,9 @@ fn range_of(export: &Export, leg: &ExportLeg, name: &str) -> String {
 
 /// Range of both hinges of the base joint of a leg, radians, where the design limits its swing.
 ///
-/// Turned by `a` about the first hinge and by `b` about the second, a leg is `t` from where it is at home with `cos t = cos a cos b`, so that neither turns by more than `t`. A leg
-/// within `s` of the axis of its joint is within `s` plus the angle of the axis and the leg at home: the hinges keep no leg from where the swing lets it go.
+/// Turned by `a` about the first hinge and by `b` about the second, a leg is `t` from where it is at home with
+/// `cos t = cos a cos b`, so that neither turns by more than `t`. A leg within `s` of the axis of its joint is within
+/// `s` plus the angle of the axis and the leg at home: the hinges keep no leg from where the swing lets it go.
 fn swing_of(export: &Export, leg: &ExportLeg) -> Result<Option<f64>, Unsupported> {
     let Some(swing) = export.hardware.base_swing else { return Ok(None) };
     let home = leg.direction()?;
@@ -157,7 +160,8 @@ fn leg(
     export: &Export,
     leg: &ExportLeg,
 ) -> Result<(), Unsupported> {
-    // each hinge has a body of its own: Drake takes the axis of the first of several joints of a body in the frame of the parent
+    // each hinge has a body of its own: Drake takes the axis of the first of several joints of a body in the frame of
+    // the parent
     let frame = leg_frame(leg)?;
     let (i, length) = (leg.number, leg.length());
     let (thick, thin) = leg.diameters;
@@ -266,7 +270,8 @@ fn payload(out: &mut String, scale: &Scale, export: &Export) {
     let _ = writeln!(out, "              <geom name=\"payload\" {geom} rgba=\"0.5 0.5 0.5 0.3\"/>");
 }
 
-/// How high the ground is: below the lowest joint at home, its ball and the plate that carries it, metres. None where gravity does not pull along the third axis of the base.
+/// How high the ground is: below the lowest joint at home, its ball and the plate that carries it, metres. None where
+/// gravity does not pull along the third axis of the base.
 fn ground(export: &Export, scale: &Scale) -> Option<f64> {
     let down = export.gravity.x == 0.0 && export.gravity.y == 0.0 && export.gravity.z < 0.0;
     let place = |k: usize, p: &Point3<f64>| if k == 0 { *p } else { export.home.transform(p) };
@@ -277,7 +282,8 @@ fn ground(export: &Export, scale: &Scale) -> Option<f64> {
     lowest.reduce(f64::min).filter(|_| down).map(|z| z * scale.metres)
 }
 
-/// What the drives and the platform do, as sensors: place, speed and force of each drive, pose of the platform frame. `joint` is what the joints of the drives are called.
+/// What the drives and the platform do, as sensors: place, speed and force of each drive, pose of the platform frame.
+/// `joint` is what the joints of the drives are called.
 fn sensors(out: &mut String, joint: &str) {
     out.push_str("  <sensor>\n");
     for i in 1..=6 {
@@ -336,8 +342,8 @@ fn opening(export: &Export, scale: &Scale, text: &str) -> String {
     out
 }
 
-/// What a calibration found beside the joints, which changes nothing in the simulation: numbers that programs can read, one row of correlations an element, since some versions take
-/// at most 500 numbers in one.
+/// What a calibration found beside the joints, which changes nothing in the simulation: numbers that programs can read,
+/// one row of correlations an element, since some versions take at most 500 numbers in one.
 fn calibration(out: &mut String, export: &Export) {
     if export.leg_offsets.is_none() && export.calibration.is_none() {
         return;

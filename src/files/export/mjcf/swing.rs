@@ -1,7 +1,8 @@
 //! Swing limits of the balls at the platform, of legs and of rods on cranks.
 //!
-//! The range of a ball joint limits its whole turn, that about the leg included, and legs 2 to 6 have no ball joint but a `connect`. A tendon between two points does what a cone does: with the joint in the
-//! origin, `-h u` on the rod and `-h k` on the axis of the joint, `u` and `k` unit vectors with the angle `t`, its length is
+//! The range of a ball joint limits its whole turn, that about the leg included, and legs 2 to 6 have no ball joint but
+//! a `connect`. A tendon between two points does what a cone does: with the joint in the origin, `-h u` on the rod and
+//! `-h k` on the axis of the joint, `u` and `k` unit vectors with the angle `t`, its length is
 //!
 //! ```text
 //! |h u - h k| = 2 h sin(t / 2).

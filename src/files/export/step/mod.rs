@@ -1,6 +1,8 @@
-//! STEP AP242 (ISO 10303-242) assembly: base and platform with plate and joints, and legs with cylinder and rod, as exact solids.
+//! STEP AP242 (ISO 10303-242) assembly: base and platform with plate and joints, and legs with cylinder and rod, as
+//! exact solids.
 //!
-//! Legs of a kind are places of one part. Its rod stands in the bore of its cylinder as it does at home; both fit over the whole stroke ([`Telescope`]).
+//! Legs of a kind are places of one part. Its rod stands in the bore of its cylinder as it does at home; both fit over
+//! the whole stroke ([`Telescope`]).
 
 mod assembly;
 mod builder;

@@ -116,7 +116,8 @@ pub(super) fn cylinder(b: &mut Builder, name: &str, diameter: f64, height: f64) 
     b.solid(name, &[side, top, bottom])
 }
 
-/// A cylinder on the origin along z with a bore of another diameter that begins at `floor` and is open above, millimetres.
+/// A cylinder on the origin along z with a bore of another diameter that begins at `floor` and is open above,
+/// millimetres.
 pub(super) fn sleeve(
     b: &mut Builder,
     name: &str,

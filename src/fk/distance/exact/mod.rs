@@ -1,9 +1,10 @@
 //! Computes closure polynomials exactly, in integers.
 //!
-//! Doubles are rational numbers: scaled by a power of two, joints and squared leg lengths are integers, and the closure condition of a
-//! trilateration sequence is an element of a tower of square roots over `Q(x)`, `x` the squared length of the virtual leg. Its norm to `Q(x)`,
-//! without the singular factors, is the closure polynomial: every pose at which no base of a step is singular has its `x` among the roots. Theory and figures:
-//! `docs/theory/closure-polynomials.md`. Source: Porta, Thomas, sec. III.
+//! Doubles are rational numbers: scaled by a power of two, joints and squared leg lengths are integers, and the closure
+//! condition of a trilateration sequence is an element of a tower of square roots over `Q(x)`, `x` the squared length
+//! of the virtual leg. Its norm to `Q(x)`, without the singular factors, is the closure polynomial: every pose at which
+//! no base of a step is singular has its `x` among the roots. Theory and figures: `docs/theory/closure-polynomials.md`.
+//! Source: Porta, Thomas, sec. III.
 
 mod strip;
 #[cfg(test)]
@@ -33,7 +34,8 @@ pub enum ClosureError {
         /// The unoriented step, from 0; 3 for the joints of the second body that the steps place.
         step: usize,
     },
-    /// The closure holds for every length of the virtual leg: self-motions, or a sequence that does not suit the design.
+    /// The closure holds for every length of the virtual leg: self-motions, or a sequence that does not suit the
+    /// design.
     #[error("the closure polynomial vanishes identically")]
     Identity,
     /// The data need more binary places before or after the point than are allowed (600), or are not finite.
@@ -71,9 +73,10 @@ pub struct ClosureDegrees {
     pub distinct: usize,
     /// The factors, one for each step the closure needs.
     pub factors: Vec<SingularFactor>,
-    /// `e_t` with `P = N(f) prod_t N(A_t)^(e_t)` up to a constant: `f` the closure (computed less known squared distance), `A_t = -D(i, j, k)` of the
-    /// base of step `t`, `N(f)` the product over the signs of all roots of the closure (two to the number of `factors`), `N(A_t)` that over the signs
-    /// of the `t` earlier steps. A fraction when `A_t` does not depend on some of them; zero for constant factors.
+    /// `e_t` with `P = N(f) prod_t N(A_t)^(e_t)` up to a constant: `f` the closure (computed less known squared
+    /// distance), `A_t = -D(i, j, k)` of the base of step `t`, `N(f)` the product over the signs of all roots of the
+    /// closure (two to the number of `factors`), `N(A_t)` that over the signs of the `t` earlier steps. A fraction when
+    /// `A_t` does not depend on some of them; zero for constant factors.
     pub exponents: Vec<f64>,
 }
 
@@ -99,11 +102,13 @@ pub struct ClosurePolynomial {
 }
 
 impl ClosurePolynomial {
-    /// The number of real poses over each of [`real_roots`](Self::real_roots), proved, when there are `poses` finite complex poses in all; `None` when it does not follow.
+    /// The number of real poses over each of [`real_roots`](Self::real_roots), proved, when there are `poses` finite
+    /// complex poses in all; `None` when it does not follow.
     ///
-    /// There is a pose over every root at which no base is singular. So if there are as many distinct roots as poses, there is one over each, and over a real
-    /// root it is its own conjugate. If both bodies are planar and there are half as many roots, there are a pose and its mirror image over each: two real
-    /// ones where the square of the height of the first joint over the base plane is positive, none where it is negative.
+    /// There is a pose over every root at which no base is singular. So if there are as many distinct roots as poses,
+    /// there is one over each, and over a real root it is its own conjugate. If both bodies are planar and there are
+    /// half as many roots, there are a pose and its mirror image over each: two real ones where the square of the
+    /// height of the first joint over the base plane is positive, none where it is negative.
     #[must_use]
     pub fn real_poses(&self, poses: usize) -> Option<Vec<usize>> {
         if !self.regular {
@@ -123,8 +128,9 @@ impl ClosurePolynomial {
 
 /// The closure polynomial of the sequence `s` of [`plans`](super::plans) for the squared lengths given, exactly.
 ///
-/// Every double is taken as the rational number it is. The degree is that of the topology or less: lengths in special position lower it. The unknown of a
-/// sequence without virtual leg is the squared distance of two joints without a leg, chosen for most distinct roots.
+/// Every double is taken as the rational number it is. The degree is that of the topology or less: lengths in special
+/// position lower it. The unknown of a sequence without virtual leg is the squared distance of two joints without a
+/// leg, chosen for most distinct roots.
 ///
 /// # Errors
 /// [`ClosureError`].
@@ -155,8 +161,8 @@ pub fn closure_polynomial(
 
 /// Degrees for a random member of the topology of `legs` with the sequence `s`.
 ///
-/// The member's joints and lengths are random integers; degrees modulo a prime of sixty-one bits are those of almost all members, wrong with a
-/// probability of about the degree over the prime.
+/// The member's joints and lengths are random integers; degrees modulo a prime of sixty-one bits are those of almost
+/// all members, wrong with a probability of about the degree over the prime.
 ///
 /// # Errors
 /// [`ClosureError`].
@@ -180,7 +186,8 @@ pub fn closure_degrees(
     degrees(&ExactData::new(m, squares)?, s)
 }
 
-/// The closure whose polynomial has most distinct roots, the first of equal ones; there is a choice without virtual leg only.
+/// The closure whose polynomial has most distinct roots, the first of equal ones; there is a choice without virtual leg
+/// only.
 fn best_closure(data: &ExactData, s: &Sequence) -> Result<StripClosure, ClosureError> {
     let all = strip::closures(data, s);
     if let [only] = all[..] {
@@ -216,8 +223,9 @@ struct Removal {
 
 /// Divides by the norms of the singular factors, each without what earlier ones contribute to it.
 ///
-/// With `D_t` the numerator of `A_t = D_t / prod_s D_s^(a_ts)`, `M_t` the norm of `D_t` over the levels it is written in, `M_t = N_t prod_s N_s^(c_ts)`, and `K_t` times `M_t`
-/// in the denominator of `N(f)`, the exponents of `N_t` in `P / N(f)` are `K_t + sum_u c_ut K_u` less those removed; then from `N_t` to `N(A_t)`.
+/// With `D_t` the numerator of `A_t = D_t / prod_s D_s^(a_ts)`, `M_t` the norm of `D_t` over the levels it is written
+/// in, `M_t = N_t prod_s N_s^(c_ts)`, and `K_t` times `M_t` in the denominator of `N(f)`, the exponents of `N_t` in
+/// `P / N(f)` are `K_t + sum_u c_ut K_u` less those removed; then from `N_t` to `N(A_t)`.
 fn remove_factors(all: &strip::Literal<FieldPoly>) -> Removal {
     let count = all.factors.len();
     let mut polynomial = all.polynomial.clone();

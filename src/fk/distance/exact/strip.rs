@@ -1,6 +1,7 @@
 //! The unoriented steps of a sequence over the tower, and the closure condition.
 //!
-//! A step places `P` from `o, p, q` in place: with `u = p - o`, `v = q - o`, `n = u x v`, `m = 2 u.v`, `F = 2 u.(P - o)`, `G = 2 v.(P - o)` from distances,
+//! A step places `P` from `o, p, q` in place: with `u = p - o`, `v = q - o`, `n = u x v`, `m = 2 u.v`,
+//! `F = 2 u.(P - o)`, `G = 2 v.(P - o)` from distances,
 //!
 //! ```text
 //! A   = 4 (u.u v.v) - m^2                        the singular factor, -D(o, p, q)
@@ -8,8 +9,9 @@
 //! P   = o + [ (2 v.v F - m G) u + (2 u.u G - m F) v + 2 sqrt(s_oP A - K) n ] / A.
 //! ```
 //!
-//! The closure is a condition `2 w.(P - o) = h` on the last of the steps it needs; with the sixteen doubled scalar products of `u, v, P - o, w` known
-//! its norm over the root of that step is a Gram determinant, which vanishes for four vectors in space:
+//! The closure is a condition `2 w.(P - o) = h` on the last of the steps it needs; with the sixteen doubled scalar
+//! products of `u, v, P - o, w` known its norm over the root of that step is a Gram determinant, which vanishes for
+//! four vectors in space:
 //!
 //! ```text
 //! A w.w (product over both signs of the closure) = det (2 g_i.g_j),  up to a constant factor.
@@ -17,7 +19,8 @@
 //!
 //! So the outermost root and its singular factor never appear.
 //!
-//! For comparison the closure is also carried out as the paper does: squared distances from coordinates, denominators cleared, roots squared out, nothing cancelled.
+//! For comparison the closure is also carried out as the paper does: squared distances from coordinates, denominators
+//! cleared, roots squared out, nothing cancelled.
 
 use super::tower::{Divisor, Fraction, Fractions, Ring, STEPS, is_zero, zero};
 use super::{ClosureError, ExactData, cross, dot, minus};
@@ -219,7 +222,8 @@ impl<'a, R: Ring> Strip<'a, R> {
         Ok(())
     }
 
-    /// Before the last step of the closure: a multiple, without the root of that step, of the product of the closure over both signs of it.
+    /// Before the last step of the closure: a multiple, without the root of that step, of the product of the closure
+    /// over both signs of it.
     pub(super) fn gram_determinant(&self) -> Result<Fraction<R>, ClosureError> {
         let t = self.closure.steps - 1;
         assert!(self.placed.len() == t);
@@ -247,11 +251,12 @@ impl<'a, R: Ring> Strip<'a, R> {
         std::array::from_fn(|i| std::array::from_fn(|j| pair(list[i], list[j])))
     }
 
-    /// The closure is a distance of a joint `K` rigidly joined to all three that are placed, `P1`, `P2`, `P3`, from a joint `L` in place.
+    /// The closure is a distance of a joint `K` rigidly joined to all three that are placed, `P1`, `P2`, `P3`, from a
+    /// joint `L` in place.
     ///
-    /// With `y = P2 - P1`, `z = P3 - P1`, `n = y x z`: `|n|^2 (K - P1) = c_y y + c_z z + c_n n`, integers. With `t = P1 - L` the closure is
-    /// `2 w.z = h`, `w = c_z t + c_n (t x y)`. The four vectors of the Gram matrix are `y`, `v = J - P1` (`J` the joint in place that the third
-    /// step starts from), `z` and `2 w`; all products are doubled.
+    /// With `y = P2 - P1`, `z = P3 - P1`, `n = y x z`: `|n|^2 (K - P1) = c_y y + c_z z + c_n n`, integers. With
+    /// `t = P1 - L` the closure is `2 w.z = h`, `w = c_z t + c_n (t x y)`. The four vectors of the Gram matrix are `y`,
+    /// `v = J - P1` (`J` the joint in place that the third step starts from), `z` and `2 w`; all products are doubled.
     fn rigid_products(&self) -> Result<[[Fraction<R>; 4]; 4], ClosureError> {
         let f = &self.fractions;
         let [p1, p2, p3] = self.steps.map(|s| s.place);
@@ -333,8 +338,8 @@ impl<'a, R: Ring> Strip<'a, R> {
     }
 }
 
-/// The closures to choose from: that of the sequence, or without virtual legs every pair of a joint placed by the steps and a joint of the first body
-/// without a leg between them, the joint placed last first.
+/// The closures to choose from: that of the sequence, or without virtual legs every pair of a joint placed by the steps
+/// and a joint of the first body without a leg between them, the joint placed last first.
 pub(super) fn closures(data: &ExactData, s: &Sequence) -> Vec<StripClosure> {
     let steps: Vec<JointIndex> = s.unoriented().map(|t| t.place).collect();
     let order = |j: JointIndex| {

@@ -1,9 +1,9 @@
-//! Square roots adjoined one after the other to polynomials over the integers or a prime field, without asking whether they are
-//! new.
+//! Square roots adjoined one after the other to polynomials over the integers or a prime field, without asking whether
+//! they are new.
 //!
-//! Level `k` is the algebra `B_k = B_(k-1)[t] / (t^2 - r_k)` over the ring `B_0 = R`, whatever `r_k` in `B_(k-1)` is: a square, zero, or a
-//! constant. An element has `2^k` coefficients; bit `j` of an index says whether the root of `r_(j+1)` is a factor. The norm to `R` is the
-//! product over both signs of every root.
+//! Level `k` is the algebra `B_k = B_(k-1)[t] / (t^2 - r_k)` over the ring `B_0 = R`, whatever `r_k` in `B_(k-1)` is: a
+//! square, zero, or a constant. An element has `2^k` coefficients; bit `j` of an index says whether the root of
+//! `r_(j+1)` is a factor. The norm to `R` is the product over both signs of every root.
 //!
 //! Fractions are elements of the tower over products of the singular factors.
 
@@ -337,7 +337,8 @@ fn join<R: Ring>(a: &[R], b: &[R], op: fn(&R, &R) -> R) -> Element<R> {
 /// The number of unoriented steps.
 pub(super) const STEPS: usize = 3;
 
-/// `numerator / prod D_t^exponent_t`, `D_t` the numerator of the singular factor of step `t`; exponents may be negative.
+/// `numerator / prod D_t^exponent_t`, `D_t` the numerator of the singular factor of step `t`; exponents may be
+/// negative.
 #[derive(Clone)]
 pub(super) struct Fraction<R> {
     pub(super) numerator: Element<R>,

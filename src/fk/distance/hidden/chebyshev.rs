@@ -6,7 +6,8 @@ use num_complex::Complex64;
 
 use super::roots::{RootCondition, zeros};
 
-/// A polynomial `sum over -n..=n of b_m v^m`, `t = (v + 1/v) / 2`, `b_-m = b_m` real: a sum of Chebyshev polynomials `T_m(t)`.
+/// A polynomial `sum over -n..=n of b_m v^m`, `t = (v + 1/v) / 2`, `b_-m = b_m` real: a sum of Chebyshev polynomials
+/// `T_m(t)`.
 #[derive(Debug, Clone)]
 pub(super) struct Chebyshev {
     /// `b_0, .., b_n`.
@@ -20,8 +21,8 @@ pub(super) struct Chebyshev {
 /// Terms below this part of the largest on their ellipse say little.
 const TRUSTED: f64 = 1e-9;
 
-/// The points with positive imaginary part that a polynomial of this degree with real coefficients is known by: equidistant for `v` on a circle,
-/// on an ellipse about the interval `[-1, 1]` for `t`.
+/// The points with positive imaginary part that a polynomial of this degree with real coefficients is known by:
+/// equidistant for `v` on a circle, on an ellipse about the interval `[-1, 1]` for `t`.
 pub(super) fn nodes(degree: usize, radius: f64) -> Vec<Complex64> {
     (0..count(degree)).map(|k| of_circle(Complex64::from_polar(radius, angle(degree, k)))).collect()
 }
@@ -65,7 +66,8 @@ impl Chebyshev {
         }
     }
 
-    /// Where to look again: a wider ellipse when the last coefficients are small there, a narrower one when the first are.
+    /// Where to look again: a wider ellipse when the last coefficients are small there, a narrower one when the first
+    /// are.
     pub(super) fn doubtful(&self, radius: f64) -> Option<f64> {
         let small = |list: &[f64]| list.iter().all(|w| *w < TRUSTED);
         let n = self.weight.len();

@@ -1,7 +1,8 @@
-//! The 6-6: a virtual leg in the place of a leg, and the closure condition as a product over the 40 poses of that platform.
+//! The 6-6: a virtual leg in the place of a leg, and the closure condition as a product over the 40 poses of that
+//! platform.
 //!
-//! All zeros of its polynomial are searched for; Newton's method on six legs carries the poses along, which also says how the
-//! pose changes with one of the lengths.
+//! All zeros of its polynomial are searched for; Newton's method on six legs carries the poses along, which also says
+//! how the pose changes with one of the lengths.
 
 use nalgebra::{SMatrix, Vector3};
 use num_complex::Complex64;
@@ -255,8 +256,8 @@ struct BlockSearch {
 }
 
 impl BlockSearch {
-    /// Zeros by interpolation on one ellipse or several, and the excess; points of an ellipse when some platform cannot be solved or all poses are
-    /// found on the way.
+    /// Zeros by interpolation on one ellipse or several, and the excess; points of an ellipse when some platform cannot
+    /// be solved or all poses are found on the way.
     fn interpolate(&mut self, platform: &mut Platform<'_>) -> (Vec<Complex64>, f64) {
         let mut best: Option<Chebyshev> = None;
         let mut radius = ELLIPSE;
@@ -304,8 +305,8 @@ impl BlockSearch {
         }
     }
 
-    /// The poses nearest to closing at a zero are starts for Newton's method; unless they lead to a solution for it, the zero takes an Ehrlich-Aberth
-    /// step on the polynomial itself, `F'/F = sum (ds_m/dt) / (s_m - s)`.
+    /// The poses nearest to closing at a zero are starts for Newton's method; unless they lead to a solution for it,
+    /// the zero takes an Ehrlich-Aberth step on the polynomial itself, `F'/F = sum (ds_m/dt) / (s_m - s)`.
     fn visit(&mut self, platform: &mut Platform<'_>, k: usize) {
         let t = self.zeros[k];
         let size = t.norm().max(1.0);

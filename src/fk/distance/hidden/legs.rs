@@ -1,10 +1,11 @@
-//! Legs with complex squared lengths that close on the circle of a joint two of them carry, and the closure condition of the
-//! last leg as a product over the poses without it.
+//! Legs with complex squared lengths that close on the circle of a joint two of them carry, and the closure condition
+//! of the last leg as a product over the poses without it.
 //!
-//! For `w` on the circle of the shared joint the other legs but one leave 8 poses (4 when two of them have a common base joint). The product
-//! of `s_m - s` over them, `s_m` the squared length of the last leg, is a rational function of `w` that vanishes exactly where all legs fit.
-//! Its poles do not depend on the last leg: they are where a triangle of the joint and two of the three legs degenerates, the
-//! factors `A_ijk` of the trilaterations; multiplied with these it is a Laurent polynomial from `w^-20` to `w^20` (from -12 to 12).
+//! For `w` on the circle of the shared joint the other legs but one leave 8 poses (4 when two of them have a common
+//! base joint). The product of `s_m - s` over them, `s_m` the squared length of the last leg, is a rational function of
+//! `w` that vanishes exactly where all legs fit. Its poles do not depend on the last leg: they are where a triangle of
+//! the joint and two of the three legs degenerates, the factors `A_ijk` of the trilaterations; multiplied with these it
+//! is a Laurent polynomial from `w^-20` to `w^20` (from -12 to 12).
 
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
@@ -16,8 +17,9 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// The points with given squared distances to two fixed points, `c + r (cos t e1 + sin t e2)` with `w = exp(i t)`.
 ///
-/// The squared distance of such a point from a third fixed point, a virtual leg, is `x0 + x1 w + x2 / w`: each value of it belongs to two points,
-/// one for each sign of the radical of a trilateration, and `w` takes the place of the length and the sign.
+/// The squared distance of such a point from a third fixed point, a virtual leg, is `x0 + x1 w + x2 / w`: each value of
+/// it belongs to two points, one for each sign of the radical of a trilateration, and `w` takes the place of the length
+/// and the sign.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HiddenCircle {
     centre: Vector3<Complex64>,
@@ -100,7 +102,8 @@ pub(super) struct LegRoles {
 }
 
 impl LegRoles {
-    /// All ways, those with four rotations first. Empty unless each body has at most one shared joint, of two legs: two virtual legs.
+    /// All ways, those with four rotations first. Empty unless each body has at most one shared joint, of two legs: two
+    /// virtual legs.
     pub(super) fn of(pairs: &[(usize, usize); 6]) -> Vec<Self> {
         let base = shared(pairs.map(|p| p.0));
         let platform = shared(pairs.map(|p| p.1));
@@ -271,7 +274,8 @@ impl HiddenClosure {
         Some(PosesOfJoint { joint, placed, slope })
     }
 
-    /// Gap and derivatives of one pose: the platform turns by `omega` such that the three legs keep their lengths while the joint moves.
+    /// Gap and derivatives of one pose: the platform turns by `omega` such that the three legs keep their lengths while
+    /// the joint moves.
     fn place(
         &self,
         rotation: Matrix3<Complex64>,

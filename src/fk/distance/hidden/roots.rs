@@ -1,5 +1,5 @@
-//! All zeros of the closure condition of a shared joint, by Ehrlich-Aberth iteration on the function itself, which is known
-//! through values and logarithmic derivatives.
+//! All zeros of the closure condition of a shared joint, by Ehrlich-Aberth iteration on the function itself, which is
+//! known through values and logarithmic derivatives.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,8 @@ use num::poly::approximate_roots;
 
 /// Sweeps after which a zero that still moves is left where it is.
 const SWEEPS: usize = 30;
-/// A step below this, relative to the size of the zero, is the last: the one after it would be of the order of its cube.
+/// A step below this, relative to the size of the zero, is the last: the one after it would be of the order of its
+/// cube.
 const SETTLED: f64 = 1e-6;
 
 /// A function with as many zeros as start values are given for: a polynomial, not necessarily by its coefficients.
@@ -97,11 +98,13 @@ pub(super) struct FoundZeros {
     pub(super) found: Vec<Zero<PosesOfJoint>>,
     /// Evaluations of the condition.
     pub(super) evaluations: usize,
-    /// Largest coefficient beyond the degree over the largest of all: rounding, unless a zero or pole is near the circle.
+    /// Largest coefficient beyond the degree over the largest of all: rounding, unless a zero or pole is near the
+    /// circle.
     pub(super) excess: f64,
 }
 
-/// As many zeros as the degree says, start values from the interpolated polynomial; `None` when it cannot be interpolated.
+/// As many zeros as the degree says, start values from the interpolated polynomial; `None` when it cannot be
+/// interpolated.
 pub(super) fn closure_zeros(closure: &HiddenClosure) -> Option<FoundZeros> {
     let half = closure.degree() / 2;
     let mut scratch = Scratch::default();
@@ -133,7 +136,8 @@ fn points(half: usize) -> usize {
 #[derive(Debug, Clone)]
 struct Laurent {
     coefficients: Vec<Complex64>,
-    /// What the term of each coefficient is over the largest, on the circle it was found on: about rounding over its relative error.
+    /// What the term of each coefficient is over the largest, on the circle it was found on: about rounding over its
+    /// relative error.
     weight: Vec<f64>,
     excess: f64,
 }

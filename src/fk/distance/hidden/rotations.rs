@@ -2,9 +2,9 @@
 //!
 //! With the joint at `a` a leg from `A` to the platform point at `b` from the joint has `u . R b = c`, `u = A - a`,
 //! `c = (|b|^2 + |u|^2 - s) / 2`. The first of three fixes the angle of `R b_1` and `u_1`, a trilateration; then
-//! `R = E Rz(phi) Ry(theta) Rz(psi) K^T` with frames `E`, `K` that have `u_1` and `b_1` for third axes, and the other two are forms of bidegree
-//! (2, 2) in `z = exp(i phi)` and `y = exp(i psi)`, whose resultant has degree 8. All of it holds over the complex numbers.
-//! Its roots are found from those of a neighbour when there are some.
+//! `R = E Rz(phi) Ry(theta) Rz(psi) K^T` with frames `E`, `K` that have `u_1` and `b_1` for third axes, and the other
+//! two are forms of bidegree (2, 2) in `z = exp(i phi)` and `y = exp(i psi)`, whose resultant has degree 8. All of it
+//! holds over the complex numbers. Its roots are found from those of a neighbour when there are some.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -238,8 +238,8 @@ const ACCURACY: f64 = 1e-6;
 
 /// Roots of `c[0] + .. + c[8] x^8`, `None` when an end coefficient is zero or not finite.
 ///
-/// Ehrlich-Aberth iteration on all roots side by side; multiple roots are left after [`SWEEPS`] as near as they came. `start` must be eight
-/// different numbers; without it points of a circle are taken.
+/// Ehrlich-Aberth iteration on all roots side by side; multiple roots are left after [`SWEEPS`] as near as they came.
+/// `start` must be eight different numbers; without it points of a circle are taken.
 fn octic_roots(c: &[Complex64; LANES + 1], start: Option<ComplexBatch>) -> Option<ComplexBatch> {
     let usable = c.iter().all(|z| z.is_finite()) && c[0].norm() > 0.0 && c[LANES].norm() > 0.0;
     if !usable {

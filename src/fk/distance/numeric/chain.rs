@@ -1,4 +1,5 @@
-//! A sequence as indices and numbers, its evaluation, and the closure condition along the circle on which one joint turns.
+//! A sequence as indices and numbers, its evaluation, and the closure condition along the circle on which one joint
+//! turns.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -98,8 +99,8 @@ impl Slots {
 }
 
 impl TrilaterationChain {
-    /// The sequence for `m`, with the lengths of the virtual legs `given` known and, when there is one more, that one to be found
-    /// from `closure`. `None` when the sequence is not of this kind.
+    /// The sequence for `m`, with the lengths of the virtual legs `given` known and, when there is one more, that one
+    /// to be found from `closure`. `None` when the sequence is not of this kind.
     pub(super) fn new(
         m: &Manipulator,
         s: &Sequence,
@@ -300,7 +301,8 @@ const NUDGE: f64 = 1e-7;
 /// Most sweeps of the simultaneous iteration.
 const SWEEPS: usize = 12;
 
-/// How often the Gram determinants of the two steps after the turn divide the product of the closures over all orientations.
+/// How often the Gram determinants of the two steps after the turn divide the product of the closures over all
+/// orientations.
 pub(super) type Exponents = [u32; 2];
 
 /// A chain with lengths, the joints before the turn in place.
@@ -446,8 +448,8 @@ impl<'a> ChainBranch<'a> {
         out
     }
 
-    /// Ehrlich-Aberth sweeps on the product itself, of degree `2 degree` in `u` after multiplication by `u^degree`: coefficients lose what is
-    /// small beside the largest value on the circle, the product does not.
+    /// Ehrlich-Aberth sweeps on the product itself, of degree `2 degree` in `u` after multiplication by `u^degree`:
+    /// coefficients lose what is small beside the largest value on the circle, the product does not.
     pub(super) fn separate(&self, zeros: &mut [Complex64], e: Exponents, degree: usize) {
         for _ in 0..SWEEPS {
             let nudged = zeros.iter().map(|u| u * (1.0 + NUDGE));
@@ -471,7 +473,8 @@ impl<'a> ChainBranch<'a> {
         }
     }
 
-    /// Eight choices at `u`: `upper` says for which a step's height is taken as it is, for the others with the other sign.
+    /// Eight choices at `u`: `upper` says for which a step's height is taken as it is, for the others with the other
+    /// sign.
     #[inline(always)]
     fn choice(&self, u: ComplexBatch, upper: impl Fn(usize, ComplexBatch) -> [bool; LANES]) -> SignChoice {
         let mut at = self.start(u);

@@ -1,10 +1,11 @@
 //! Finds all poses by trilateration in floating point, for sequences with no or one unknown virtual leg.
 //!
-//! The joint at the end of the virtual leg has two other known distances, so that it turns on a circle. Its angle is a better unknown than
-//! the length of the virtual leg: `u = exp(i angle)` is a rational parameter of the first square root, and real configurations
-//! have `|u| = 1`. The closures of all orientations of the later steps multiplied together are a polynomial in `u` and `1/u` over powers
-//! of the Gram determinants of the steps' bases; values on `|u| = 1` give its coefficients, its zeros give one configuration each,
-//! made accurate by Newton's method on the closure itself. Theory: `docs/theory/trilateration.md`.
+//! The joint at the end of the virtual leg has two other known distances, so that it turns on a circle. Its angle is a
+//! better unknown than the length of the virtual leg: `u = exp(i angle)` is a rational parameter of the first square
+//! root, and real configurations have `|u| = 1`. The closures of all orientations of the later steps multiplied
+//! together are a polynomial in `u` and `1/u` over powers of the Gram determinants of the steps' bases; values on
+//! `|u| = 1` give its coefficients, its zeros give one configuration each, made accurate by Newton's method on the
+//! closure itself. Theory: `docs/theory/trilateration.md`.
 
 mod chain;
 mod number;
@@ -54,8 +55,9 @@ pub struct Configurations {
 }
 
 impl Evaluator {
-    /// Prepares a sequence for a design. The lengths of the virtual legs `given` are known in [`configurations`](Self::configurations); when
-    /// the sequence has one more it is found from `closure`. `None` when the sequence does not fit, or its shape cannot be measured.
+    /// Prepares a sequence for a design. The lengths of the virtual legs `given` are known in
+    /// [`configurations`](Self::configurations); when the sequence has one more it is found from `closure`. `None` when
+    /// the sequence does not fit, or its shape cannot be measured.
     #[must_use]
     pub fn new(
         m: &Manipulator,
@@ -93,8 +95,9 @@ impl Evaluator {
         self.chain.closure.is_some()
     }
 
-    /// All configurations for squared lengths of the six legs, then of the virtual legs given, in design units squared; complex ones are
-    /// as good as real ones. The polynomial is sampled on `|u| = radius`: zeros far from there lose digits.
+    /// All configurations for squared lengths of the six legs, then of the virtual legs given, in design units squared;
+    /// complex ones are as good as real ones. The polynomial is sampled on `|u| = radius`: zeros far from there lose
+    /// digits.
     #[must_use]
     pub fn configurations(&self, squares: &[Complex64], radius: f64) -> Configurations {
         let unit = self.chain.size * self.chain.size;

@@ -1,5 +1,5 @@
-//! What a sequence's closure polynomial looks like, measured once on a random design with the same joints shared, and its
-//! zeros: those of a polynomial in `u` and `1/u`, from its values on a circle.
+//! What a sequence's closure polynomial looks like, measured once on a random design with the same joints shared, and
+//! its zeros: those of a polynomial in `u` and `1/u`, from its values on a circle.
 
 use nalgebra::Point3;
 use num_complex::Complex64;
@@ -42,8 +42,8 @@ impl GenericDegrees {
         self.simple
     }
 
-    /// Measures the shape of a sequence for designs with the legs of `m`; `None` when the closure is not a polynomial for any exponents
-    /// tried. The result depends on the legs alone, not on coordinates.
+    /// Measures the shape of a sequence for designs with the legs of `m`; `None` when the closure is not a polynomial
+    /// for any exponents tried. The result depends on the legs alone, not on coordinates.
     #[must_use]
     pub fn measure(
         m: &Manipulator,
@@ -181,7 +181,8 @@ const STEP: f64 = 1e-6;
 /// Sweeps after which zeros are taken as they are.
 const SWEEPS: usize = 40;
 
-/// Coefficients `c_{-D}, .., c_D` of `sum c_k v^k` from values at the `n > 2 D` roots of unity `v = exp(2 pi i j / n)`, which are `turn`.
+/// Coefficients `c_{-D}, .., c_D` of `sum c_k v^k` from values at the `n > 2 D` roots of unity `v = exp(2 pi i j / n)`,
+/// which are `turn`.
 pub(super) fn coefficients(values: &[Complex64], degree: usize, turn: &[Complex64]) -> Vec<Complex64> {
     let n = values.len();
     let sum = |k: usize| {

@@ -26,8 +26,8 @@ pub enum NoPlan {
 
 /// The sequences with fewest virtual legs for this design, best first: least [`Nesting`], then the fattest triangles.
 ///
-/// Joints are numbered as in the design; those without a leg are left out. The start triangle and the bases of rigid steps are the fattest
-/// there are, and never collinear ([`Base::Collinear`]).
+/// Joints are numbered as in the design; those without a leg are left out. The start triangle and the bases of rigid
+/// steps are the fattest there are, and never collinear ([`Base::Collinear`]).
 ///
 /// # Errors
 /// [`NoPlan`] when more than `allowed` virtual legs are needed, or all triangles are collinear.
@@ -48,8 +48,8 @@ pub fn plans(m: &Manipulator, allowed: usize) -> Result<Vec<Sequence>, NoPlan> {
     Ok(ranked.into_iter().map(|r| r.2).collect())
 }
 
-/// A sequence of the legs of `m` with the fattest start triangle of this design, and the fatness of the leanest triangle that it needs;
-/// `None` when that is collinear.
+/// A sequence of the legs of `m` with the fattest start triangle of this design, and the fatness of the leanest
+/// triangle that it needs; `None` when that is collinear.
 #[must_use]
 pub fn fit(m: &Manipulator, s: &Sequence) -> Option<(f64, Sequence)> {
     fitted(m, s.clone())
@@ -69,7 +69,8 @@ fn fatness(m: &Manipulator, three: [JointIndex; 3]) -> f64 {
     Base::fatness([(0, 1), (0, 2), (1, 2)].map(|(i, j)| (p[i] - p[j]).norm_squared()))
 }
 
-/// The sequence with the fattest start triangle, and the fatness of the leanest triangle that it needs; `None` when that is collinear.
+/// The sequence with the fattest start triangle, and the fatness of the leanest triangle that it needs; `None` when
+/// that is collinear.
 fn fitted(m: &Manipulator, mut s: Sequence) -> Option<(f64, Sequence)> {
     let on_first = |j: &JointIndex| j.same_body(s.start[0]);
     let first: Vec<JointIndex> =

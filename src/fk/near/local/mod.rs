@@ -1,7 +1,7 @@
 //! The leg equations about a pose, exactly quadratic, with their Newton step and second-order bound.
 //!
-//! With the pose as frame (`B = R b`, `A = a - q`, `D = B - A`; `q` the platform centroid) a nearby pose is a dual quaternion
-//! `(1, w; g0, h)`, and
+//! With the pose as frame (`B = R b`, `A = a - q`, `D = B - A`; `q` the platform centroid) a nearby pose is a dual
+//! quaternion `(1, w; g0, h)`, and
 //!
 //! ```text
 //! f_i = D.D - s  over 2,          f_i(w, h, g0) = f_i + D.h + 2 (B x D).w + Q_i,
@@ -199,11 +199,13 @@ const U: f64 = f64::EPSILON / 2.0;
 
 /// How far the numbers of a [`LegDefects`] may be from those of the exact problem, leg by leg, Euclidean norms.
 ///
-/// The exact problem has the joints of the design, any within their radii, moved by the doubles `origin` and `centre` and divided by the double `unit`, the rotation nearest to the matrix of the
-/// place, and target squares within `target_error` of the numbers given. With `u = 2^-53`, to first order, and constants rounded up:
+/// The exact problem has the joints of the design, any within their radii, moved by the doubles `origin` and `centre`
+/// and divided by the double `unit`, the rotation nearest to the matrix of the place, and target squares within
+/// `target_error` of the numbers given. With `u = 2^-53`, to first order, and constants rounded up:
 ///
 /// * joints: a difference and a quotient, `2 u |a|`, `2 u |b|`, and how far the joints may be from their doubles;
-/// * rotation: the singular values of `R` are off 1 by at most `|R^T R - I|`, so the nearest rotation is that near (entries of `R^T R` are computed to `3 u`);
+/// * rotation: the singular values of `R` are off 1 by at most `|R^T R - I|`, so the nearest rotation is that near
+///   (entries of `R^T R` are computed to `3 u`);
 /// * `B = R b`: `(|R^T R - I| + 9 u) |b|`; `A = a - q`: `2 u |a| + u |A|`; `D = B - A`: both and `u |D|`;
 /// * `f = (D.D - s) / 2`: `|D| d + d^2 / 2`, six roundings of `|D|^2`, one of `f`, half of `target_error`.
 pub(super) struct Blur {
@@ -244,15 +246,16 @@ impl Blur {
         out
     }
 
-    /// Of a row of the Jacobian: `d` in `D`, and in `2 B x D` the terms of the product's change with its own rounding; and seven roundings of a sum over six
-    /// such rows.
+    /// Of a row of the Jacobian: `d` in `D`, and in `2 B x D` the terms of the product's change with its own rounding;
+    /// and seven roundings of a sum over six such rows.
     fn row(&self, here: &LegDefects, i: usize) -> f64 {
         let (b, d) = (norm(&here.b[i]), norm(&here.d[i]));
         let turned = 2.0 * (self.b[i] * d + b * self.d[i] + self.b[i] * self.d[i]);
         (self.d[i] + turned + 10.0 * U * b * d + 8.0 * U * (d + 2.0 * b * d)) * UP
     }
 
-    /// Of the coefficients of `Q_i` without those of `g0 D.w`, and of the latter: `A + B`, and `W` with `|W| <= 6 |A| |B|`; and the roundings of their sums.
+    /// Of the coefficients of `Q_i` without those of `g0 D.w`, and of the latter: `A + B`, and `W` with
+    /// `|W| <= 6 |A| |B|`; and the roundings of their sums.
     fn second_order(&self, here: &LegDefects, i: usize) -> (f64, f64) {
         let (a, b) = (norm(&here.a[i]), norm(&here.b[i]));
         let own = 10.0 * U * (1.0 + a + b + 6.0 * a * b);
@@ -263,8 +266,9 @@ impl Blur {
 
 /// The numbers of the Kantorovich test at the start of a segment: bounds for the exact problem, see [`Blur`].
 ///
-/// With `kappa >= |I - Y J|` the conditions of the theorem are `4 (beta + eta) eta <= (1 - kappa)^2` and, for a ball of radius `r`, `2 (beta + eta) r <= 1 - kappa`. Both
-/// numbers are given divided by `(1 - kappa)^2`, so that the conditions with `kappa = 0` imply them.
+/// With `kappa >= |I - Y J|` the conditions of the theorem are `4 (beta + eta) eta <= (1 - kappa)^2` and, for a ball of
+/// radius `r`, `2 (beta + eta) r <= 1 - kappa`. Both numbers are given divided by `(1 - kappa)^2`, so that the
+/// conditions with `kappa = 0` imply them.
 pub(super) struct SegmentStart {
     /// The Newton step to the end of the way.
     pub(super) step: [f64; 6],
@@ -315,7 +319,8 @@ impl SegmentStart {
     }
 }
 
-/// `(beta, epsilon)`: rows of `Y Q` are combined over the legs first, then bounded, in blocks of three by the Euclidean norm.
+/// `(beta, epsilon)`: rows of `Y Q` are combined over the legs first, then bounded, in blocks of three by the Euclidean
+/// norm.
 fn second_order(here: &LegDefects, y: &Matrix6, blur: &Blur) -> (f64, f64) {
     // per leg: 1, D, A + B, and the upper triangle of W
     let mut terms = [[0.0; 13]; 6];

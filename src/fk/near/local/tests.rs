@@ -115,7 +115,8 @@ fn what_is_no_rotation_is_refused() {
     assert!(orthonormal(&far).is_none());
 }
 
-/// The numbers of the exact problem, over the rationals, are within the bounds of those computed; and the bounds are of use.
+/// The numbers of the exact problem, over the rationals, are within the bounds of those computed; and the bounds are of
+/// use.
 #[test]
 fn the_exact_problem_is_within_the_blur() {
     use num_rational::BigRational;

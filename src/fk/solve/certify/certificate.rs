@@ -89,10 +89,10 @@ impl PoseEnclosure {
 
 /// Proof that exactly one root lies near a point; made by [`certify`](super::certify) only.
 ///
-/// Coordinates are `x = (e_0..e_3, g_0..g_3 / unit)` with `e_patch = 1`, distances the largest modulus of a
-/// coordinate difference. For every choice of the squared lengths within their radii there is exactly one root within
-/// [`uniqueness_radius`](Self::uniqueness_radius) of the centre [`centre`](Self::centre) `+` [`low`](Self::low); it is regular and lies within
-/// [`radius`](Self::radius).
+/// Coordinates are `x = (e_0..e_3, g_0..g_3 / unit)` with `e_patch = 1`, distances the largest modulus of a coordinate
+/// difference. For every choice of the squared lengths within their radii there is exactly one root within
+/// [`uniqueness_radius`](Self::uniqueness_radius) of the centre [`centre`](Self::centre) `+` [`low`](Self::low); it is
+/// regular and lies within [`radius`](Self::radius).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Certificate {
     pub(super) centre: [Complex64; 8],
@@ -127,8 +127,8 @@ impl Certificate {
         std::array::from_fn(|k| if k < 4 { self.centre[k] } else { self.centre[k] * self.unit })
     }
 
-    /// The certificate of the complex conjugate root: equations and patch are real, so that conjugation maps balls about a
-    /// centre to balls about its conjugate and zeros to zeros.
+    /// The certificate of the complex conjugate root: equations and patch are real, so that conjugation maps balls
+    /// about a centre to balls about its conjugate and zeros to zeros.
     #[must_use]
     pub fn conjugate(&self) -> Self {
         let mut out = *self;
@@ -136,8 +136,9 @@ impl Certificate {
         out
     }
 
-    /// Becomes the certificate of the mirror image `R -> S R S`, `p -> S p`, `S = diag(1, 1, -1)`, for platforms with all joints in `z = 0`: the
-    /// equations are even under `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`, changes of sign that no rounding sees.
+    /// Becomes the certificate of the mirror image `R -> S R S`, `p -> S p`, `S = diag(1, 1, -1)`, for platforms with
+    /// all joints in `z = 0`: the equations are even under `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`, changes of
+    /// sign that no rounding sees.
     fn mirror(&mut self) {
         let common = if self.patch == 0 || self.patch == 3 { 1.0 } else { -1.0 };
         for (k, sign) in MIRROR.iter().enumerate() {
@@ -302,7 +303,8 @@ pub enum WhyUncertified {
     /// The matrix is not, up to `NEAR`, the rotation of any quaternion.
     #[error("the matrix is not a rotation: it is {distance:e} away from that of its quaternion")]
     NotARotation {
-        /// Largest entry difference, relative to the larger of 1 and the largest entry; infinite when there is no quaternion.
+        /// Largest entry difference, relative to the larger of 1 and the largest entry; infinite when there is no
+        /// quaternion.
         distance: f64,
     },
     /// The Jacobian at the centre has no approximate inverse.
@@ -331,7 +333,8 @@ pub enum WhyUncertified {
     /// The root is proved, but its `R` or `p` need not be that of the pose to half the digits of a double.
     #[error("R or p of the root may be {distance:e} away from those of the pose")]
     Deviation {
-        /// Bound of the distance, for `R` relative to the larger of 1 and the largest entry, for `p` to the larger of the design's size and the largest entry.
+        /// Bound of the distance, for `R` relative to the larger of 1 and the largest entry, for `p` to the larger of
+        /// the design's size and the largest entry.
         distance: f64,
     },
     /// `e.e` may be zero in the ball, where there is no pose.

@@ -1,7 +1,7 @@
 //! From poses and dual quaternions to Study coordinates, and from a point or ball of these back to `R` and `p`.
 //!
-//! `R = X(e) / (e.e)` loses `log10(|e|^2 / |e.e|)` digits in double, and `p e = g` as many on the way back. Far out, where `e.e`
-//! is small, a pose is therefore made from a point in double-double.
+//! `R = X(e) / (e.e)` loses `log10(|e|^2 / |e.e|)` digits in double, and `p e = g` as many on the way back. Far out,
+//! where `e.e` is small, a pose is therefore made from a point in double-double.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -136,7 +136,8 @@ pub(super) fn enclose_pose(
     Some(PoseEnclosure { rotation, position: p.map(|z| (z * inverse).scaled(unit)) })
 }
 
-/// [`enclose_pose`] over the ball about `centre + low`, in double-double: where `e.e` is small or `g` large, rounding in double would cost all digits.
+/// [`enclose_pose`] over the ball about `centre + low`, in double-double: where `e.e` is small or `g` large, rounding
+/// in double would cost all digits.
 pub(super) fn enclose_pose_widely(
     centre: &[Complex64; 8],
     low: &[Complex64; 8],
@@ -226,8 +227,9 @@ pub(super) fn rotation_distance(pose: &ComplexPose, enclosure: &PoseEnclosure) -
     (0..9).map(gap).fold(0.0, f64::max) / discs.iter().map(|d| d.centre.norm()).fold(1.0, f64::max)
 }
 
-/// How far the pose may be from the root: the largest distance of an entry from a point of its disc, or with `middles` from the middle of it, for `R` relative to the
-/// larger of 1 and the largest entry, for `p` relative to the larger of `unit` and the largest entry. NaN where nothing is known.
+/// How far the pose may be from the root: the largest distance of an entry from a point of its disc, or with `middles`
+/// from the middle of it, for `R` relative to the larger of 1 and the largest entry, for `p` relative to the larger of
+/// `unit` and the largest entry. NaN where nothing is known.
 pub(super) fn deviation(pose: &ComplexPose, enclosure: &PoseEnclosure, unit: f64, middles: bool) -> f64 {
     let part = |entries: &[Complex64], discs: &[Disc], least: f64| {
         let (mut gap, mut scale) = (0.0, least);

@@ -1,7 +1,8 @@
 //! The bounds of the theorem far out, in double-double and on differences of the leg equations.
 //!
-//! Where `g` is large the six gradients `v_i = g + T_i e` are nearly parallel and the equations nearly alike: rounding in
-//! `|v_i|^2` drowns what tells them apart. The test holds for any regular combination of equations. Here it is made on `F_0`, `F_i - F_0`, `F_6` with
+//! Where `g` is large the six gradients `v_i = g + T_i e` are nearly parallel and the equations nearly alike: rounding
+//! in `|v_i|^2` drowns what tells them apart. The test holds for any regular combination of equations. Here it is made
+//! on `F_0`, `F_i - F_0`, `F_6` with
 //!
 //! ```text
 //! F_i - F_0 = ( u_i.(2 v_0 + u_i) - (s_i - s_0) e.e ) / 2,   u_i = v_i - v_0 = (T_i - T_0) e,     i = 1..5,
@@ -9,14 +10,16 @@
 //!
 //! no difference of large numbers in it, everything in double-double except the approximate inverse.
 //!
-//! **Error bounds**, notation of the `system` module, `U` the unit of double-double, `tau_i` >= absolute row sums of `T_i - T_0`:
+//! **Error bounds**, notation of the `system` module, `U` the unit of double-double, `tau_i` >= absolute row sums of
+//! `T_i - T_0`:
 //!
 //! * `u_i`: `alpha = 5U tau_i E` a component; `w_i = 2 v_0 + u_i`: from `v_0` and `u_i`, two more roundings, less than
 //!   `beta = 3 . 5U (G + t_0 E) + 2 alpha`.
 //! * `F_i - F_0`: `(1/2) sum (|u| beta + |w| alpha + alpha beta) <= |u| beta + |w| alpha + 2 alpha beta`, own roundings
 //!   `5U (|u| |w| + |s_i - s_0| P)` as for `F_i`; doubled below.
 //! * Rows of the Jacobian: an entry by `g` `5U tau E`; one by `e` at most `13U` times the sum `M` of its terms' bounds
-//!   `tau G + t_i tau E + tau t_0 E + |s_i - s_0| E`; a row of eight less than `128U (tau E + M)` in `|.|_1`. Row 0 alike with `G + t_0 E` for `tau E`.
+//!   `tau G + t_i tau E + tau t_0 E + |s_i - s_0| E`; a row of eight less than `128U (tau E + M)` in `|.|_1`. Row 0
+//!   alike with `G + t_0 E` for `tau E`.
 //!
 //! Radii of joints change `F_i - F_0` and its gradient by at most what they change those of `F_i` and `F_0`.
 

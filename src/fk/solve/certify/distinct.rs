@@ -27,8 +27,9 @@ pub enum Distinctness {
 
 /// Relation of the roots of two certificates; both must come from the same manipulator and the same squared lengths.
 ///
-/// Roots are compared by the enclosures of `R` and `p`, which do not depend on the patch, and by those of their Study coordinates: far out
-/// (`e.e` near 0) two poses may agree in all the leading digits of `R` and `p` and still have quite different `g`.
+/// Roots are compared by the enclosures of `R` and `p`, which do not depend on the patch, and by those of their Study
+/// coordinates: far out (`e.e` near 0) two poses may agree in all the leading digits of `R` and `p` and still have
+/// quite different `g`.
 #[must_use]
 pub fn relation(a: &Certificate, b: &Certificate) -> RootRelation {
     if a.enclosure.is_disjoint(&b.enclosure) {
@@ -96,7 +97,8 @@ pub fn is_of(root: &Certificate, cluster: &ClusterCertificate) -> bool {
     on_patch(root, patch, cluster.unit()).is_some_and(|x| lies_within(&x, patch, radius, centre))
 }
 
-/// [`is_captured`] for centres in doubles on one patch, without balls: a computed difference is off by rounding of itself, which [`UP`] takes up.
+/// [`is_captured`] for centres in doubles on one patch, without balls: a computed difference is off by rounding of
+/// itself, which [`UP`] takes up.
 fn is_plainly_captured(inner: &Certificate, outer: &Certificate) -> bool {
     let in_double = |c: &Certificate| c.precision == CentrePrecision::Double;
     let alike = inner.patch == outer.patch && inner.unit.to_bits() == outer.unit.to_bits();
@@ -112,8 +114,8 @@ fn is_plainly_captured(inner: &Certificate, outer: &Certificate) -> bool {
 
 /// Pairs of enclosures that may have a pose in common, as indices in ascending order; all others are disjoint.
 ///
-/// Discs over disjoint intervals of the real axis are disjoint. The intervals of one coordinate are passed from left to right, so that of `n` enclosures not all
-/// `n (n - 1) / 2` pairs are looked at.
+/// Discs over disjoint intervals of the real axis are disjoint. The intervals of one coordinate are passed from left to
+/// right, so that of `n` enclosures not all `n (n - 1) / 2` pairs are looked at.
 pub(crate) fn overlapping_pairs<'a>(
     enclosures: impl Iterator<Item = &'a PoseEnclosure>,
 ) -> Vec<(usize, usize)> {

@@ -50,7 +50,8 @@ pub(super) fn approximate_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Opt
     Some(m)
 }
 
-/// [`approximate_inverse`] after scaling rows and columns by powers of two, for matrices with entries of very different size.
+/// [`approximate_inverse`] after scaling rows and columns by powers of two, for matrices with entries of very different
+/// size.
 pub(super) fn equilibrated_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Option<PaddedMatrix> {
     let unit = |x: f64| if x.is_normal() { 2f64.powi(-(x.log2().floor() as i32)) } else { 1.0 };
     let size = |i: usize, k: usize| re[i][k].abs().max(im[i][k].abs());

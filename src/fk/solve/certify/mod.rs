@@ -1,11 +1,12 @@
 //! Certificates of forward-kinematics roots: interval proofs that share no code with any solver.
 //!
 //! A pose is a point `x = (e, g)` of dual quaternions with `g = p e`; six leg equations
-//! `|g + e b_i - a_i e|^2 = s_i e.e`, the Study quadric `e.g = 0` and the patch `e_k = 1` (largest coordinate) make seven
-//! quadrics in seven unknowns. The simplified Newton map with an approximate inverse `Y` of the Jacobian is shown to contract a ball
-//! (Krawczyk 1969 in the norm-wise form of Kantorovich; Breiding, Rose, Timme 2020 for certifying solutions of
-//! polynomial systems). Statement, proof and all rounding bounds: `docs/theory/certificates.md` and the sources of
-//! the submodules. Joints enter as the exact doubles they are, squared lengths with all their digits and a radius ([`SquareData`]).
+//! `|g + e b_i - a_i e|^2 = s_i e.e`, the Study quadric `e.g = 0` and the patch `e_k = 1` (largest coordinate) make
+//! seven quadrics in seven unknowns. The simplified Newton map with an approximate inverse `Y` of the Jacobian is shown
+//! to contract a ball (Krawczyk 1969 in the norm-wise form of Kantorovich; Breiding, Rose, Timme 2020 for certifying
+//! solutions of polynomial systems). Statement, proof and all rounding bounds: `docs/theory/certificates.md` and the
+//! sources of the submodules. Joints enter as the exact doubles they are, squared lengths with all their digits and a
+//! radius ([`SquareData`]).
 //!
 //! # What is decided, and by what
 //!
@@ -38,9 +39,10 @@
 //! | [`is_of()`] | is a certified root one of a cluster? | it lies in the ball in which the roots of the cluster are the only ones | it may be or not |
 //! | [`relation()`], [`distinct()`] | are two certified roots different, or one? | different where enclosures are disjoint, one where an enclosure lies in the other's ball of uniqueness; certificates of one problem | [`RootRelation::Undecided`]: enclosures overlap |
 //!
-//! [`Certifier::refine`] proves nothing: it is Newton's method in double-double. Octahedral platforms have a certificate of all sixteen poses
-//! at once, [`octahedral`]. Outside this folder a root is certified by [`Certifier::certify`] when its pose shall be judged as it is, and by
-//! `root_near` when the best pose is wanted with its proof.
+//! [`Certifier::refine`] proves nothing: it is Newton's method in double-double. Octahedral platforms have a
+//! certificate of all sixteen poses at once, [`octahedral`]. Outside this folder a root is certified by
+//! [`Certifier::certify`] when its pose shall be judged as it is, and by `root_near` when the best pose is wanted with
+//! its proof.
 //!
 //! ```
 //! # mod equipod { pub mod methods { pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
@@ -114,14 +116,15 @@ use system::{LegSystem, RealScalar, Study};
 
 /// How accurate a pose must be to be certified: `2^-26`, half of the digits of a double.
 ///
-/// The Newton map contracts on balls far wider than that, so that a proof alone would also go to poses which are wrong in the
-/// sixth digit. A certificate shall say that the pose *is* the root to the accuracy of its digits. Measured twice: the Newton step in Study coordinates with
-/// `e_k = 1` and lengths divided by [`Certificate::unit`]; and the distance of the entries of the pose from all points of the enclosure, for `R` relative to the
-/// larger of 1 and the largest entry, for `p` relative to the larger of the unit and the largest entry.
+/// The Newton map contracts on balls far wider than that, so that a proof alone would also go to poses which are wrong
+/// in the sixth digit. A certificate shall say that the pose *is* the root to the accuracy of its digits. Measured
+/// twice: the Newton step in Study coordinates with `e_k = 1` and lengths divided by [`Certificate::unit`]; and the
+/// distance of the entries of the pose from all points of the enclosure, for `R` relative to the larger of 1 and the
+/// largest entry, for `p` relative to the larger of the unit and the largest entry.
 pub const NEAR: f64 = 1.0 / (1u32 << 26) as f64;
 
-/// How wide an enclosure may be, in the measure of [`NEAR`], where `e.e` is so small that double-double does not give `R` and `p` to `NEAR`. The pose is then the middle of
-/// it, and the enclosure says which digits it has.
+/// How wide an enclosure may be, in the measure of [`NEAR`], where `e.e` is so small that double-double does not give
+/// `R` and `p` to `NEAR`. The pose is then the middle of it, and the enclosure says which digits it has.
 pub const FAR_OUT: f64 = 1.0 / (1u32 << 10) as f64;
 
 /// A pose this near to the middle of its enclosure is the middle, rounded.
@@ -141,8 +144,8 @@ pub(crate) enum NewtonStart<'a> {
     Point(&'a [Complex64; 8]),
     /// A point that may be no root, or at `e.e = 0`; by no more than `reach`, in the size of the point.
     DoubtfulPoint(&'a [Complex64; 8], f64),
-    /// A point known to more digits than a double-double has, which is not moved at all. However far out, the unit of length is taken from the
-    /// point itself, and only its digits beyond double-double are dropped.
+    /// A point known to more digits than a double-double has, which is not moved at all. However far out, the unit of
+    /// length is taken from the point itself, and only its digits beyond double-double are dropped.
     PrecisePoint(&'a [ComplexOctuple; 8]),
 }
 
@@ -151,7 +154,8 @@ pub(crate) enum NewtonStart<'a> {
 pub struct Certifier(LegSystem);
 
 impl Certifier {
-    /// Prepares `m` with the squared leg lengths `s`: [`SquaredLegLengths`](platform::manipulator::SquaredLegLengths) or intervals (design units squared).
+    /// Prepares `m` with the squared leg lengths `s`: [`SquaredLegLengths`](platform::manipulator::SquaredLegLengths)
+    /// or intervals (design units squared).
     ///
     /// # Errors
     /// [`WhyUncertified::OutOfRange`] when the data cannot be scaled exactly; [`WhyUncertified::Arithmetic`].
@@ -183,7 +187,8 @@ impl Certifier {
         Ok(certificate)
     }
 
-    /// Decides whether there is exactly one root where Newton's method leads from `start`, and gives its pose, rounded from the best approximation at hand.
+    /// Decides whether there is exactly one root where Newton's method leads from `start`, and gives its pose, rounded
+    /// from the best approximation at hand.
     pub(crate) fn root_near(&self, start: NewtonStart<'_>) -> Result<CertifiedPose, WhyUncertified> {
         match start {
             NewtonStart::Pose(pose) => self.root_near_pose(pose),
@@ -205,7 +210,8 @@ impl Certifier {
         }
     }
 
-    /// [`root_near`](Self::root_near) of points `(e, g)`, eight at a time. Where there is `None` doubles prove nothing: for `root_near` to look at.
+    /// [`root_near`](Self::root_near) of points `(e, g)`, eight at a time. Where there is `None` doubles prove nothing:
+    /// for `root_near` to look at.
     pub(crate) fn roots_near(&self, points: &[&[Complex64; 8]]) -> Vec<Option<CertifiedPose>> {
         let nothing = Study { re: [f64::NAN; 8], im: [f64::NAN; 8], patch: 0 };
         let study = |x: &&[Complex64; 8]| study_at(x, self.0.unit()).unwrap_or(nothing);
@@ -256,8 +262,8 @@ impl Certifier {
         self.certified(pose, &certificate_of(&self.0, x, ball)?)
     }
 
-    /// The root in a ball about a double where `R` and `p` need more digits than the point has: those of one Newton step with values in double-double, which is all
-    /// that a point as good as doubles can make it needs.
+    /// The root in a ball about a double where `R` and `p` need more digits than the point has: those of one Newton
+    /// step with values in double-double, which is all that a point as good as doubles can make it needs.
     fn root_one_step_on(&self, x: &Study<f64>) -> Result<CertifiedPose, WhyUncertified> {
         let mut better = x.lifted();
         for (k, step) in newton_step(&self.0, &better)?.iter().enumerate() {
@@ -281,8 +287,8 @@ impl Certifier {
         self.certified(certificate.enclosure.middle(), &certificate)
     }
 
-    /// Near infinity `g` is known less well than `e` by many powers of ten, and the largest ball in which there is one root is as
-    /// flat: a larger unit of length makes it round.
+    /// Near infinity `g` is known less well than `e` by many powers of ten, and the largest ball in which there is one
+    /// root is as flat: a larger unit of length makes it round.
     fn certificate_in_a_larger_unit(&self, x: &Study<DoubleDouble>) -> Option<Certificate> {
         let g = (4..8).map(|k| x.re[k].rounded().hypot(x.im[k].rounded())).fold(0.0, f64::max);
         if !(g > CLOSE) {
@@ -329,8 +335,8 @@ impl Certifier {
         Ok(CertifiedPose { pose, certificate: *certificate })
     }
 
-    /// Decides whether the pose is the certified root, for the middles of the data, to within [`NEAR`] in `R` and `p`; or, far out, the middle of an enclosure not
-    /// wider than [`FAR_OUT`].
+    /// Decides whether the pose is the certified root, for the middles of the data, to within [`NEAR`] in `R` and `p`;
+    /// or, far out, the middle of an enclosure not wider than [`FAR_OUT`].
     fn pose_is_the_root(&self, pose: &ComplexPose, c: &Certificate) -> Result<(), WhyUncertified> {
         let own = if c.centre_radius < c.radius { enclose(c, c.centre_radius) } else { Some(c.enclosure) };
         let enclosure = own.ok_or(WhyUncertified::RotationUndefined)?;
@@ -345,8 +351,9 @@ impl Certifier {
         if distance <= NEAR || far_out { Ok(()) } else { Err(WhyUncertified::Deviation { distance }) }
     }
 
-    /// Decides whether some roots, two or more, counted with multiplicity, lie near the pose apart from all others: a multiple one, or close ones. The smallest number that
-    /// can be proved is taken; the pose of the answer is the middle of the roots.
+    /// Decides whether some roots, two or more, counted with multiplicity, lie near the pose apart from all others: a
+    /// multiple one, or close ones. The smallest number that can be proved is taken; the pose of the answer is the
+    /// middle of the roots.
     ///
     /// # Errors
     /// [`WhyUncertified`] of two roots: not that there are none.
@@ -444,7 +451,8 @@ fn enclose(c: &Certificate, radius: f64) -> Option<PoseEnclosure> {
 /// Decides whether the root in a ball is real.
 ///
 /// The system and the patch are real, so the conjugate of a root is one. It is at most `radius + 2 |im c|` from the
-/// centre; within the uniqueness ball it is the root itself. A coordinate whose disc holds no real number proves the contrary.
+/// centre; within the uniqueness ball it is the root itself. A coordinate whose disc holds no real number proves the
+/// contrary.
 fn reality(x: &Centre<'_>, c: &RootBall) -> ProvedReality {
     // the digits beyond double change a coordinate by less than 2^-53 of itself
     let largest = x.hi.im.iter().fold(0.0_f64, |m, y| m.max(y.abs()));

@@ -17,9 +17,9 @@
 //!
 //! and the polarised form `Q(h, k)` has the same bound, entry by entry.
 //!
-//! **Rounding.** A coefficient takes at most 9 roundings to form (entries of `T`, product, three sums, `s`) and 6 in the sum over
-//! legs, in each part: error below `16 u sum_i |y_i|_1 |coefficient_i|`, the moduli of all coefficients of leg `i` adding up to at most `q_i`
-//! in the bound. So `32 u sum |y_i|_1 q_i` covers it twice.
+//! **Rounding.** A coefficient takes at most 9 roundings to form (entries of `T`, product, three sums, `s`) and 6 in
+//! the sum over legs, in each part: error below `16 u sum_i |y_i|_1 |coefficient_i|`, the moduli of all coefficients of
+//! leg `i` adding up to at most `q_i` in the bound. So `32 u sum |y_i|_1 q_i` covers it twice.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 

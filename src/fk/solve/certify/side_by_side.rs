@@ -1,8 +1,10 @@
-//! Certificates of eight points at once, in doubles: the theorem and the bounds of `krawczyk.rs` with the numbers of eight points side by side in vector units.
+//! Certificates of eight points at once, in doubles: the theorem and the bounds of `krawczyk.rs` with the numbers of
+//! eight points side by side in vector units.
 //!
-//! Sums have the terms of the text of the `system` and `krawczyk` modules, each with no more roundings than is counted there; how they are grouped does not matter to those bounds. Rows are not
-//! exchanged when the approximate inverse is made: where a pivot is small the inverse is bad, which the bound of `I - Y J` sees. A lane without a proof says nothing about its point: it is for
-//! the general way to look at, with more digits.
+//! Sums have the terms of the text of the `system` and `krawczyk` modules, each with no more roundings than is counted
+//! there; how they are grouped does not matter to those bounds. Rows are not exchanged when the approximate inverse is
+//! made: where a pivot is small the inverse is bad, which the bound of `I - Y J` sees. A lane without a proof says
+//! nothing about its point: it is for the general way to look at, with more digits.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -101,8 +103,9 @@ fn off_patch(patch: &[usize; LANES], j: usize) -> Reals {
     out
 }
 
-/// Some lanes of complex numbers in registers of the vector unit. Where operations are loops over lanes, the compiler fills vectors along the rows of a matrix instead: numbers are gathered and
-/// scattered one by one, which takes several times as long.
+/// Some lanes of complex numbers in registers of the vector unit. Where operations are loops over lanes, the compiler
+/// fills vectors along the rows of a matrix instead: numbers are gathered and scattered one by one, which takes several
+/// times as long.
 #[derive(Clone, Copy)]
 struct Register<S: Simd> {
     re: S::f64s,
@@ -224,7 +227,8 @@ fn approximate_inverse<S: Simd>(simd: S, j: &[[Register<S>; N]; N]) -> [[Registe
     m
 }
 
-/// Bounds `|sum_i y_i Q_i(h, k)|` on the unit polydisc, as [`LegSystem::second_order_bound`]; `rest` are what rounding and radii add for a weight of one.
+/// Bounds `|sum_i y_i Q_i(h, k)|` on the unit polydisc, as [`LegSystem::second_order_bound`]; `rest` are what rounding
+/// and radii add for a weight of one.
 #[inline(always)]
 fn second_order<S: Simd>(
     simd: S,
@@ -455,8 +459,8 @@ fn poses(x: &[ComplexBatch; 8]) -> (Entries<ComplexBatch>, [bool; LANES]) {
     (out, near)
 }
 
-/// Whether every point of the discs has the digits of the pose: distances at most [`NEAR`], of entries of `R` relative to the larger of 1 and the largest of them, of
-/// entries of `p` likewise. Moduli are bounded by their parts.
+/// Whether every point of the discs has the digits of the pose: distances at most [`NEAR`], of entries of `R` relative
+/// to the larger of 1 and the largest of them, of entries of `p` likewise. Moduli are bounded by their parts.
 #[inline(always)]
 fn agree(pose: &Entries<ComplexBatch>, discs: &Entries<Discs>) -> [bool; LANES] {
     let mut out = [true; LANES];

@@ -33,8 +33,8 @@ pub(crate) struct EndPoint {
     pub winding: u32,
     /// Distance of the last two means: the accuracy of `x`.
     pub accuracy: f64,
-    /// Half the distance of two roots that a loop of two turns cannot tell from a double one, with its direction: they are at
-    /// `x` plus and minus this. Lost in rounding for a true double root.
+    /// Half the distance of two roots that a loop of two turns cannot tell from a double one, with its direction: they
+    /// are at `x` plus and minus this. Lost in rounding for a true double root.
     pub split: Option<[Complex64; 8]>,
     /// Newton's method at the target, where the path was followed to it along the real line.
     pub regular: Option<PolishedRoot>,
@@ -143,8 +143,8 @@ fn looks_finite(x: &[Complex64; 8]) -> bool {
     size > 1e-8 && n.norm() > 1e-4 * size
 }
 
-/// Half the difference `h` of two sheets changes its sign at branch points only, so that `h h^T` is analytic in `t`: its mean over the
-/// circle is its value at `t = 0`, whether or not the sheets meet there.
+/// Half the difference `h` of two sheets changes its sign at branch points only, so that `h h^T` is analytic in `t`:
+/// its mean over the circle is its value at `t = 0`, whether or not the sheets meet there.
 fn split(samples: &[[Complex64; 8]]) -> Option<[Complex64; 8]> {
     let half: Vec<[Complex64; 8]> = (0..SAMPLES)
         .map(|k| std::array::from_fn(|p| (samples[k][p] - samples[k + SAMPLES][p]) * 0.5))

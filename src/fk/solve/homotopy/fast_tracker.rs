@@ -18,7 +18,8 @@ use super::quadrics::{QuadraticForms, Quadrics};
 use super::system::{SectionPath, Series, blank_series, taylor, values};
 use num::vector_unit::on_vector_unit;
 
-/// Ratio of corrections below which they are squared by every step, not shrunk by a constant factor: at a double root that is a half.
+/// Ratio of corrections below which they are squared by every step, not shrunk by a constant factor: at a double root
+/// that is a half.
 const SQUARED: f64 = 1e-2;
 /// How much larger than estimated the next correction may be.
 const MARGIN: f64 = 100.0;
@@ -39,7 +40,8 @@ pub(super) struct FastPath {
     pub(super) steps: u32,
     /// Rejected steps and repeated corrections.
     pub(super) rejections: u32,
-    /// The Newton correction at the end point that would be next, estimated from the last ones, after [`FastTracker`] has polished it; that of the last where there is only one.
+    /// The Newton correction at the end point that would be next, estimated from the last ones, after [`FastTracker`]
+    /// has polished it; that of the last where there is only one.
     pub(super) correction: f64,
     /// Estimate of the condition number of the derivative matrix at the end point.
     pub(super) condition: f64,
@@ -320,8 +322,9 @@ impl<S: Simd> FastBatch<S> {
     }
 }
 
-/// Size of the Newton correction after one of size `this`, which followed one of size `last`. They are squared by every step, times a constant that these two show: `d_2 = c d_1^2`, so that the next is
-/// `c d_2^2`. What does not shrink that fast is rounding or a multiple root: then it is as long as this one.
+/// Size of the Newton correction after one of size `this`, which followed one of size `last`. They are squared by every
+/// step, times a constant that these two show: `d_2 = c d_1^2`, so that the next is `c d_2^2`. What does not shrink
+/// that fast is rounding or a multiple root: then it is as long as this one.
 #[inline(always)]
 fn next_correction(last: f64, this: f64) -> f64 {
     let ratio = this / last;

@@ -64,7 +64,8 @@ pub(super) const FAST: FastTrackerLimits = FastTrackerLimits {
     settled: SETTLED,
 };
 
-/// For paths in the lengths alone: they have no end but a regular one at the target. Steps are as long as the next correction can bear, and the certificate begins with a Newton step of its own.
+/// For paths in the lengths alone: they have no end but a regular one at the target. Steps are as long as the next
+/// correction can bear, and the certificate begins with a Newton step of its own.
 pub(super) const LENGTHS: FastTrackerLimits = FastTrackerLimits {
     step: StepLimits { truncation: 8e-3, accuracy: 2e-2, ..FAST.step },
     contraction: 0.05,

@@ -103,8 +103,8 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
     (n.norm_sqr().sqrt() / size, (size / all).sqrt())
 }
 
-/// Tracks all paths from the start system of a kind to `target`, which must be of that kind: for [`StartKind::Planar`] the
-/// mirror images of the ends are the ends of the other paths. The seed sets gamma.
+/// Tracks all paths from the start system of a kind to `target`, which must be of that kind: for [`StartKind::Planar`]
+/// the mirror images of the ends are the ends of the other paths. The seed sets gamma.
 ///
 /// Ends that look alike although regular, and paths without an end, are tracked again with smaller steps;
 /// what fails then is left as [`EndKind::Failed`].
@@ -289,7 +289,8 @@ pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Section
             ends.push((mirror(ends[i].0), ends[i].1));
         }
     }
-    // moduli of two coordinates, whatever the phases: a quick look before the accurate distance, in the order of the first
+    // moduli of two coordinates, whatever the phases: a quick look before the accurate distance, in the order of the
+    // first
     let look: Vec<[f64; 2]> = ends.iter().map(|(x, _)| [x[0].norm_sqr(), x[1].norm_sqr()]).collect();
     let mut order: Vec<usize> = (0..ends.len()).filter(|k| ends[*k].1).collect();
     order.sort_unstable_by(|i, j| look[*i][0].total_cmp(&look[*j][0]));

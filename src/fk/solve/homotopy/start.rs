@@ -87,7 +87,8 @@ fn parse(text: &str, count: usize) -> Result<StartSystem, StartError> {
     Ok(StartSystem { sections, solutions })
 }
 
-/// The same system in the basis in which targets are given, see [`ScaledFrames::sections`](crate::solve::sections::ScaledFrames).
+/// The same system in the basis in which targets are given, see
+/// [`ScaledFrames::sections`](crate::solve::sections::ScaledFrames).
 fn graded(system: StartSystem) -> Result<StartSystem, StartError> {
     let sections = system.sections.graded().ok_or(StartError::Degenerate)?;
     Ok(StartSystem { sections, ..system })

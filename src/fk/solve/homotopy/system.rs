@@ -55,7 +55,8 @@ pub(super) trait SectionPath<const F: usize> {
     /// Values of those forms whose coefficients change.
     type Moved<S: Simd>: Copy;
 
-    /// The 8 x 8 matrix of derivatives at one parameter value per lane: six sections, `e.g`, patch. It has up to 8 kB, so that it is made where it stays.
+    /// The 8 x 8 matrix of derivatives at one parameter value per lane: six sections, `e.g`, patch. It has up to 8 kB,
+    /// so that it is made where it stays.
     fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>, j: &mut Matrix8<S>);
 
     /// Of all forms those whose coefficients change.
@@ -254,13 +255,13 @@ pub(super) fn blank_series<S: Simd>(simd: S) -> Series<S> {
     [[Lanes::zero(simd); 8]; ORDER]
 }
 
-/// The series of the path through `x` at `t`, written to a place that is kept for the next one; `solve` applies the inverse of the
-/// derivative matrix there.
+/// The series of the path through `x` at `t`, written to a place that is kept for the next one; `solve` applies the
+/// inverse of the derivative matrix there.
 ///
-/// Order `k` of `C(t) forms(x(t)) = 0` reads
-/// `J x_k = -(C(t) u_k + C' w_{k-1})`, `u_k = sum_{0<i<=j, i+j=k} F(x_i, x_j)`, `w_k = sum_{i+j=k} F(x_i, x_j)` with the
-/// polar forms `F` (halved where `i = j`): one factorisation serves all orders. With `C(t) = C_0 + t C'` the
-/// right-hand side is `C_0 u_k + C' (t u_k + w_{k-1})`, products with constant matrices only.
+/// Order `k` of `C(t) forms(x(t)) = 0` reads `J x_k = -(C(t) u_k + C' w_{k-1})`,
+/// `u_k = sum_{0<i<=j, i+j=k} F(x_i, x_j)`, `w_k = sum_{i+j=k} F(x_i, x_j)` with the polar forms `F` (halved where
+/// `i = j`): one factorisation serves all orders. With `C(t) = C_0 + t C'` the right-hand side is
+/// `C_0 u_k + C' (t u_k + w_{k-1})`, products with constant matrices only.
 #[inline(always)]
 pub(super) fn taylor<S: Simd, L: SectionPath<F>, const F: usize>(
     homotopy: &L,

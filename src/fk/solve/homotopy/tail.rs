@@ -1,9 +1,10 @@
 //! The last part of a path with 256 bits.
 //!
-//! A platform that is nearly special has paths that seem to go to infinity, to `e.e = 0` or to a double root, and turn off only where
-//! `t` is as small as a power of its distance from the special one. In doubles `t` cannot be told from 0 there. Here points, sections and
-//! residuals have 256 bits; directions (Taylor series, inverse of the Jacobian) are computed in doubles as long as these lead on, in the unit of length in which
-//! `|e| = |g|`, so that ends at infinity are points like others: with `e = eps e'` an equation without `g.g` is divided by `eps`.
+//! A platform that is nearly special has paths that seem to go to infinity, to `e.e = 0` or to a double root, and turn
+//! off only where `t` is as small as a power of its distance from the special one. In doubles `t` cannot be told from 0
+//! there. Here points, sections and residuals have 256 bits; directions (Taylor series, inverse of the Jacobian) are
+//! computed in doubles as long as these lead on, in the unit of length in which `|e| = |g|`, so that ends at infinity
+//! are points like others: with `e = eps e'` an equation without `g.g` is divided by `eps`.
 
 use num_complex::Complex64;
 use pulp::Scalar;
@@ -57,7 +58,8 @@ pub(super) struct CornerTail {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TailEnd {
     pub x: [ComplexOctuple; 8],
-    /// Newton's method converged at the target; otherwise the point stands at a `t` of [`SMALLEST`] or where the path broke off.
+    /// Newton's method converged at the target; otherwise the point stands at a `t` of [`SMALLEST`] or where the path
+    /// broke off.
     pub(crate) arrived: bool,
     /// What is left of `t`.
     pub remaining: f64,
@@ -86,8 +88,8 @@ impl Smallness {
 }
 
 impl TailEnd {
-    /// What the end is, as far as 256 bits tell: a point where the path arrives has `e.e` and `e` to far more digits than [`ZERO`] asks for. Where
-    /// it does not arrive these quantities go to zero with a power of `t`, or do not.
+    /// What the end is, as far as 256 bits tell: a point where the path arrives has `e.e` and `e` to far more digits
+    /// than [`ZERO`] asks for. Where it does not arrive these quantities go to zero with a power of `t`, or do not.
     pub(crate) fn kind(&self) -> EndKind {
         let here = Smallness::of(&self.x);
         let vanishes: [bool; 2] = if self.arrived {
@@ -211,7 +213,8 @@ impl CornerTail {
         out
     }
 
-    /// The homotopy in doubles in the unit of length `2^-exponent`, its parameter counted in `at`: 1 is there, 0 the target.
+    /// The homotopy in doubles in the unit of length `2^-exponent`, its parameter counted in `at`: 1 is there, 0 the
+    /// target.
     fn rounded(&self, exponent: i32, at: Octuple) -> SectionHomotopy {
         let factor = self.corner.times(at);
         let row = |i: usize| if i < 5 { exponent } else { 0 };
@@ -344,8 +347,8 @@ impl CornerTail {
         None
     }
 
-    /// Newton's method at `parameter` from `x` on the patch of `scaled`; the last correction and pivot ratio when the corrections go below
-    /// `accuracy`. The Jacobian is that of the rounded point and computed once.
+    /// Newton's method at `parameter` from `x` on the patch of `scaled`; the last correction and pivot ratio when the
+    /// corrections go below `accuracy`. The Jacobian is that of the rounded point and computed once.
     fn correct(
         &self,
         x: &mut [ComplexOctuple; 8],

@@ -1,7 +1,8 @@
 //! Predictor-corrector tracking of as many paths at a time as the vector unit has lanes.
 //!
-//! Predictor: the Taylor series of the [`predictor`](super::predictor) module. Corrector: Newton's method until it
-//! has converged. Every lane has its own parameter, goal and step; a lane whose corrector does not contract repeats the step at a fraction.
+//! Predictor: the Taylor series of the [`predictor`](super::predictor) module. Corrector: Newton's method until it has
+//! converged. Every lane has its own parameter, goal and step; a lane whose corrector does not contract repeats the
+//! step at a fraction.
 
 use num_complex::Complex64;
 

@@ -1,4 +1,5 @@
-//! The joints of a design modulo a prime: doubles as the dyadic numbers they are, exact joints as the algebraic numbers they are.
+//! The joints of a design modulo a prime: doubles as the dyadic numbers they are, exact joints as the algebraic numbers
+//! they are.
 //!
 //! Coordinates that are sums of square roots and cosines have residues modulo primes for which these exist
 //! ([`SplitField`]); primes are drawn until there is one.
@@ -89,8 +90,8 @@ impl CountedJoints {
         }
     }
 
-    /// Bits of the norm of a leg equation with integer coefficients, in every embedding of the field: numbers below `2^high` that are multiples of `2^low`, in products of two,
-    /// times the square of a common denominator.
+    /// Bits of the norm of a leg equation with integer coefficients, in every embedding of the field: numbers below
+    /// `2^high` that are multiples of `2^low`, in products of two, times the square of a common denominator.
     pub(super) fn bits(&self, lengths: Lengths<'_>) -> f64 {
         let (mut high, mut low) = (1, 0);
         let mut take = |x: f64, halves: i32| {

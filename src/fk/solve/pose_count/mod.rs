@@ -1,8 +1,11 @@
-//! Counts the finite poses of a design and lengths exactly as written without finding them, by linear algebra modulo a prime.
+//! Counts the finite poses of a design and lengths exactly as written without finding them, by linear algebra modulo a
+//! prime.
 //!
-//! In the sixteen coordinates of the group a leg is a linear equation (`quadrics.rs`), so that the finite poses are the zeros of quadrics in ten unknowns. Their
-//! algebra is built degree by degree (`quotient.rs`) from the squared lengths as the dyadic numbers and the joints as the dyadic or algebraic numbers (`joints.rs`) they are, modulo a random prime of 61 bits. The method shares nothing with
-//! those that find poses, nor with their certificates. Theorem, bound on the probability of error and sources: `docs/theory/completeness.md`.
+//! In the sixteen coordinates of the group a leg is a linear equation (`quadrics.rs`), so that the finite poses are the
+//! zeros of quadrics in ten unknowns. Their algebra is built degree by degree (`quotient.rs`) from the squared lengths
+//! as the dyadic numbers and the joints as the dyadic or algebraic numbers (`joints.rs`) they are, modulo a random
+//! prime of 61 bits. The method shares nothing with those that find poses, nor with their certificates. Theorem, bound
+//! on the probability of error and sources: `docs/theory/completeness.md`.
 
 mod infinity;
 mod joints;
@@ -26,8 +29,8 @@ pub fn exact_squares(s: &SquaredLegLengths) -> Option<ExactSquares> {
     exact.then(|| s.middle().map(|x| [x.hi(), x.lo()]))
 }
 
-/// Highest degree of the spaces. Four is enough for sets of poses whose closure is finite (see the documentation); more costs little where few
-/// monomials are left over.
+/// Highest degree of the spaces. Four is enough for sets of poses whose closure is finite (see the documentation); more
+/// costs little where few monomials are left over.
 const DEGREE: usize = 6;
 
 /// Bits of random coefficients of linear sections.
@@ -63,7 +66,8 @@ pub enum PoseSet {
     PositiveDimensional {
         /// Dimension of the components of highest dimension.
         dimension: usize,
-        /// Their degree in the sixteen coordinates: points on as many random linear sections as the dimension, with multiplicity.
+        /// Their degree in the sixteen coordinates: points on as many random linear sections as the dimension, with
+        /// multiplicity.
         degree: usize,
     },
     /// The computation does not tell.
@@ -129,7 +133,8 @@ pub struct PoseCount {
     /// The primes, drawn uniformly from those between `2^60` and `2^61`; for joints made of square roots and cosines
     /// the first of several draws that has these.
     pub primes: Vec<u64>,
-    /// Bound on the probability that primes drawn so lead to another set than exact arithmetic does; zero when the set is undecided.
+    /// Bound on the probability that primes drawn so lead to another set than exact arithmetic does; zero when the set
+    /// is undecided.
     pub error_probability: f64,
 }
 
@@ -169,13 +174,15 @@ pub struct CommonPoints {
     pub finite: usize,
     /// Limits of poses whose quaternion e becomes isotropic: e.e = 0, e not 0. Null: not isolated, or not counted.
     pub isotropic: Option<usize>,
-    /// Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not isolated, or not counted.
+    /// Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not isolated, or not
+    /// counted.
     pub at_infinity: Option<usize>,
     /// A bound on the probability that the numbers are others.
     pub error_probability: f64,
 }
 
-/// Counts the common points of the legs of `m` for generic lengths beside `poses`, which [`count_generic_poses`] counted with the same options; `None` when these are not isolated or not counted.
+/// Counts the common points of the legs of `m` for generic lengths beside `poses`, which [`count_generic_poses`]
+/// counted with the same options; `None` when these are not isolated or not counted.
 #[must_use]
 pub fn count_common_points(
     m: &Manipulator,
@@ -199,16 +206,18 @@ pub fn count_common_points(
     })
 }
 
-/// Counts the finite poses of `m` with the squared lengths given, both exactly as they are: joints that a design gives exactly are these, not the doubles next to them.
+/// Counts the finite poses of `m` with the squared lengths given, both exactly as they are: joints that a design gives
+/// exactly are these, not the doubles next to them.
 #[must_use]
 pub fn count_poses(m: &Manipulator, squares: &ExactSquares, options: &CountOptions) -> PoseCount {
     counted(m, Lengths::Given(squares), options)
 }
 
-/// Counts the finite poses of `m` for generic squared lengths: no lengths have more isolated poses, counted with multiplicity (Sommese, Wampler 2005, theorem 7.1.1).
+/// Counts the finite poses of `m` for generic squared lengths: no lengths have more isolated poses, counted with
+/// multiplicity (Sommese, Wampler 2005, theorem 7.1.1).
 ///
-/// The lengths are random integers below `2^60`; the bound on the probability of error includes that they are special (Schwartz 1980, lemma 1: the minors
-/// that decide are polynomials in the squared lengths, of degree one in each row).
+/// The lengths are random integers below `2^60`; the bound on the probability of error includes that they are special
+/// (Schwartz 1980, lemma 1: the minors that decide are polynomials in the squared lengths, of degree one in each row).
 #[must_use]
 pub fn count_generic_poses(m: &Manipulator, options: &CountOptions) -> PoseCount {
     counted(m, Lengths::Generic, options)
@@ -231,7 +240,8 @@ enum CountedChart {
     All,
 }
 
-/// Random coefficients, the same for all primes: squared lengths of generic legs, linear sections, and the form of the chart.
+/// Random coefficients, the same for all primes: squared lengths of generic legs, linear sections, and the form of the
+/// chart.
 struct Draws {
     squares: [i64; 6],
     sections: [[i64; COORDINATES]; 6],
@@ -390,12 +400,12 @@ fn leg_equation(field: Field, [a, b]: &[[u64; 3]; 2], square: u64) -> Linear {
 
 /// Bound on the probability that a prime is bad: see "The probability of error" in `docs/theory/completeness.md`.
 ///
-/// A bad prime divides a minor, not zero, of the integer matrix of all multiples of some degree `<= depth + 1` of the quadrics and linear equations in sixteen unknowns, or of its columns above one of the
-/// degrees `0..=DEGREE`, of seventeen where the chart is not `h = 1`. Hadamard: a minor is at most
-/// the product of the norms of its rows. It has as many prime factors above `2^60` as sixty goes into its bits, of more than `3 2^60 / (5 ln 2^60)` primes between `2^60` and
-/// `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots and cosines are algebraic integers:
-/// a bad prime divides their norm, and any of the primes
-/// drawn may be bad.
+/// A bad prime divides a minor, not zero, of the integer matrix of all multiples of some degree `<= depth + 1` of the
+/// quadrics and linear equations in sixteen unknowns, or of its columns above one of the degrees `0..=DEGREE`, of
+/// seventeen where the chart is not `h = 1`. Hadamard: a minor is at most the product of the norms of its rows. It has
+/// as many prime factors above `2^60` as sixty goes into its bits, of more than `3 2^60 / (5 ln 2^60)` primes between
+/// `2^60` and `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots and cosines are algebraic
+/// integers: a bad prime divides their norm, and any of the primes drawn may be bad.
 fn error_probability(
     joints: &CountedJoints,
     prime: &DrawnPrime,
@@ -407,7 +417,8 @@ fn error_probability(
     (minors(chart, depth) * bits / 60.0 / primes * prime.chances).min(1.0)
 }
 
-/// Rows, at most, of all minors that decide: for all depths up to the one that was needed, which is not known before the prime is drawn.
+/// Rows, at most, of all minors that decide: for all depths up to the one that was needed, which is not known before
+/// the prime is drawn.
 fn minors(chart: CountedChart, depth: usize) -> f64 {
     let unknowns = if chart == CountedChart::Finite { H } else { COORDINATES };
     (1..=depth + 1).map(|t| (DEGREE + 2) as f64 * monomials(unknowns, t)).sum()

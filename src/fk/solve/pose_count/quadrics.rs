@@ -1,7 +1,8 @@
 //! The quadrics of the group `SE(3)` in sixteen coordinates, cut by linear equations.
 //!
-//! Coordinates of a pose `(R, p)`: `M = R` (nine, by rows), `y = p`, `x = -R^T p`, `r = |p|^2` (Gallet, Nawratil, Schicho 2014). The equations
-//! `M M^T = 1` and `cof M = M` define `SO(3)`, `x = -M^T y` and `r = y.y` give the rest; the others hold on the group as well and save degrees.
+//! Coordinates of a pose `(R, p)`: `M = R` (nine, by rows), `y = p`, `x = -R^T p`, `r = |p|^2` (Gallet, Nawratil,
+//! Schicho 2014). The equations `M M^T = 1` and `cof M = M` define `SO(3)`, `x = -M^T y` and `r = y.y` give the rest;
+//! the others hold on the group as well and save degrees.
 
 use super::quotient::{Monomial, Polynomial, UNIT, variable};
 use num::modular::Field;
@@ -37,7 +38,8 @@ fn sign(i: usize, j: usize, k: usize) -> i64 {
     }
 }
 
-/// `M M^T = h^2`, `M^T M = h^2`, `cof M = h M`, `M^T y = -h x`, `M x = -h y`, `y.y = h r`, `x.x = h r`, `[y]_x M = -M [x]_x`: integer coefficients, at most 2 in absolute value.
+/// `M M^T = h^2`, `M^T M = h^2`, `cof M = h M`, `M^T y = -h x`, `M x = -h y`, `y.y = h r`, `x.x = h r`,
+/// `[y]_x M = -M [x]_x`: integer coefficients, at most 2 in absolute value.
 pub(super) fn quadrics() -> Vec<QuadricTerms> {
     let mut out: Vec<QuadricTerms> = Vec::new();
     for i in 0..3 {
@@ -88,7 +90,8 @@ pub(super) enum Cut {
     },
 }
 
-/// Solves the linear equations and puts the solution into the quadrics. One of them is not homogeneous: what it names is one, `h` for finite poses.
+/// Solves the linear equations and puts the solution into the quadrics. One of them is not homogeneous: what it names
+/// is one, `h` for finite poses.
 pub(super) fn cut(field: Field, equations: &[Linear]) -> Cut {
     let (mut rows, mut pivots): (Vec<Linear>, Vec<usize>) = (equations.to_vec(), Vec::new());
     // h is known or depends on the others; then r, which has the coefficient one in every leg

@@ -1,25 +1,28 @@
 //! The algebra of polynomials modulo an ideal, degree by degree, closed under falls of degree.
 //!
-//! `V_d` is the space of polynomials of degree `d` or less that are known to lie in the ideal, `W_d` all polynomials of degree `d` or less modulo `V_d`. `W_d` has a
-//! basis of monomials, the standard ones, and is all that is kept: with `W_{d-1}`, `W_d` and the products `x_k w` that lead from one to the other the next space is
+//! `V_d` is the space of polynomials of degree `d` or less that are known to lie in the ideal, `W_d` all polynomials of
+//! degree `d` or less modulo `V_d`. `W_d` has a basis of monomials, the standard ones, and is all that is kept: with
+//! `W_{d-1}`, `W_d` and the products `x_k w` that lead from one to the other the next space is
 //!
 //! ```text
 //! W_{d+1} = (W_d + sum x_k W_d) / (x_j (x_k u) = x_k (x_j u), u in W_{d-1}),
 //! ```
 //!
-//! because the kernel of the product of polynomials of degree `d` and linear ones is spanned by these relations. A relation that involves `W_d` alone is a fall of degree: a
-//! polynomial of the ideal of degree `e <= d` that `V_e` did not have. It is added there, and the spaces are built again from degree `e`.
+//! because the kernel of the product of polynomials of degree `d` and linear ones is spanned by these relations. A
+//! relation that involves `W_d` alone is a fall of degree: a polynomial of the ideal of degree `e <= d` that `V_e` did
+//! not have. It is added there, and the spaces are built again from degree `e`.
 //!
-//! When no standard monomial is left in degrees `d` and `d + 1` and there is no fall, the products commute on all standard monomials, and these are a basis of the whole algebra (Mourrain
-//! 1999): their number is the number of zeros over the algebraic closure, each with its multiplicity.
+//! When no standard monomial is left in degrees `d` and `d + 1` and there is no fall, the products commute on all
+//! standard monomials, and these are a basis of the whole algebra (Mourrain 1999): their number is the number of zeros
+//! over the algebraic closure, each with its multiplicity.
 
 use std::collections::HashMap;
 
 use num::echelon::Echelon;
 use num::modular::Field;
 
-/// A monomial: four bits for each exponent, the degree in the highest four, so that larger numbers are larger in the graded lexicographic order and
-/// products are sums.
+/// A monomial: four bits for each exponent, the degree in the highest four, so that larger numbers are larger in the
+/// graded lexicographic order and products are sums.
 pub(super) type Monomial = u64;
 
 /// The monomial 1.

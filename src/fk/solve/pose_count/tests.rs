@@ -74,7 +74,8 @@ fn griffis_duffy(octahedral: &Bodies, t: [f64; 6]) -> Bodies {
     })
 }
 
-/// Numbers of monomials of theory and of other implementations: 40 in general, 16 for octahedral and Griffis-Duffy platforms.
+/// Numbers of monomials of theory and of other implementations: 40 in general, 16 for octahedral and Griffis-Duffy
+/// platforms.
 #[test]
 fn counts_of_known_classes() {
     let mut rng = Rng::new(1);
@@ -108,8 +109,9 @@ fn generic_lengths_have_the_count_of_the_class() {
     assert_eq!(count(&similar), Some(16));
 }
 
-/// Nothing is lost without being counted: 40 points, and those of octahedral platforms that are no poses have an isotropic quaternion (butterflies). Similar planar bodies have
-/// curves of points with `M = 0`, so that these have no number.
+/// Nothing is lost without being counted: 40 points, and those of octahedral platforms that are no poses have an
+/// isotropic quaternion (butterflies). Similar planar bodies have curves of points with `M = 0`, so that these have no
+/// number.
 #[test]
 fn common_points_are_finite_isotropic_or_at_infinity() {
     let mut rng = Rng::new(11);
@@ -181,7 +183,8 @@ fn a_body_of_collinear_joints_turns_freely() {
     }
 }
 
-/// Four legs from one joint: other lengths than those of a pose put it nowhere, those of a pose leave two equations for a rotation.
+/// Four legs from one joint: other lengths than those of a pose put it nowhere, those of a pose leave two equations for
+/// a rotation.
 #[test]
 fn four_concurrent_legs_move_or_do_not_fit() {
     let mut rng = Rng::new(6);
@@ -264,7 +267,8 @@ fn mixed(x: &Surd, u: &SurdPoint, y: &Surd, v: &SurdPoint) -> SurdPoint {
     [0, 1, 2].map(|k| x.times(&u[k]).unwrap().plus(&y.times(&v[k]).unwrap()).unwrap())
 }
 
-/// The octahedral platform with equilateral base of edge 12 and platform of edge 6, each joint slid along the side to the next by its part.
+/// The octahedral platform with equilateral base of edge 12 and platform of edge 6, each joint slid along the side to
+/// the next by its part.
 fn slid(parts: &[Surd; 6]) -> [ExactEnds; 6] {
     let h = root(3);
     let point = |x: i64, y: i64| [Surd::integer(x), h.times(&Surd::integer(y)).unwrap(), Surd::zero()];

@@ -65,7 +65,8 @@ impl Arithmetic for Field {
 /// Rows of equal length.
 pub(super) type Rows<A> = Vec<Vec<<A as Arithmetic>::Number>>;
 
-/// Brings rows to echelon form, leading entries one with zeros above them, without zero rows; the columns of these entries.
+/// Brings rows to echelon form, leading entries one with zeros above them, without zero rows; the columns of these
+/// entries.
 pub(super) fn eliminate<A: Arithmetic>(field: &A, rows: &mut Rows<A>) -> Option<Vec<usize>> {
     let (zero, mut leading) = (field.zero(), Vec::new());
     for column in 0..rows.first().map_or(0, Vec::len) {

@@ -10,7 +10,8 @@ pub(super) type Members = u8;
 
 /// How many pairs of lines, one of each body, there are such that every leg ends on one of them.
 ///
-/// Both lines are spanned by ends of legs. A line that is not takes a single joint with it and turns about it, so that the points at infinity are not isolated.
+/// Both lines are spanned by ends of legs. A line that is not takes a single joint with it and turns about it, so that
+/// the points at infinity are not isolated.
 pub(super) fn covering_pairs([base, platform]: &[Vec<Members>; 2]) -> usize {
     let pairs = base.iter().flat_map(|l| platform.iter().map(move |k| l | k));
     pairs.filter(|covered| *covered == 0b11_1111).count()

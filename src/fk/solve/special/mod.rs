@@ -1,16 +1,21 @@
 //! Special positions of joints that take finite poses away, decided without rounding.
 //!
-//! *Joints on a line* and *affine hexagons* have bounds of their own. In general poses are lost at infinity. The closure of the group in the sixteen coordinates of `pose_count` has dimension 6 and degree 40; its points at infinity are `M = mu u v^T`, `y = eta u`,
-//! `x = xi v`, `r` with isotropic `u, v` (`u.u = v.v = 0`). A leg holds there when
+//! *Joints on a line* and *affine hexagons* have bounds of their own. In general poses are lost at infinity. The
+//! closure of the group in the sixteen coordinates of `pose_count` has dimension 6 and degree 40; its points at
+//! infinity are `M = mu u v^T`, `y = eta u`, `x = xi v`, `r` with isotropic `u, v` (`u.u = v.v = 0`). A leg holds there
+//! when
 //!
 //! ```text
 //! r - 2 eta alpha_i - 2 xi beta_i - 2 mu alpha_i beta_i = 0,    alpha_i = a_i.u,    beta_i = b_i.v,
 //! ```
 //!
-//! whatever its length is. Each such point common to six legs takes one of the 40 intersections, two where the form is a product `(alpha - alpha_0)(beta - beta_0)`, because the
-//! closure is singular there. Theorem and proof: "Points at infinity" in `docs/theory/completeness.md`; the points themselves: Gallet, Nawratil, Schicho 2014, who call them bonds.
+//! whatever its length is. Each such point common to six legs takes one of the 40 intersections, two where the form is
+//! a product `(alpha - alpha_0)(beta - beta_0)`, because the closure is singular there. Theorem and proof: "Points at
+//! infinity" in `docs/theory/completeness.md`; the points themselves: Gallet, Nawratil, Schicho 2014, who call them
+//! bonds.
 //!
-//! What is counted here is decided exactly: butterflies by lines that cover the legs, inversions of two planar bodies by ranks over the field of the joints.
+//! What is counted here is decided exactly: butterflies by lines that cover the legs, inversions of two planar bodies
+//! by ranks over the field of the joints.
 
 mod arithmetic;
 mod lines;
@@ -26,7 +31,8 @@ use super::pose_count::are_points_at_infinity_finite;
 /// Points at infinity common to all legs, whatever the lengths, and isolated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PointsAtInfinity {
-    /// Pairs of a line of the base and a line of the platform such that every leg ends on one of them: four points each, and each of them counts twice.
+    /// Pairs of a line of the base and a line of the platform such that every leg ends on one of them: four points
+    /// each, and each of them counts twice.
     pub(crate) butterflies: usize,
     /// Projections of two planar bodies that a linear fractional map relates: four points each.
     pub(crate) inversions: usize,
@@ -44,7 +50,8 @@ impl PointsAtInfinity {
 pub(crate) struct SpecialPosition {
     /// The largest number of legs that end on one line of a body, spanned by two of the ends.
     pub(crate) on_a_line: usize,
-    /// Whether both bodies are planar and the ends on one are the images of those on the other under an affine map of the planes.
+    /// Whether both bodies are planar and the ends on one are the images of those on the other under an affine map of
+    /// the planes.
     pub(crate) affine_hexagons: bool,
     /// Common points at infinity that are shown to be isolated.
     pub at_infinity: Option<PointsAtInfinity>,

@@ -1,16 +1,19 @@
 //! Planar bodies: affine images, and projections that a linear fractional map relates.
 //!
-//! Ends of planar bodies have affine coordinates `X = (1, x, y)`, `X' = (1, x', y')` in their planes. A common point at infinity is a matrix `W` with `X_i^T W X'_i = 0` for all legs,
+//! Ends of planar bodies have affine coordinates `X = (1, x, y)`, `X' = (1, x', y')` in their planes. A common point at
+//! infinity is a matrix `W` with `X_i^T W X'_i = 0` for all legs,
 //!
 //! ```text
 //! W = [ r       xi pi'^T     ]      alpha = pi.(x, y) + const,   beta = pi'.(x', y') + const,
 //!     [ eta pi  mu pi pi'^T  ]
 //! ```
 //!
-//! so that its last two rows have rank one, and its last two columns have. Six independent legs leave three dimensions of matrices, in which these are five conics: minors of a
-//! `2 x 3` matrix of linear forms have three common zeros, and those are common zeros of the others or are not. The ring of the common zeros has the dimension `10 - rank` of the cubics that the conics generate
-//! (see the documentation): the rank is computed over the field of the joints; that the zeros are different, and not at ramified projections, is seen modulo a prime, where it can only
-//! be wrong to the other side. Every zero stands for two isotropic `u` with projection `pi` and two `v` with `pi'`.
+//! so that its last two rows have rank one, and its last two columns have. Six independent legs leave three dimensions
+//! of matrices, in which these are five conics: minors of a `2 x 3` matrix of linear forms have three common zeros, and
+//! those are common zeros of the others or are not. The ring of the common zeros has the dimension `10 - rank` of the
+//! cubics that the conics generate (see the documentation): the rank is computed over the field of the joints; that the
+//! zeros are different, and not at ramified projections, is seen modulo a prime, where it can only be wrong to the
+//! other side. Every zero stands for two isotropic `u` with projection `pi` and two `v` with `pi'`.
 
 use super::Residues;
 use super::arithmetic::{Arithmetic, Rows, SurdArithmetic, eliminate, kernel};
@@ -65,7 +68,8 @@ pub(super) fn are_affine_images(
     Some(planar && eliminate(&SurdArithmetic, &mut rows)?.len() == 3)
 }
 
-/// How many inversions there are beside `butterflies`, which are such matrices of rank one; `None` when numbers become too long and when a prime is unlucky.
+/// How many inversions there are beside `butterflies`, which are such matrices of rank one; `None` when numbers become
+/// too long and when a prime is unlucky.
 pub(super) fn inversions(
     residues: &Residues,
     ends: &[ExactEnds; 6],
@@ -96,7 +100,8 @@ pub(super) struct PlaneChart {
     axes: [usize; 2],
     /// Legs whose ends are not on a line.
     corners: [usize; 3],
-    /// The quadratic form of `pi`, in the order `pi_0^2, pi_0 pi_1, pi_1^2`, that vanishes where the two isotropic vectors with this projection are one.
+    /// The quadratic form of `pi`, in the order `pi_0^2, pi_0 pi_1, pi_1^2`, that vanishes where the two isotropic
+    /// vectors with this projection are one.
     ramification: [u64; 3],
 }
 
@@ -211,7 +216,8 @@ fn cubic([i, j]: [usize; 2], k: usize) -> usize {
 }
 
 impl MatrixOfForms<Field> {
-    /// Whether the `zeros` common zeros of the conics are different from each other, with projections that are not ramified.
+    /// Whether the `zeros` common zeros of the conics are different from each other, with projections that are not
+    /// ramified.
     fn distinct_zeros(&self, field: Field, charts: &[PlaneChart; 2], zeros: usize, rng: &mut Rng) -> bool {
         self.coordinates(field, zeros, rng).is_some_and(|[x, y, z]| {
             let form = |f: &[u64; 3]| x.times(f[0]).plus(&y.times(f[1])).plus(&z.times(f[2]));

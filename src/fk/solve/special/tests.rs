@@ -43,7 +43,8 @@ fn octahedron(rng: &mut Rng) -> ([[Surd; 3]; 6], [[Surd; 3]; 6]) {
     (OCTAHEDRON.map(|l| p[l.0].clone()), OCTAHEDRON.map(|l| q[l.1].clone()))
 }
 
-/// A semi-regular hexagon: two points on a circle about the origin, in the field of the square root of 3, turned by thirds.
+/// A semi-regular hexagon: two points on a circle about the origin, in the field of the square root of 3, turned by
+/// thirds.
 fn semi_regular(rng: &mut Rng) -> [[Surd; 3]; 6] {
     let (half, root) = (Surd::integer(2).inverse().unwrap(), Surd::integer(3).sqrt().unwrap());
     let (c, s) = (half.negated(), root.times(&half).unwrap());

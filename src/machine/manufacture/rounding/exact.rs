@@ -23,14 +23,16 @@ use verify::{Verification, VerifyError, verify};
 pub(super) struct TrianglesOfBodies {
     /// Corners by body.
     pub(super) corners: [[Joint; 3]; 2],
-    /// Joints on the sides by body: `inner[b][k]` on the side from corner `k` to corner `k + 1`. Absent for the octahedral platform.
+    /// Joints on the sides by body: `inner[b][k]` on the side from corner `k` to corner `k + 1`. Absent for the
+    /// octahedral platform.
     pub(super) inner: Option<[[Joint; 3]; 2]>,
     /// The legs round the hexagon, for a platform with joints on the sides.
     pub(super) found: Option<GriffisDuffy>,
 }
 
 impl TrianglesOfBodies {
-    /// `None` for a design that is neither octahedral nor has six joints on each body, one on each side of two triangles.
+    /// `None` for a design that is neither octahedral nor has six joints on each body, one on each side of two
+    /// triangles.
     pub(super) fn of(m: &Manipulator) -> Option<Self> {
         let of = |body| move |index| Joint { body, index };
         if let Ok(o) = Octahedral::recognise(m) {
@@ -91,20 +93,23 @@ pub struct ExactRounding {
     pub manipulator: Manipulator,
     /// The octahedral platform on its triangles.
     pub octahedral: Manipulator,
-    /// Parts of the sides and where the joints are on them, in the order of the hexagon (base and platform alternately): `t_k = inner / parts`.
-    /// `None` for the octahedral platform itself.
+    /// Parts of the sides and where the joints are on them, in the order of the hexagon (base and platform
+    /// alternately): `t_k = inner / parts`. `None` for the octahedral platform itself.
     pub fractions: Option<[(i64, i64); 6]>,
     /// Every joint, in the order of [`joints`].
     pub joints: Vec<RoundedJoint>,
     /// What it is worth.
     pub judgement: Judgement,
-    /// Whether exact rational arithmetic on the holes shows: six independent legs in the span of six independent octahedral legs.
+    /// Whether exact rational arithmetic on the holes shows: six independent legs in the span of six independent
+    /// octahedral legs.
     pub proved: bool,
-    /// Turns by 120 degrees at home take the triangles of both bodies with their joints to themselves: a design of that kind on triangular grids keeps its symmetry.
+    /// Turns by 120 degrees at home take the triangles of both bodies with their joints to themselves: a design of that
+    /// kind on triangular grids keeps its symmetry.
     pub three_fold: bool,
     /// Triangles of each body in the search.
     pub pool: [usize; 2],
-    /// All triangles with joints within this distance of their places were in the search, base and platform, design units.
+    /// All triangles with joints within this distance of their places were in the search, base and platform, design
+    /// units.
     pub complete_to: [f64; 2],
     /// Replacements of one body's triangle by a better one after the first search.
     pub replacements: usize,
@@ -163,8 +168,8 @@ impl ExactRoundingSearch<'_> {
         reached.then_some(TrianglePair { triangles, objective })
     }
 
-    /// The best combination of the first `count` triangles of each body, then replacements of one of them by any of its pool until none is
-    /// better.
+    /// The best combination of the first `count` triangles of each body, then replacements of one of them by any of its
+    /// pool until none is better.
     fn run(&mut self, pools: &[TrianglePool; 2], count: usize) -> Option<(TrianglePair, usize)> {
         let floor = |best: &Option<TrianglePair>| best.map_or(0.0, |b| b.objective);
         let mut best: Option<TrianglePair> = None;
@@ -356,7 +361,8 @@ fn search(
     })
 }
 
-/// The best answer on any of the grids, the first ones where several are equally good; what stands against the first where there is none.
+/// The best answer on any of the grids, the first ones where several are equally good; what stands against the first
+/// where there is none.
 pub(super) fn round(
     problem: &RoundingProblem<'_>,
     layings: &[Laying],

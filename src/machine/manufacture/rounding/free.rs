@@ -59,7 +59,8 @@ fn of_three(p: &Vector2<f64>, q: &Vector2<f64>, r: &Vector2<f64>) -> (Vector2<f6
     pairs.into_iter().fold((*p, 0.0), |best, c| if c.1 > best.1 { c } else { best })
 }
 
-/// A grid in a plane: its turn (radians), a hole (in pitches, axes that are not turned), and the greatest distance of what was fitted (pitches).
+/// A grid in a plane: its turn (radians), a hole (in pitches, axes that are not turned), and the greatest distance of
+/// what was fitted (pitches).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Laid {
     pub(super) angle: f64,
@@ -67,8 +68,9 @@ pub(super) struct Laid {
     pub(super) worst: f64,
 }
 
-/// Lays the grid so that the greatest distance of the cells from their places is least: the best shift for every turn is the centre of a smallest
-/// circle, the turn is sought within `half` of `angle`, where that distance is nearly convex.
+/// Lays the grid so that the greatest distance of the cells from their places is least: the best shift for every turn
+/// is the centre of a smallest circle, the turn is sought within `half` of `angle`, where that distance is nearly
+/// convex.
 fn fit(places: &[Vector2<f64>], cells: &[GridHole], angle: f64, half: f64) -> Laid {
     let at = |angle: f64| {
         let turn = Rotation2::new(angle);
@@ -165,7 +167,8 @@ pub(super) fn near_holes(places: &[[f64; 2]]) -> Vec<Laid> {
     best(ranked.iter().take(FITTED).map(|(_, angle, cells)| fit(&places, cells, *angle, step)).collect())
 }
 
-/// Grids with the least greatest distance of the joints from the corners of a triangle of holes and from holes on its sides; `limit` is the greatest reach (pitches).
+/// Grids with the least greatest distance of the joints from the corners of a triangle of holes and from holes on its
+/// sides; `limit` is the greatest reach (pitches).
 pub(super) fn near_triangles(wanted: &Wanted, limit: f64) -> Vec<Laid> {
     let all = wanted.corners.iter().chain(wanted.inner.iter().flatten());
     let places: Vec<Place> = all.map(|p| place(*p)).collect();
@@ -189,8 +192,8 @@ pub(super) fn near_triangles(wanted: &Wanted, limit: f64) -> Vec<Laid> {
     best(found)
 }
 
-/// The grid as it is asked for: the hole nearest to the foot of the frame's origin, the turn within an eighth; `plain` is the grid of this pitch that is neither
-/// shifted nor turned.
+/// The grid as it is asked for: the hole nearest to the foot of the frame's origin, the turn within an eighth; `plain`
+/// is the grid of this pitch that is neither shifted nor turned.
 pub(super) fn as_grid(laid: &Laid, plain: &BodyGrid) -> Grid {
     let mut angle = laid.angle.rem_euclid(FRAC_PI_2);
     if angle > FRAC_PI_2 / 2.0 {

@@ -146,7 +146,8 @@ pub(super) struct GridTriangle {
     /// Largest distance of a joint from where it is wanted, pitches.
     deviation: f64,
     pub(super) corners: [GridHole; 3],
-    /// Side `k` has `parts[k]` equal parts between grid points; its joint is at the end of part `inner[k]` (below 0 or above `parts` on an extension).
+    /// Side `k` has `parts[k]` equal parts between grid points; its joint is at the end of part `inner[k]` (below 0 or
+    /// above `parts` on an extension).
     pub(super) parts: [i64; 3],
     pub(super) inner: [i64; 3],
 }
@@ -184,7 +185,8 @@ fn cells_within(centre: [f64; 2], reach: f64, skew: f64) -> Vec<GridHole> {
     all.filter(|c| distance(*c, centre, skew) <= reach).collect()
 }
 
-/// A side between two cells with its joint: index of the second cell, parts, joint, distance of the joint from where it is wanted.
+/// A side between two cells with its joint: index of the second cell, parts, joint, distance of the joint from where it
+/// is wanted.
 #[derive(Debug, Clone, Copy)]
 struct GridSide {
     to: usize,
@@ -304,8 +306,9 @@ fn turned<T: Copy + std::ops::Neg<Output = T> + std::ops::Sub<Output = T>>([i, j
     [-i - j, i]
 }
 
-/// The triangles within `limit` (pitches) that turns by 120 degrees about the middle of the wanted one take to themselves with their joints, nearest first; `None` where
-/// the wanted triangle is not of that kind, or the grid does not turn about its middle.
+/// The triangles within `limit` (pitches) that turns by 120 degrees about the middle of the wanted one take to
+/// themselves with their joints, nearest first; `None` where the wanted triangle is not of that kind, or the grid does
+/// not turn about its middle.
 pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<TrianglePool> {
     if HolePattern::Triangular.skew() != Some(wanted.skew) {
         return None;
@@ -445,7 +448,8 @@ mod tests {
         assert_eq!(found.triangles[0].corners, [[0, 0], [24, 1], [11, 21]]);
     }
 
-    /// A triangle with joints on its sides that turns by 120 degrees take to itself about `middle`, in pitches of a triangular grid.
+    /// A triangle with joints on its sides that turns by 120 degrees take to itself about `middle`, in pitches of a
+    /// triangular grid.
     fn three_fold(middle: [f64; 2]) -> Wanted {
         let turns = |start: [f64; 2]| {
             let about = |p: [f64; 2]| [middle[0] + p[0], middle[1] + p[1]];

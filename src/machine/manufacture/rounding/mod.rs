@@ -1,4 +1,5 @@
-//! Puts the joints of a design on a grid of holes, and says what the rounded design is worth: conditioning, requirements, distances of joints.
+//! Puts the joints of a design on a grid of holes, and says what the rounded design is worth: conditioning,
+//! requirements, distances of joints.
 
 mod exact;
 mod free;
@@ -34,7 +35,8 @@ pub struct RoundingProblem<'a> {
     pub manipulator: &'a Manipulator,
     /// Grids of base and platform; `None` for a plate whose joints stay where they are.
     pub grids: [Option<Grid>; 2],
-    /// Whether origins and angles are chosen too; the grids as they are given then take part, so that the answer is never worse than theirs.
+    /// Whether origins and angles are chosen too; the grids as they are given then take part, so that the answer is
+    /// never worse than theirs.
     pub free: bool,
     /// For each joint of base and platform whether it stays where it is; empty: none does.
     pub fixed: [&'a [bool]; 2],
@@ -113,12 +115,13 @@ pub enum NoRounding {
 pub struct RoundedJoint {
     /// The joint.
     pub joint: Joint,
-    /// Hole: counted from the origin of the grid along its axes, or circle and number on it; `None` where the joint stays where it was wanted.
+    /// Hole: counted from the origin of the grid along its axes, or circle and number on it; `None` where the joint
+    /// stays where it was wanted.
     pub cell: Option<[i64; 2]>,
     /// How far it is from where it was wanted, frame of the body, design units.
     pub moved: Vector3<f64>,
-    /// Distance from the line of its side: of the new triangle for the exact rounding, of the wanted one for the nearest; `None` for joints
-    /// that are corners or belong to no triangle.
+    /// Distance from the line of its side: of the new triangle for the exact rounding, of the wanted one for the
+    /// nearest; `None` for joints that are corners or belong to no triangle.
     pub off_line: Option<f64>,
 }
 
@@ -134,8 +137,9 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    /// The rounding to build, by rule: the exact one when it meets the requirements and keeps the share `keep` of the objective;
-    /// else the nearest one when it meets the requirements; else the exact one when it meets them; else none.
+    /// The rounding to build, by rule: the exact one when it meets the requirements and keeps the share `keep` of the
+    /// objective; else the nearest one when it meets the requirements; else the exact one when it meets them; else
+    /// none.
     #[must_use]
     pub fn choice(&self, keep: f64) -> Option<&Manipulator> {
         let exact = self.exact.as_ref().ok().filter(|e| e.judgement.met);
@@ -144,9 +148,11 @@ impl Rounding {
         kept.map(|e| &e.manipulator).or(nearest.map(|n| &n.manipulator)).or(exact.map(|e| &e.manipulator))
     }
 
-    /// Where the rule chooses none: of the roundings the one that misses the requirements least, the exact one of equals.
+    /// Where the rule chooses none: of the roundings the one that misses the requirements least, the exact one of
+    /// equals.
     ///
-    /// What a rounding misses is the greatest share by which a margin is below 0: of what is limited, or of the size of the design.
+    /// What a rounding misses is the greatest share by which a margin is below 0: of what is limited, or of the size of
+    /// the design.
     pub fn least_missed(&self, required: &Requirements, size: f64) -> Option<&Manipulator> {
         let exact =
             self.exact.as_ref().ok().map(|e| (&e.manipulator, e.judgement.missed_share(required, size)));
@@ -159,15 +165,17 @@ impl Rounding {
 
 /// Puts the joints of a design with planar bodies on grids, in two ways.
 ///
-/// *Exact*: triangles with corners on grid points whose sides carry grid points where joints are wanted; the result is equivalent to the octahedral platform on these
-/// triangles without any error, decided in exact arithmetic. *Nearest*: every joint on one of the four grid points around it, chosen for the least
-/// error of the pose that the formula of the wanted design gives.
+/// *Exact*: triangles with corners on grid points whose sides carry grid points where joints are wanted; the result is
+/// equivalent to the octahedral platform on these triangles without any error, decided in exact arithmetic. *Nearest*:
+/// every joint on one of the four grid points around it, chosen for the least error of the pose that the formula of the
+/// wanted design gives.
 ///
-/// With `free` grids their origins and angles are chosen as well (`docs/theory/manufacture.md`): of the grids given and those whose holes come nearest to what is
-/// wanted each way takes the ones that make its own answer best.
+/// With `free` grids their origins and angles are chosen as well (`docs/theory/manufacture.md`): of the grids given and
+/// those whose holes come nearest to what is wanted each way takes the ones that make its own answer best.
 ///
 /// # Errors
-/// [`NoRounding::NotPlanar`], [`NoRounding::BadGrid`]; what stands against one of the ways is in its part of the answer.
+/// [`NoRounding::NotPlanar`], [`NoRounding::BadGrid`]; what stands against one of the ways is in its part of the
+/// answer.
 pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRounding> {
     let m = problem.manipulator;
     let mut bodies = [PlateHoles::AsWanted; 2];
@@ -211,8 +219,9 @@ struct Laying {
 /// A grid with its holes in the plane of a body.
 type LaidPlate = (Option<Grid>, PlateHoles);
 
-/// The grids as given, and those of the same pitches whose holes come nearest to the joints: to triangles that keep the roles, with the best of each body, or
-/// without roles to the joints as they are, with the best ones of both in every combination.
+/// The grids as given, and those of the same pitches whose holes come nearest to the joints: to triangles that keep the
+/// roles, with the best of each body, or without roles to the joints as they are, with the best ones of both in every
+/// combination.
 fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&TrianglesOfBodies>) -> Vec<Laying> {
     let m = problem.manipulator;
     let found = Body::BOTH.map(|body| {
@@ -243,7 +252,8 @@ fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Triangl
     std::iter::once(*given).chain(all.map(pair)).collect()
 }
 
-/// The best of what was found on several grids, the first where several are equally good; the first error where nothing was found.
+/// The best of what was found on several grids, the first where several are equally good; the first error where nothing
+/// was found.
 fn best_of<T>(
     all: impl Iterator<Item = Result<T, NoRounding>>,
     better: impl Fn(&T, &T) -> bool,
@@ -334,7 +344,8 @@ pub struct LeastMargin {
 }
 
 impl Judgement {
-    /// By how much a requirement is missed at most, as a share of what is limited, or of the size of the design; 0 where none is.
+    /// By how much a requirement is missed at most, as a share of what is limited, or of the size of the design; 0
+    /// where none is.
     fn missed_share(&self, required: &Requirements, size: f64) -> f64 {
         let share = |margin: &LeastMargin| {
             let whole = required.whole(margin.kind);
@@ -367,7 +378,8 @@ impl Judgement {
     }
 }
 
-/// The worst inverse condition number when it is above `floor`, poses from number `hint` on first; `hint` becomes the number of the worst.
+/// The worst inverse condition number when it is above `floor`, poses from number `hint` on first; `hint` becomes the
+/// number of the worst.
 fn objective_above(
     m: &Manipulator,
     problem: &RoundingProblem<'_>,

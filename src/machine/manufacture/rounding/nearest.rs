@@ -28,8 +28,8 @@ pub struct NearestRounding {
     pub joints: Vec<RoundedJoint>,
     /// What it is worth.
     pub judgement: Judgement,
-    /// Greatest error of the pose over the poses of the problem when the formula of the wanted design is used, to first order: of the tool point
-    /// (design units) and of the orientation (degrees).
+    /// Greatest error of the pose over the poses of the problem when the formula of the wanted design is used, to first
+    /// order: of the tool point (design units) and of the orientation (degrees).
     pub first_order: (f64, f64),
     /// The same with every joint simply on the nearest grid point.
     pub first_order_nearest: (f64, f64),
@@ -37,7 +37,8 @@ pub struct NearestRounding {
     pub solved: (ErrorSpread, usize),
     /// Joints that are not on the grid point nearest to them.
     pub not_nearest: usize,
-    /// Turns by 120 degrees about the middle of its joints take the joints of both bodies to themselves: a design of that kind keeps its symmetry on holes that turn too.
+    /// Turns by 120 degrees about the middle of its joints take the joints of both bodies to themselves: a design of
+    /// that kind keeps its symmetry on holes that turn too.
     pub three_fold: bool,
     /// Leg map and forward kinematics against the wanted design.
     pub verification: Result<Verification, VerifyError>,
@@ -58,7 +59,8 @@ impl RoundingErrors<'_> {
         norms.fold((0.0, 0.0), |m, (p, w)| (f64::max(m.0, p.norm()), f64::max(m.1, w.norm())))
     }
 
-    /// Greatest over the poses of the larger of both, the angle times the characteristic length, with some joints at other places.
+    /// Greatest over the poses of the larger of both, the angle times the characteristic length, with some joints at
+    /// other places.
     fn cost(&self, sums: &[(Vector3<f64>, Vector3<f64>)], moved: &[(usize, Vector3<f64>)]) -> f64 {
         let one = |(s, (p, w)): (&Sensitivity, &(Vector3<f64>, Vector3<f64>))| {
             let with = |g: &[Matrix3<f64>], sum: &Vector3<f64>| {
@@ -76,7 +78,8 @@ struct Orbit {
     choices: Vec<Vec<GridHole>>,
 }
 
-/// Every joint by itself; or three at a time, where turns by 120 degrees take the joints of the body to one another and the holes around them to holes.
+/// Every joint by itself; or three at a time, where turns by 120 degrees take the joints of the body to one another and
+/// the holes around them to holes.
 fn orbits(
     problem: &RoundingProblem<'_>,
     list: &[Joint],
@@ -231,7 +234,8 @@ fn search(
     })
 }
 
-/// The best answer on any of the grids, the first ones where several are equally good; what stands against the first where there is none.
+/// The best answer on any of the grids, the first ones where several are equally good; what stands against the first
+/// where there is none.
 pub(super) fn round(
     problem: &RoundingProblem<'_>,
     layings: &[Laying],

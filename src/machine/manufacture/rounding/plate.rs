@@ -123,7 +123,8 @@ impl PlateHoles {
         }
     }
 
-    /// The holes around a place, nearest first, at least one. A joint that stays where it is has one, the number `joint`, which no other of its body has.
+    /// The holes around a place, nearest first, at least one. A joint that stays where it is has one, the number
+    /// `joint`, which no other of its body has.
     pub(super) fn around(&self, wanted: &Point3<f64>, joint: usize) -> Vec<GridHole> {
         let mut out = match self {
             Self::Lattice(grid) => {
@@ -159,8 +160,9 @@ impl PlateHoles {
     }
 }
 
-/// Whether holes can hold a platform that turns by 120 degrees about the middle of joints take to itself: on a triangular grid where the turn takes holes to holes, on circles about
-/// that middle of which one has holes that come in threes; `true` without a grid, and `false` where the joints themselves do not turn.
+/// Whether holes can hold a platform that turns by 120 degrees about the middle of joints take to itself: on a
+/// triangular grid where the turn takes holes to holes, on circles about that middle of which one has holes that come
+/// in threes; `true` without a grid, and `false` where the joints themselves do not turn.
 pub fn holes_turn(points: &[Point3<f64>], grid: Option<&Grid>, size: f64) -> bool {
     let Some(grid) = grid else { return true };
     let (Some(symmetry), Some(plate)) =
@@ -266,7 +268,8 @@ mod tests {
         let triangle = [20.0, 140.0, 260.0].map(turned);
         let holds = |grid: Grid| holes_turn(&triangle, Some(&grid), 4.0);
         let pattern = |pattern, origin| Grid { pattern, origin, angle_deg: 7.0, ..Grid::square(0.7) };
-        // a hole in the middle; the middle of a triangle of holes, `pitch / sqrt(3)` from one at 30 degrees from the axis; neither
+        // a hole in the middle; the middle of a triangle of holes, `pitch / sqrt(3)` from one at 30 degrees from the
+        // axis; neither
         assert!(holds(pattern(HolePattern::Triangular, [3.0, -1.0])));
         let (s, c) = 37f64.to_radians().sin_cos();
         let away = 0.7 / 3f64.sqrt();

@@ -371,7 +371,8 @@ fn three_fold_platforms_keep_their_symmetry_on_circles_and_joints_stand_on_their
         // the circles of the platform are up to 0.9 apart
         assert!(joint.moved.norm() < 1.0, "{joint:?}");
     }
-    // negative controls: a number of holes that 3 does not divide, circles about another place, a platform that does not turn
+    // negative controls: a number of holes that 3 does not divide, circles about another place, a platform that does
+    // not turn
     let uneven = Grid::polar(HoleCircle { radius: 1.0, holes: 47 }, 0.5);
     let off = Grid { origin: [0.1, 0.0], ..polar };
     for (m, grids) in [(three_fold(), [uneven, bolts]), (three_fold(), [off, bolts]), (free(), [polar; 2])] {

@@ -1,4 +1,5 @@
-//! Branch and bound over the cells of a workspace (Moore 1966): which cell is halved next, what is searched from it, and when the bound decides.
+//! Branch and bound over the cells of a workspace (Moore 1966): which cell is halved next, what is searched from it,
+//! and when the bound decides.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -130,7 +131,8 @@ impl CellJudge<'_> {
         all.filter(|(t, _)| function.has(t)).map(|(_, v)| v).fold(f64::INFINITY, f64::min)
     }
 
-    /// The least margin of a kind over all charts, decided against `reserve`; the bound below is that of the margin less the reserve.
+    /// The least margin of a kind over all charts, decided against `reserve`; the bound below is that of the margin
+    /// less the reserve.
     pub(super) fn bound(&self, mut found: Margin, cells: usize, seed: u64, reserve: f64) -> MarginBound {
         let kind = found.term.kind;
         let functions = self.functions(kind);
@@ -238,7 +240,8 @@ impl CellJudge<'_> {
         }
     }
 
-    /// Bounds a cell, and what is left of it as long as that gets smaller; `known` is the worst point known of the function with its upper bound.
+    /// Bounds a cell, and what is left of it as long as that gets smaller; `known` is the worst point known of the
+    /// function with its upper bound.
     fn bounded(
         &self,
         function: BoundedFunction,

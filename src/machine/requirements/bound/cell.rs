@@ -101,8 +101,9 @@ impl CellJudge<'_> {
         out
     }
 
-    /// Goes to the pose of the workspace where a function with the slopes of this point is least, and on from there as long as margins fall: for functions with
-    /// their least values on the boundary, as lengths and angles have them, this ends at a local one after a few steps.
+    /// Goes to the pose of the workspace where a function with the slopes of this point is least, and on from there as
+    /// long as margins fall: for functions with their least values on the boundary, as lengths and angles have them,
+    /// this ends at a local one after a few steps.
     fn follow(&self, (kind, i): (TermKind, usize), chart: &Chart, mut slope: [f64; 6], out: &mut CellBounds) {
         for _ in 0..STEPS {
             let y = farthest(chart, &slope);
@@ -238,8 +239,9 @@ fn farthest(chart: &Chart, slope: &[f64; 6]) -> [f64; 6] {
     out
 }
 
-/// What is left of a cell when sides that a positive or negative slope rules out are taken away: the least value over the workspace is at the end of a side, if that is an end of the workspace, and
-/// elsewhere if not. Coordinates of balls have no such ends.
+/// What is left of a cell when sides that a positive or negative slope rules out are taken away: the least value over
+/// the workspace is at the end of a side, if that is an end of the workspace, and elsewhere if not. Coordinates of
+/// balls have no such ends.
 fn shrunk(chart: &Chart, cell: &ChartCell, over: &Jet) -> Option<ChartCell> {
     let mut out = *cell;
     for k in (0..chart.coordinates()).filter(|k| !chart.balls.iter().any(|g| g.contains(k))) {

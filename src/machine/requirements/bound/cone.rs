@@ -1,13 +1,15 @@
 //! How far legs lean from an axis, as functions that are nearly linear in the pose.
 //!
-//! With `k` the axis, `e` a unit vector at a right angle to it and `theta` the angle of the leg vector `n`, of which the part across the axis has an angle of at most `delta` to `e`,
-//! that part is no longer than `n.e / cos(delta)`, so that for a limit `alpha` below a right angle
+//! With `k` the axis, `e` a unit vector at a right angle to it and `theta` the angle of the leg vector `n`, of which
+//! the part across the axis has an angle of at most `delta` to `e`, that part is no longer than `n.e / cos(delta)`, so
+//! that for a limit `alpha` below a right angle
 //!
 //! ```text
 //! |n| sin(alpha - theta) = sin(alpha) n.k - cos(alpha) |n across k| >= sin(alpha) n.k - cos(alpha) n.e / cos(delta).
 //! ```
 //!
-//! The right side is linear in the translation and nearly so in the rotation, where the angle itself has a kink and many local minima. The directions `e` all around the axis are covered by sectors.
+//! The right side is linear in the translation and nearly so in the rotation, where the angle itself has a kink and
+//! many local minima. The directions `e` all around the axis are covered by sectors.
 
 use super::frame::CellFrame;
 use num::interval::Interval;
@@ -104,7 +106,8 @@ impl<'a> SwingCone<'a> {
         for x in &mut k {
             *x = x.checked_div(length)?;
         }
-        // a right-handed frame: the cross product with the coordinate axis that is farthest away, made a unit vector in intervals
+        // a right-handed frame: the cross product with the coordinate axis that is farthest away, made a unit vector in
+        // intervals
         let farthest =
             (0..3).fold(0, |best, j| if k[j].magnitude() < k[best].magnitude() { j } else { best });
         let unit: IntervalVector =
@@ -149,8 +152,8 @@ impl<'a> SwingCone<'a> {
     }
 }
 
-/// The least angle whose sine, times the root of `square`, is at least `below`: a lower bound of the limit less an angle of which this is known, never below the limit less 180
-/// degrees.
+/// The least angle whose sine, times the root of `square`, is at least `below`: a lower bound of the limit less an
+/// angle of which this is known, never below the limit less 180 degrees.
 pub(super) fn arc_margin(below: f64, over: &Leaning, limit_deg: f64) -> f64 {
     let limit = Interval::from(limit_deg);
     let least = (limit - Interval::from(180.0)).lo();

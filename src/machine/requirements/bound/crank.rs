@@ -1,6 +1,8 @@
-//! Cranks and rods over cells of poses, by the formulas of `requirements/cranks.rs` in jets: every row is a function whose least value gives the least margin.
+//! Cranks and rods over cells of poses, by the formulas of `requirements/cranks.rs` in jets: every row is a function
+//! whose least value gives the least margin.
 //!
-//! Directions are enclosed, so that what is proved holds for the unit vectors along the axis and across it that the numbers of the design give.
+//! Directions are enclosed, so that what is proved holds for the unit vectors along the axis and across it that the
+//! numbers of the design give.
 
 use super::force::{ForceSolver, System};
 use super::frame::{CellFrame, LegOverCell};
@@ -79,7 +81,8 @@ impl<'c> CrankOverCell<'c> {
         let (r, l) = (crank.length, crank.rod);
         let over = Interval::from(0.5).checked_div(r).unwrap_or(Interval::WHOLE);
         let k = (leg.square + frame.constant(r.square() - l.square())).times(over);
-        // a triangle with the sides r and l: each quantity stands in it once, so that it is enclosed well over wide cells
+        // a triangle with the sides r and l: each quantity stands in it once, so that it is enclosed well over wide
+        // cells
         let [rr, ll] = [r.square(), l.square()];
         let across = (leg.square - frame.constant(rr + ll)).times(over);
         let left = frame.constant(ll) - across.square() - along.square();
@@ -242,7 +245,8 @@ fn signed_arc_sine(square: Interval) -> Interval {
 pub enum RodRegularity {
     /// Proved: they are.
     Regular,
-    /// Proved: at some pose they are not. Their determinant has opposite signs at home, or at the end of a step, and at this pose, and the rods close on the way from one to the other.
+    /// Proved: at some pose they are not. Their determinant has opposite signs at home, or at the end of a step, and at
+    /// this pose, and the rods close on the way from one to the other.
     ChangesSign(Pose),
     /// Neither is proved; near this pose.
     Undecided(Pose),
@@ -328,9 +332,12 @@ impl RodsOverChart<'_> {
     }
 }
 
-/// Judges the region, the single poses and the trajectory of a workspace by the lines of the rods, or by the rates of drives whose joints are not ideal, on at most `cells` cells for each of its parts, and counts them; `None` for other designs.
+/// Judges the region, the single poses and the trajectory of a workspace by the lines of the rods, or by the rates of
+/// drives whose joints are not ideal, on at most `cells` cells for each of its parts, and counts them; `None` for other
+/// designs.
 ///
-/// A cell is regular when `|I - K A| <= W` entry by entry for the matrix `A` of its lines, with `W u < u` for a positive vector `u` (Neumaier 1990, sec. 4.1).
+/// A cell is regular when `|I - K A| <= W` entry by entry for the matrix `A` of its lines, with `W u < u` for a
+/// positive vector `u` (Neumaier 1990, sec. 4.1).
 #[must_use]
 pub fn regular_rods(
     m: &Manipulator,

@@ -1,12 +1,15 @@
 //! Bounds of leg forces over a cell.
 //!
-//! With lines that are not divided by the leg lengths, `A G = -(f, t)`, `A = [n_i; R b_i x n_i]` by columns and `F_i = G_i |n_i|`. `K` near the inverse of `A` at the
-//! middle gives `G = K b + (I - K A) G`; where `|I - K A| <= W` with `W u <= c u`, `c < 1`, `u > 0`, the norm `max |G_i| / u_i` is at most that of `K b` over `1 - c`
-//! (Neumaier 1990, sec. 4.1). The slopes solve the same system with `b_k - A_k G` to the right.
+//! With lines that are not divided by the leg lengths, `A G = -(f, t)`, `A = [n_i; R b_i x n_i]` by columns and
+//! `F_i = G_i |n_i|`. `K` near the inverse of `A` at the middle gives `G = K b + (I - K A) G`; where `|I - K A| <= W`
+//! with `W u <= c u`, `c < 1`, `u > 0`, the norm `max |G_i| / u_i` is at most that of `K b` over `1 - c` (Neumaier
+//! 1990, sec. 4.1). The slopes solve the same system with `b_k - A_k G` to the right.
 //!
-//! What is left of the solution beside its tangent at `z`, `R(h) = G(z + h) - G(z) - sum G_k h_k`, solves `A R = r` with `r = b - A (G(z) + sum G_k h_k)`, which vanishes at `z` with its slopes, since
-//! `G(z)` and `G_k` are the solution and its slopes there. So `K r = (h^T C h) / 2` with `C_kl = K (b_kl - A_kl (G(z) + sum G_j h_j) - A_k G_l - A_l G_k)` at a point of the cell (Taylor), and `|R - K r|`
-//! is at most `W u` times the norm of `K r` over `1 - c`, which is of third order. No solution over the cell is needed for it, only `A` and `b` there.
+//! What is left of the solution beside its tangent at `z`, `R(h) = G(z + h) - G(z) - sum G_k h_k`, solves `A R = r`
+//! with `r = b - A (G(z) + sum G_k h_k)`, which vanishes at `z` with its slopes, since `G(z)` and `G_k` are the
+//! solution and its slopes there. So `K r = (h^T C h) / 2` with `C_kl = K (b_kl - A_kl (G(z) + sum G_j h_j) - A_k G_l -
+//! A_l G_k)` at a point of the cell (Taylor), and `|R - K r|` is at most `W u` times the norm of `K r` over `1 - c`,
+//! which is of third order. No solution over the cell is needed for it, only `A` and `b` there.
 
 use nalgebra::Matrix6;
 
@@ -61,7 +64,8 @@ impl System {
         Self { rows, right: [frame.constant(Interval::ZERO); 6], factors: [one; 6] }
     }
 
-    /// The lines of the legs of a frame, or the rates of their drives where screws couple turns to lengths; `None` where those may not be determined.
+    /// The lines of the legs of a frame, or the rates of their drives where screws couple turns to lengths; `None`
+    /// where those may not be determined.
     pub(super) fn of_legs(frame: &CellFrame<'_>, m: &Manipulator) -> Option<Self> {
         if let Some(joints) = frame.joints().filter(|joints| joints.have_lead()) {
             let mut rates = Vec::with_capacity(6);
@@ -277,7 +281,8 @@ struct Bend {
 }
 
 impl Bend {
-    /// `F = G s` in the same way, `s` the factor of a force at `z` and over the cell: values and form of second order over the cell, and how far `F` may be from its tangent with that form.
+    /// `F = G s` in the same way, `s` the factor of a force at `z` and over the cell: values and form of second order
+    /// over the cell, and how far `F` may be from its tangent with that form.
     fn force(&self, i: usize, here: &SolvedForces, at: &Jet, over: &Jet) -> (Jet, f64) {
         let n = here.slopes.len();
         let mut out = over.alike(self.value[i] * over.value);
@@ -296,7 +301,8 @@ impl Bend {
 /// A force may push or pull.
 const SIGNS: [f64; 2] = [1.0, -1.0];
 
-/// A lower bound of `greatest - |F_i|` over a cell for all legs, or of the greatest torque less that of each crank, and an upper bound of the least one at `z`.
+/// A lower bound of `greatest - |F_i|` over a cell for all legs, or of the greatest torque less that of each crank, and
+/// an upper bound of the least one at `z`.
 ///
 /// Of second order where the frame over the cell is, else by the mean value theorem.
 pub(super) fn force(

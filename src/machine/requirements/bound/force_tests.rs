@@ -40,8 +40,9 @@ fn room(m: &Manipulator, pose: &Pose, load: &Load, greatest: f64) -> f64 {
     greatest - (a.lu().solve(&right).unwrap() + lengthwise).amax()
 }
 
-/// The room for the greatest force over random cells is nowhere below its bound, which halving a cell brings four times nearer to the least room, as a bound of second order does, and the bound by slopes
-/// alone is as right and farther away.
+/// The room for the greatest force over random cells is nowhere below its bound, which halving a cell brings four times
+/// nearer to the least room, as a bound of second order does, and the bound by slopes alone is as right and farther
+/// away.
 #[test]
 fn forces_are_bounded_to_second_order() {
     bounds_hold(23, |_| None);

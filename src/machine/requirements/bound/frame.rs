@@ -98,7 +98,8 @@ impl<'a> CellFrame<'a> {
         std::array::from_fn(|k| arm[k] + origin[k])
     }
 
-    /// A leg of a manipulator: from joint to joint, or from second axis to second axis where these do not meet the first ones. Nothing is known of it where those may not be determined.
+    /// A leg of a manipulator: from joint to joint, or from second axis to second axis where these do not meet the
+    /// first ones. Nothing is known of it where those may not be determined.
     pub(super) fn leg(&self, m: &Manipulator, i: usize) -> LegOverCell {
         let Some(joints) = self.joints else { return self.bare_leg(m, i) };
         joints.leg(self, m, i).unwrap_or_else(|| {

@@ -1,10 +1,13 @@
 //! Lower bounds of the distance of legs from each other and from bodies.
 //!
-//! The distance of two convex hulls of points is at least `min u . (x - y)` over the points `x` of one and `y` of the other, for every unit vector `u`. Which `u` is good depends on the
-//! pose: for two segments that are nearest inside both it is normal to both, for an end and the inside of a segment it leaves that segment at a right angle, for two ends it
-//! joins them. As functions of the pose these directions make the bound exact to second order; a constant one serves where they are not defined.
+//! The distance of two convex hulls of points is at least `min u . (x - y)` over the points `x` of one and `y` of the
+//! other, for every unit vector `u`. Which `u` is good depends on the pose: for two segments that are nearest inside
+//! both it is normal to both, for an end and the inside of a segment it leaves that segment at a right angle, for two
+//! ends it joins them. As functions of the pose these directions make the bound exact to second order; a constant one
+//! serves where they are not defined.
 //!
-//! A direction is a vector `n` with polynomials as coordinates and is not divided by its length, whose second derivatives would be known badly ([`along_direction`]).
+//! A direction is a vector `n` with polynomials as coordinates and is not divided by its length, whose second
+//! derivatives would be known badly ([`along_direction`]).
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -41,7 +44,8 @@ fn halved(x: f64) -> Interval {
 
 /// Cylinder and rod of a leg over a frame.
 ///
-/// Where the leg may be shorter or longer than the cylinder, or has no sure length, it is one part with the larger radius, which holds both.
+/// Where the leg may be shorter or longer than the cylinder, or has no sure length, it is one part with the larger
+/// radius, which holds both.
 pub(super) fn leg_parts(frame: &CellFrame<'_>, m: &Manipulator, i: usize, body: &LegBody) -> Vec<Hull> {
     let leg = frame.leg(m, i);
     let end: JetVector = std::array::from_fn(|k| leg.base[k] + leg.line[k]);
@@ -66,8 +70,8 @@ pub(super) fn leg_parts(frame: &CellFrame<'_>, m: &Manipulator, i: usize, body: 
     }
 }
 
-/// The parts of a leg without what is nearer than `cut` to the joint at an end, and whether that is what they are: a leg that may be shorter, or whose part at
-/// the end may be, stays whole, which is more than it.
+/// The parts of a leg without what is nearer than `cut` to the joint at an end, and whether that is what they are: a
+/// leg that may be shorter, or whose part at the end may be, stays whole, which is more than it.
 pub(super) fn without_end(
     frame: &CellFrame<'_>,
     m: &Manipulator,
@@ -80,7 +84,8 @@ pub(super) fn without_end(
         return (parts, true);
     }
     let leg = frame.leg(m, i);
-    // the part at the end is longer than the cut: the cylinder by itself, the rod and a whole leg by the length of the leg
+    // the part at the end is longer than the cut: the cylinder by itself, the rod and a whole leg by the length of the
+    // leg
     let (cylinder, two) = (body.rod.map_or(0.0, |r| r.0), parts.len() == 2);
     let longer = match (end, two) {
         (Body::Base, true) => cylinder > cut,
@@ -112,8 +117,10 @@ const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 /// A lower bound of the gap of a part of a leg and a plate over a cell, and an upper bound at the point `z`.
 ///
-/// The lower one is `min u . x - h(u)` over the ends `x` of the part, with `u` the direction from the nearest point of the plate at `z`, which turns with the plate, and `h` the support function of
-/// the plate: `max c . u + m |u_across| + max(w u_n)` over the corners `c` of its hull, with the margin `m`, and over its faces `w`. It is no less than minus the radius of the part.
+/// The lower one is `min u . x - h(u)` over the ends `x` of the part, with `u` the direction from the nearest point of
+/// the plate at `z`, which turns with the plate, and `h` the support function of the plate:
+/// `max c . u + m |u_across| + max(w u_n)` over the corners `c` of its hull, with the margin `m`, and over its faces
+/// `w`. It is no less than minus the radius of the part.
 pub(super) fn plate_gap(
     chart: &Chart,
     cell: &ChartCell,
@@ -278,7 +285,8 @@ fn less(a: &JetVector, b: &JetVector) -> JetVector {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-/// A direction for two segments up to sign and length, and the differences of points whose least part along it is no more than the gap.
+/// A direction for two segments up to sign and length, and the differences of points whose least part along it is no
+/// more than the gap.
 fn direction(a: &Hull, b: &Hull, on: (On, On)) -> (JetVector, Vec<JetVector>) {
     // v less its part along f, times f . f
     let across = |v: JetVector, f: JetVector| -> JetVector {
@@ -305,17 +313,20 @@ fn direction(a: &Hull, b: &Hull, on: (On, On)) -> (JetVector, Vec<JetVector>) {
     }
 }
 
-/// A lower bound of `n . d / |n|` over a cell, from `n` and `d` at its point `z` and over it; `None` where `n` may be at a right angle to what it is at `z`.
+/// A lower bound of `n . d / |n|` over a cell, from `n` and `d` at its point `z` and over it; `None` where `n` may be
+/// at a right angle to what it is at `z`.
 ///
-/// With `e` the direction of `n` at `z`, `r` the value there, `c` a lower bound of `n . e` over the cell that is positive, and `m = n - e (n . e)`,
+/// With `e` the direction of `n` at `z`, `r` the value there, `c` a lower bound of `n . e` over the cell that is
+/// positive, and `m = n - e (n . e)`,
 ///
 /// ```text
 /// |n| <= n . e + |m|^2 / (2 n . e) <= n . e + |m|^2 / (2 c),
 /// n . d / |n| = r + (n . d - r |n|) / |n| >= r + min(K, 0) / c,   K = n . (d - r e) - |m|^2 r / (2 c),
 /// ```
 ///
-/// where the last term of `K` is left out for a negative `r`, since then `-r |n| >= -r n . e`. `K` vanishes at `z`, and is a polynomial of what `n` and `d` are: its second derivatives are
-/// known better than those of the quotient, in which large parts cancel.
+/// where the last term of `K` is left out for a negative `r`, since then `-r |n| >= -r n . e`. `K` vanishes at `z`, and
+/// is a polynomial of what `n` and `d` are: its second derivatives are known better than those of the quotient, in
+/// which large parts cancel.
 fn along_direction(
     chart: &Chart,
     cell: &ChartCell,
@@ -356,9 +367,10 @@ fn along_direction(
 
 /// Where the nearest points lie, and the same with lines in place of segments (`second`: the second body is a segment).
 ///
-/// The line through a segment is no farther than the segment. Where a nearest point comes to an end of its segment within the cell, the direction that belongs to the end turns with the pose, by an
-/// angle that the whole length of the segment multiplies, and its bound is exact to first order only; that of the line is exact to second order there, since a line gets nearer than its segment by
-/// the square of how far its nearest point is beyond the end.
+/// The line through a segment is no farther than the segment. Where a nearest point comes to an end of its segment
+/// within the cell, the direction that belongs to the end turns with the pose, by an angle that the whole length of the
+/// segment multiplies, and its bound is exact to first order only; that of the line is exact to second order there,
+/// since a line gets nearer than its segment by the square of how far its nearest point is beyond the end.
 fn lines_instead((a, b): (On, On), second: bool) -> Vec<(On, On)> {
     let mut out = vec![(a, b)];
     let mut also = |kind: (On, On)| {
@@ -443,7 +455,8 @@ pub(super) fn gap(
     (best, upper)
 }
 
-/// The distance of two points of the hulls: an upper bound of the distance of the hulls, when weights are as good as they are rounded.
+/// The distance of two points of the hulls: an upper bound of the distance of the hulls, when weights are as good as
+/// they are rounded.
 fn distance_between(a: (&[JetVector], &[f64]), b: (&[JetVector], &[f64])) -> Interval {
     // weights that sum to one exactly: the last one is what the others leave
     let at = |points: &[JetVector], weights: &[f64]| -> [Interval; 3] {

@@ -1,6 +1,7 @@
 //! Angles of universal joints as functions that are nearly linear in the pose.
 //!
-//! With the leg vector `d`, the first axis `a`, the rest direction `n` across it and `e = a x n`, unit vectors, `x = d.n`, `y = d.e` and `r = |(x, y)|`:
+//! With the leg vector `d`, the first axis `a`, the rest direction `n` across it and `e = a x n`, unit vectors,
+//! `x = d.n`, `y = d.e` and `r = |(x, y)|`:
 //!
 //! ```text
 //! r sin(limit -+ first) = x sin(limit) -+ y cos(limit),   cos(90 + second) = -d.a / |d|,   cos(90 - second) = d.a / |d|.
@@ -58,8 +59,8 @@ impl HingeLimit<'_> {
         if self.platform { frame.turned(v) } else { frame.fixed(v) }
     }
 
-    /// A function of both sides that the margin increases with ([`Self::margin`]): the cosine of the first angle, minus the square of the sine of the second one. `None` where the angle may not be
-    /// determined.
+    /// A function of both sides that the margin increases with ([`Self::margin`]): the cosine of the first angle, minus
+    /// the square of the sine of the second one. `None` where the angle may not be determined.
     pub(super) fn plain(&self, frame: &CellFrame<'_>) -> Option<Jet> {
         let leg = frame.leg(self.m, self.leg);
         match self.angle {
@@ -89,7 +90,8 @@ impl HingeLimit<'_> {
         }
     }
 
-    /// Whether the sides are bounded one by one: not for first angles with limits near a right angle and beyond, where neither side is a half space.
+    /// Whether the sides are bounded one by one: not for first angles with limits near a right angle and beyond, where
+    /// neither side is a half space.
     pub(super) fn has_sides(&self) -> bool {
         self.angle == HingeAngle::Second || self.limit_deg < 89.0
     }

@@ -1,8 +1,11 @@
-//! Legs with joints that are not ideal over cells of poses: where their second axes are, with first and second derivatives.
+//! Legs with joints that are not ideal over cells of poses: where their second axes are, with first and second
+//! derivatives.
 //!
-//! The directions `w`, `w'` to the second axes solve `w = F(w', pose)`, `w' = G(w, pose)` (`docs/theory/joints.md`). Their values are enclosed by repeated enclosure from the cube. The derivatives of either
-//! order are linear in those of the same order of the other end, `X = T X' + C`, `X' = T' X + C'`, where `C` is what the formulas give with derivatives of that order left out, and
-//! `|T| <= l = d' / r`, `|T'| <= l' = d / r'` with `r`, `r'` the least lengths of the vectors whose directions are taken. So
+//! The directions `w`, `w'` to the second axes solve `w = F(w', pose)`, `w' = G(w, pose)` (`docs/theory/joints.md`).
+//! Their values are enclosed by repeated enclosure from the cube. The derivatives of either order are linear in those
+//! of the same order of the other end, `X = T X' + C`, `X' = T' X + C'`, where `C` is what the formulas give with
+//! derivatives of that order left out, and `|T| <= l = d' / r`, `|T'| <= l' = d / r'` with `r`, `r'` the least lengths
+//! of the vectors whose directions are taken. So
 //!
 //! ```text
 //! |X'| <= (|C'| + l' |C|) / (1 - l l'),      X in C + l |X'| [-1, 1]^3.
@@ -173,7 +176,8 @@ impl JointOffsets {
         })
     }
 
-    /// The length of the drive of a leg; `None` where it may have none, or where the leg may have turned about itself by as much as the angle is counted to.
+    /// The length of the drive of a leg; `None` where it may have none, or where the leg may have turned about itself
+    /// by as much as the angle is counted to.
     pub(super) fn drive(&self, frame: &CellFrame<'_>, m: &Manipulator, i: usize) -> Option<Jet> {
         let PlacedOverCell { leg, ends } = self.placed(frame, m, i)?;
         let length = norm_squared(&leg.between(&ends)).root()?;
@@ -196,7 +200,8 @@ fn met(a: Interval, b: Interval) -> Interval {
     Interval::new(a.lo().max(b.lo()), a.hi().min(b.hi())).unwrap_or(a)
 }
 
-/// The angle with this sine and cosine, between -180 and 180 degrees; `None` where it may be at the ends, or where enclosures do not tell.
+/// The angle with this sine and cosine, between -180 and 180 degrees; `None` where it may be at the ends, or where
+/// enclosures do not tell.
 fn turn(sine: &Jet, cosine: &Jet) -> Option<Jet> {
     let one = Interval::from(1.0);
     // derivatives of the arc sine at x, whose square is below 1

@@ -1,4 +1,5 @@
-//! Functions of one leg, or of a joint at its end, and the margins that they give: lengths, swing, angles of universal joints, speed, room in the envelope.
+//! Functions of one leg, or of a joint at its end, and the margins that they give: lengths, swing, angles of universal
+//! joints, speed, room in the envelope.
 
 use super::CellJudge;
 use super::cone::{Sector, SwingCone};
@@ -36,7 +37,8 @@ impl CellJudge<'_> {
         Sector::all(self.cone(function, chart).is_some())
     }
 
-    /// The cone in which a leg may lean, for limits below 90 degrees and regions; on single poses and steps the cosine is as good.
+    /// The cone in which a leg may lean, for limits below 90 degrees and regions; on single poses and steps the cosine
+    /// is as good.
     pub(super) fn cone(&self, function: BoundedFunction, chart: &Chart) -> Option<SwingCone<'_>> {
         let BoundedFunction::Leg(kind, leg) = function else { return None };
         if chart.coordinates() < 2 {
@@ -51,8 +53,8 @@ impl CellJudge<'_> {
         SwingCone::new(self.m, leg, body == 1, axis, *length, swing.limits_deg[leg])
     }
 
-    /// A function of a joint that grows with the room left to a side of the envelope: the negative square of the distance from the axis of a cylinder, the distance from a side
-    /// of a box.
+    /// A function of a joint that grows with the room left to a side of the envelope: the negative square of the
+    /// distance from the axis of a cylinder, the distance from a side of a box.
     pub(super) fn joint_value(
         &self,
         leg: usize,
@@ -121,7 +123,8 @@ impl CellJudge<'_> {
         })
     }
 
-    /// Minus the greatest speed of a drive whose screw is turned by its leg: over all velocities and angular velocities up to the greatest.
+    /// Minus the greatest speed of a drive whose screw is turned by its leg: over all velocities and angular velocities
+    /// up to the greatest.
     fn screw_speed(&self, joints: &JointOffsets, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
         let speed = self.required.platform_speed.unwrap_or_default();
         let [x, y, z, a, b, c] = joints.rates(frame, self.m, i)?;

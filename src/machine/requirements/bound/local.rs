@@ -1,14 +1,17 @@
 //! A lower bound of a smooth function over a cell, from its derivatives.
 //!
-//! With `z` a point of the cell, `g` the slopes there and `H` the second derivatives over the cell, Taylor's theorem gives for all `q` of the cell
+//! With `z` a point of the cell, `g` the slopes there and `H` the second derivatives over the cell, Taylor's theorem
+//! gives for all `q` of the cell
 //!
 //! ```text
 //! f(q) >= f(z) + g . (q - z) + (q - z)^T H (q - z) / 2.
 //! ```
 //!
-//! Where `q` has to lie in the unit ball of some coordinates, `f` may be replaced by `f + m (|q|^2 - 1) / 2` with any `m >= 0`, which is no larger there (Lagrange): with
-//! `m = -g . z / |z|^2` the slopes nearly vanish at a worst pose on the sphere, and the curvature gains `m`. The quadratic form is at least `-sum s_k`, with `s_k` such that the elimination of
-//! `D H D + diag(s)` has positive pivots for all matrices of the interval matrix (`D` the reaches of the cell), or by Gershgorin's circles.
+//! Where `q` has to lie in the unit ball of some coordinates, `f` may be replaced by `f + m (|q|^2 - 1) / 2` with any
+//! `m >= 0`, which is no larger there (Lagrange): with `m = -g . z / |z|^2` the slopes nearly vanish at a worst pose on
+//! the sphere, and the curvature gains `m`. The quadratic form is at least `-sum s_k`, with `s_k` such that the
+//! elimination of `D H D + diag(s)` has positive pivots for all matrices of the interval matrix (`D` the reaches of the
+//! cell), or by Gershgorin's circles.
 
 use num::interval::Interval;
 use num::jet::Jet;
@@ -78,7 +81,8 @@ fn constant(chart: &Chart, at: &Jet, z: &[f64; 6], multipliers: &[f64]) -> Inter
     at.value + sum(terms)
 }
 
-/// Lower bound from values and derivatives at the point `z` (`at`, first order) and over the cell (`over`, second order).
+/// Lower bound from values and derivatives at the point `z` (`at`, first order) and over the cell (`over`, second
+/// order).
 pub(super) fn below(chart: &Chart, cell: &ChartCell, z: &[f64; 6], at: &Jet, over: &Jet) -> Bounded {
     let best = multipliers(chart, cell, at, z);
     let plain = with(chart, cell, z, at, over, &vec![0.0; best.len()]);
@@ -138,7 +142,8 @@ pub(super) fn below_first_order(
     best
 }
 
-/// Half the least value of a symmetric form over the cube `|x_k| <= 1`, bounded from below by a number that is not positive.
+/// Half the least value of a symmetric form over the cube `|x_k| <= 1`, bounded from below by a number that is not
+/// positive.
 fn form_below(form: Vec<Vec<Interval>>) -> f64 {
     let n = form.len();
     let circles = sum((0..n).map(|k| {

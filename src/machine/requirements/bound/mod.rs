@@ -1,8 +1,10 @@
 //! Proved bounds of the least margins over all poses of a workspace.
 //!
-//! Each requirement of each leg, pair, keep-out and load is a function of the pose. Its margin is bounded from below over cells of the workspace ([`local`], [`gap`], [`force`], [`stiffness`]) and from above
-//! at points of them; the cell with the least bound is halved next, until the bound decides or a number of cells is used up ([`branch`]). Cells in which the margin has a slope of
-//! one sign across a side of a box hold no least margin but at that side. Where points of cells come out worse than those found before, a local search goes on from them.
+//! Each requirement of each leg, pair, keep-out and load is a function of the pose. Its margin is bounded from below
+//! over cells of the workspace ([`local`], [`gap`], [`force`], [`stiffness`]) and from above at points of them; the
+//! cell with the least bound is halved next, until the bound decides or a number of cells is used up ([`branch`]).
+//! Cells in which the margin has a slope of one sign across a side of a box hold no least margin but at that side.
+//! Where points of cells come out worse than those found before, a local search goes on from them.
 //!
 //! `docs/theory/requirements.md` has the functions and the bounds.
 
@@ -46,9 +48,11 @@ use platform::manipulator::{Body, Manipulator};
 pub use crank::{RodRegularity, regular_rods};
 pub use verdict::{MarginBound, MarginProof, MarginVerdict};
 
-/// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind, and by [`AssessOptions::patient_cells`] more where these leave it undecided and nothing is violated.
+/// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind, and by
+/// [`AssessOptions::patient_cells`] more where these leave it undecided and nothing is violated.
 ///
-/// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, and the straight motions between those of its trajectory, whatever the number of steps.
+/// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, and the straight
+/// motions between those of its trajectory, whatever the number of steps.
 #[must_use]
 pub fn prove(
     m: &Manipulator,
@@ -153,7 +157,8 @@ pub fn prove_telling(
     MarginProof { bounds, poses }
 }
 
-/// Axes from which swing is measured, at the base in the base frame and at the platform in the platform frame, and their lengths.
+/// Axes from which swing is measured, at the base in the base frame and at the platform in the platform frame, and
+/// their lengths.
 type Axes = [[(IntervalVector, Interval); 6]; 2];
 
 fn axes(

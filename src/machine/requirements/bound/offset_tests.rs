@@ -1,4 +1,5 @@
-//! Joints that are not ideal over cells: derivatives against differences of doubles, proved margins against samples, limits to either side of the worst value.
+//! Joints that are not ideal over cells: derivatives against differences of doubles, proved margins against samples,
+//! limits to either side of the worst value.
 
 use nalgebra::{Rotation3, Unit, Vector3};
 

@@ -1,16 +1,20 @@
 //! Bounds of the least stiffness and of the lowest natural frequency over a cell.
 //!
-//! In the platform frame the twist `(v, w)` moves the end of leg `i` by `D_i (v, w) = v + w x b_i`, whatever the pose, and with `e_i = R^T n_i / |n_i|`
+//! In the platform frame the twist `(v, w)` moves the end of leg `i` by `D_i (v, w) = v + w x b_i`, whatever the pose,
+//! and with `e_i = R^T n_i / |n_i|`
 //!
 //! ```text
 //! K = k sum D_i^T e_i e_i^T D_i,    M = M_0 + sum D_i^T (B_i I + (m_a - B_i) e_i e_i^T) D_i,    B_i = T(|n_i|) / |n_i|^2,
 //! ```
 //!
-//! `m_a` the mass that moves along a leg, `T` its moment of inertia about an axis across it through the base joint. Each requirement says that `K - s B` is positive semidefinite: with
-//! `B = diag(I, 0)` and `B = diag(0, I)` for a least stiffness `s`, since the Schur complement of a block of `K` is the inverse of the compliance, and with `B = M` for `s = omega^2`.
-//! In a basis in which `K` is the identity and `B` diagonal at a point of the cell, the softest motion last, an elimination of `K - s B` in intervals that finds positive pivots proves it for all poses
-//! of the cell. What the softest motion shares with the others counts by its square, so that the bound is off by the square of the width of the cell where the softest motion is a single one.
-//! Its own entry is bounded by second derivatives where joints are ideal, the other entries by first ones.
+//! `m_a` the mass that moves along a leg, `T` its moment of inertia about an axis across it through the base joint.
+//! Each requirement says that `K - s B` is positive semidefinite: with `B = diag(I, 0)` and `B = diag(0, I)` for a
+//! least stiffness `s`, since the Schur complement of a block of `K` is the inverse of the compliance, and with `B = M`
+//! for `s = omega^2`. In a basis in which `K` is the identity and `B` diagonal at a point of the cell, the softest
+//! motion last, an elimination of `K - s B` in intervals that finds positive pivots proves it for all poses of the
+//! cell. What the softest motion shares with the others counts by its square, so that the bound is off by the square of
+//! the width of the cell where the softest motion is a single one. Its own entry is bounded by second derivatives where
+//! joints are ideal, the other entries by first ones.
 
 use nalgebra::{Matrix6, Vector3};
 
@@ -63,11 +67,13 @@ fn place(i: usize, j: usize) -> usize {
     i * (11 - i) / 2 + j
 }
 
-/// By how much more than the first estimate the value sinks in the attempts of a proof, as a factor, and least of all, as a share.
+/// By how much more than the first estimate the value sinks in the attempts of a proof, as a factor, and least of all,
+/// as a share.
 const ATTEMPTS: [(f64, f64); 6] =
     [(1.001, 1e-14), (1.1, 1e-13), (1.6, 1e-12), (3.0, 1e-10), (10.0, 1e-8), (40.0, 1e-6)];
 
-/// Share of the slopes of the softest motion that counts where a cell is halved: what the corner of a cell explains needs no halving.
+/// Share of the slopes of the softest motion that counts where a cell is halved: what the corner of a cell explains
+/// needs no halving.
 const EXPLAINED: f64 = 0.2;
 
 impl<'a> SoftestMotion<'a> {

@@ -181,8 +181,9 @@ fn proofs_end_when_their_time_is_over() {
     }
 }
 
-/// Limits a little short of the worst value are found to be violated without a look at any pose but those of cells, or at least never called met; limits a little beyond it are
-/// never called violated, and lengths are proved to be met by these few cells: in boxes and ellipsoids.
+/// Limits a little short of the worst value are found to be violated without a look at any pose but those of cells, or
+/// at least never called met; limits a little beyond it are never called violated, and lengths are proved to be met by
+/// these few cells: in boxes and ellipsoids.
 #[test]
 #[ignore = "evidence"]
 fn limits_to_either_side_of_the_worst_value_are_decided() {
@@ -396,7 +397,8 @@ fn envelopes_and_reserves_of_upright_legs_are_those_by_hand() {
     }
 }
 
-/// One wide joint among narrow ones: it decides spacing, envelopes and where its leg begins beside a plate, and the proof agrees.
+/// One wide joint among narrow ones: it decides spacing, envelopes and where its leg begins beside a plate, and the
+/// proof agrees.
 #[test]
 fn the_housing_of_a_single_joint_counts_for_that_joint() {
     let ring = || -> Vec<Point3<f64>> {
@@ -515,8 +517,8 @@ fn stiffness_is_bounded_where_it_varies_little() {
     assert!(with(worst, 1.05).bounds.iter().all(|b| b.verdict == MarginVerdict::Violated));
 }
 
-/// Over regions of several sizes: the values found and the bounds are on their sides of those at many poses, a limit a little lower than the least value is met, proved, and one a little
-/// higher is violated.
+/// Over regions of several sizes: the values found and the bounds are on their sides of those at many poses, a limit a
+/// little lower than the least value is met, proved, and one a little higher is violated.
 #[test]
 #[ignore = "evidence"]
 fn stiffness_and_frequency_are_bounded_and_decided() {
@@ -610,7 +612,8 @@ fn angles_of_upright_legs_in_universal_joints_are_those_by_hand() {
     }
 }
 
-/// Both angles from the definitions: turns about the two axes that take the leg at rest to the leg, found without the formulas of the margins.
+/// Both angles from the definitions: turns about the two axes that take the leg at rest to the leg, found without the
+/// formulas of the margins.
 #[test]
 fn no_sampled_pose_has_greater_angles_than_the_proof_allows() {
     let mut rng = Rng::new(36);
@@ -670,8 +673,9 @@ fn no_sampled_pose_has_greater_angles_than_the_proof_allows() {
     }
 }
 
-/// The gap of the first parts of two legs over random cells is nowhere below its bound, for legs that cross, and for those whose nearest points come to an end of a part; halving a
-/// cell brings bound and least value four times nearer, as a bound of second order does.
+/// The gap of the first parts of two legs over random cells is nowhere below its bound, for legs that cross, and for
+/// those whose nearest points come to an end of a part; halving a cell brings bound and least value four times nearer,
+/// as a bound of second order does.
 #[test]
 fn gaps_of_legs_are_bounded_to_second_order() {
     let mut rng = Rng::new(17);

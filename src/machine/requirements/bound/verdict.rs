@@ -12,7 +12,8 @@ use crate::requirements::assess::Margin;
 pub enum MarginVerdict {
     /// Proved: no margin is negative.
     Met,
-    /// Proved: no margin is negative by more than the rounding of its evaluation ([`Terms::rounding`](crate::requirements::Terms::rounding)).
+    /// Proved: no margin is negative by more than the rounding of its evaluation
+    /// ([`Terms::rounding`](crate::requirements::Terms::rounding)).
     AtLimit,
     /// Proved: the margin is negative at the pose given, by more than that.
     Violated,

@@ -107,7 +107,8 @@ pub struct PlacedLeg<T> {
 }
 
 impl<T: LegNumber> PlacedLeg<T> {
-    /// Where the second axes are seen from the first ones when the other end is where `other` says: unit vectors across the first axes, from base to platform.
+    /// Where the second axes are seen from the first ones when the other end is where `other` says: unit vectors across
+    /// the first axes, from base to platform.
     pub fn direction(&self, end: usize, other: &Vec3<T>) -> Option<Vec3<T>> {
         let reach = scaled(other, self.offsets[1 - end]);
         across(&self.axes[end], &minus(&self.line, &reach))
@@ -130,10 +131,12 @@ impl<T: LegNumber> PlacedLeg<T> {
         [0, 1].map(|k| cross(&self.axes[k], &ends[k]))
     }
 
-    /// The rate of the distance of the second axes and that of the twist, for velocities of the platform origin and angular velocities. The twist has none without first axes.
+    /// The rate of the distance of the second axes and that of the twist, for velocities of the platform origin and
+    /// angular velocities. The twist has none without first axes.
     ///
-    /// With `s` the line between the second axes, `u = s / |s|`, `e = a x w` and `e' = b x w'` the second axes, `m` the arm to the second axis of the platform:
-    /// `|s|' = u . (v + omega x m)`, since `u` is at right angles to both second axes. The turns `q` and `q'` about the first axes follow from `u . e = u . e' = 0`:
+    /// With `s` the line between the second axes, `u = s / |s|`, `e = a x w` and `e' = b x w'` the second axes, `m` the
+    /// arm to the second axis of the platform: `|s|' = u . (v + omega x m)`, since `u` is at right angles to both
+    /// second axes. The turns `q` and `q'` about the first axes follow from `u . e = u . e' = 0`:
     ///
     /// ```text
     /// q' (s.w + d) + d' (e.e') q'' = (v + omega x m) . e

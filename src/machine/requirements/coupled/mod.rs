@@ -1,15 +1,17 @@
-//! Machines whose drives are not as long as the distances of their joints: universal joints whose two axes do not meet, and screws that couple the turn of a leg about itself to
-//! its length.
+//! Machines whose drives are not as long as the distances of their joints: universal joints whose two axes do not meet,
+//! and screws that couple the turn of a leg about itself to its length.
 //!
-//! The first axis `a` of a joint goes through its centre `A` in the body; the second one, at a right angle to it and to the leg, is at the distance `d` from it towards the other end, at
-//! `A + d w` with the unit vector `w` across `a`; at the platform `b`, `B`, `d'`, `w'` likewise, at `B - d' w'`. The leg has the line `s = B - d' w' - (A + d w)`, and
+//! The first axis `a` of a joint goes through its centre `A` in the body; the second one, at a right angle to it and to
+//! the leg, is at the distance `d` from it towards the other end, at `A + d w` with the unit vector `w` across `a`; at
+//! the platform `b`, `B`, `d'`, `w'` likewise, at `B - d' w'`. The leg has the line `s = B - d' w' - (A + d w)`, and
 //!
 //! ```text
 //! w = part of (B - d' w' - A) across a,   w' = part of (B - A - d w) across b,   as unit vectors,
 //! drive = |s| - lead psi / (2 pi),
 //! ```
 //!
-//! `psi` the angle about `s` from the second axis at the base to that at the platform, counted from home. `docs/theory/joints.md` has derivations and proofs.
+//! `psi` the angle about `s` from the second axis at the base to that at the platform, counted from home.
+//! `docs/theory/joints.md` has derivations and proofs.
 
 mod leg;
 
@@ -59,11 +61,14 @@ pub struct DriveState {
     pub correction: f64,
     /// What of that is due to the offsets.
     pub of_offsets: f64,
-    /// The angle about the leg from the second axis at the base to that at the platform, from home, radians from -pi to pi; 0 where the legs have no lead.
+    /// The angle about the leg from the second axis at the base to that at the platform, from home, radians from -pi to
+    /// pi; 0 where the legs have no lead.
     pub twist: f64,
-    /// The line of the leg, base frame: from its second axis at the base, or the centre of a ball joint, to that at the platform.
+    /// The line of the leg, base frame: from its second axis at the base, or the centre of a ball joint, to that at the
+    /// platform.
     pub line: Vector3<f64>,
-    /// Rates of the length of the drive for unit velocities of the platform origin along x, y, z and unit angular velocities about them, base frame.
+    /// Rates of the length of the drive for unit velocities of the platform origin along x, y, z and unit angular
+    /// velocities about them, base frame.
     pub rates: [f64; 6],
 }
 
@@ -85,7 +90,8 @@ pub struct CoupledLegs {
 }
 
 impl CoupledLegs {
-    /// Takes joints from a design. Joints that are ideal are balls here; so are universal joints without offset when there is no lead.
+    /// Takes joints from a design. Joints that are ideal are balls here; so are universal joints without offset when
+    /// there is no lead.
     ///
     /// # Errors
     /// A lead without universal joints, or no length at home, from where twists count.
@@ -156,7 +162,8 @@ impl CoupledLegs {
         self.offsets[end] != 0.0 || self.lead != 0.0
     }
 
-    /// The directions to the second axes: the fixed point, which is one since the product of both maps has the factor `d d' / (r r')`, `r` the least distances across the first axes.
+    /// The directions to the second axes: the fixed point, which is one since the product of both maps has the factor
+    /// `d d' / (r r')`, `r` the least distances across the first axes.
     fn ends(&self, i: usize, placed: &PlacedLeg<f64>) -> Result<[Vec3<f64>; 2], NoDriveLength> {
         let mut reach = [f64::INFINITY; 2];
         for (end, body) in Body::BOTH.into_iter().enumerate().filter(|(end, _)| self.needs(*end)) {

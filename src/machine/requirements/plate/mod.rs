@@ -17,7 +17,8 @@ pub use outline::{Outline, OutlinePart};
 pub use solid::{PlateSeat, PlateSolid};
 pub use solid::{frame_of, plate_normal};
 
-/// Materials that are known by name, with their densities in kg/m^3: rounded values of tables of engineering materials at room temperature.
+/// Materials that are known by name, with their densities in kg/m^3: rounded values of tables of engineering materials
+/// at room temperature.
 pub const MATERIALS: [(&str, f64); 8] = [
     ("aluminium", 2700.0),
     ("steel", 7850.0),
@@ -35,7 +36,8 @@ pub enum BoltsFrom {
     /// From the first axis of the plate: all joints have the same pattern.
     #[default]
     Axis,
-    /// From the direction that leads from the origin of the plate to the joint: turns about the origin that take joints to joints take patterns to patterns.
+    /// From the direction that leads from the origin of the plate to the joint: turns about the origin that take joints
+    /// to joints take patterns to patterns.
     Centre,
 }
 
@@ -92,7 +94,8 @@ pub struct PlateDesign {
     pub margin: f64,
     /// Diameter of the hole under each joint, design units.
     pub hole: f64,
-    /// Height of the lowest joint centre above the face that the joints stand on, design units; `None`: that of a ball on the edge of the hole ([`seat_height`]).
+    /// Height of the lowest joint centre above the face that the joints stand on, design units; `None`: that of a ball
+    /// on the edge of the hole ([`seat_height`]).
     pub height: Option<f64>,
     /// What it is made of.
     pub material: Option<String>,
@@ -122,7 +125,8 @@ impl PlateDesign {
         self.density.or_else(|| self.material.as_ref().and_then(known))
     }
 
-    /// Height of the lowest joint centre above the face, for the joints of this body: where none is given that of the widest one on its hole, since all centres are as high.
+    /// Height of the lowest joint centre above the face, for the joints of this body: where none is given that of the
+    /// widest one on its hole, since all centres are as high.
     #[must_use]
     pub fn joint_height(&self, hardware: &Hardware, body: Body) -> f64 {
         let widest = || hardware.joint_widths(body).map_or(0.0, |[_, greatest]| greatest);
@@ -153,7 +157,9 @@ impl Plates {
 }
 
 impl Hardware {
-    /// Distance from the centre of the joint of a leg at this body at which the leg begins to be a body that can meet a plate: half the least width of the housing, 0 without one, less the offset of the second axis of a universal joint, where its leg begins.
+    /// Distance from the centre of the joint of a leg at this body at which the leg begins to be a body that can meet a
+    /// plate: half the least width of the housing, 0 without one, less the offset of the second axis of a universal
+    /// joint, where its leg begins.
     #[must_use]
     pub fn joint_reach(&self, body: Body, leg: usize) -> f64 {
         let offset = self.universal(body).map_or(0.0, |joint| joint.offset);

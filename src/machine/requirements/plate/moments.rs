@@ -1,4 +1,5 @@
-//! Area, mass, centre and inertia of a plate, in closed form: hull, strips along its edges and sectors at its corners, less the holes.
+//! Area, mass, centre and inertia of a plate, in closed form: hull, strips along its edges and sectors at its corners,
+//! less the holes.
 
 use std::f64::consts::PI;
 

@@ -29,8 +29,8 @@ pub enum OutlinePart {
     },
 }
 
-/// A closed curve, counter-clockwise: straight edges with arcs at the corners of the hull. One point gives a circle (two half circles), points on a line
-/// a slot.
+/// A closed curve, counter-clockwise: straight edges with arcs at the corners of the hull. One point gives a circle
+/// (two half circles), points on a line a slot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
     /// Corners of the convex hull, counter-clockwise.
@@ -42,7 +42,8 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// The outline around `points` at the distance `margin` of their hull; points within `tolerance` of each other are one.
+    /// The outline around `points` at the distance `margin` of their hull; points within `tolerance` of each other are
+    /// one.
     #[must_use]
     pub fn around(points: &[Point2<f64>], margin: f64, tolerance: f64) -> Self {
         let hull = convex_hull(points, tolerance);
@@ -103,7 +104,8 @@ impl Outline {
         near.unwrap_or(*p)
     }
 
-    /// Least distance from the lines of the edges, positive on the left of all of them; minus infinity for hulls without an inside.
+    /// Least distance from the lines of the edges, positive on the left of all of them; minus infinity for hulls
+    /// without an inside.
     fn depth_in_hull(&self, p: &Point2<f64>) -> f64 {
         let n = self.hull.len();
         if n < 3 {
@@ -116,7 +118,8 @@ impl Outline {
         (0..n).map(from_line).fold(f64::INFINITY, f64::min)
     }
 
-    /// How far inside the outline a point is, negative outside: the margin and the depth in the hull, or the margin less the distance from the hull.
+    /// How far inside the outline a point is, negative outside: the margin and the depth in the hull, or the margin
+    /// less the distance from the hull.
     ///
     /// A point at depth `d` of a convex region is `d + m` deep in all points within `m` of the region.
     #[must_use]

@@ -11,8 +11,8 @@ use platform::manipulator::{Body, Manipulator};
 /// Joints nearer than this share of the size are one seat.
 const SAME: f64 = 1e-9;
 
-/// Normal of the greatest triangle of the joints, towards positive z (then y, then x); the direction across their line nearest to `along` where they
-/// lie on one.
+/// Normal of the greatest triangle of the joints, towards positive z (then y, then x); the direction across their line
+/// nearest to `along` where they lie on one.
 pub fn plate_normal(points: &[Point3<f64>], along: &Vector3<f64>, size: f64) -> Vector3<f64> {
     let mut best = Vector3::zeros();
     let mut line = Vector3::zeros();
@@ -60,8 +60,8 @@ pub struct PlateSeat {
     pub bolts: Vec<Point2<f64>>,
 }
 
-/// A plate with parallel faces on the far side of its joints from the legs: all points `axes (u, v, w)` with `(u, v)` within the outline and `w` from
-/// [`lower`](Self::lower) to `lower + thickness`.
+/// A plate with parallel faces on the far side of its joints from the legs: all points `axes (u, v, w)` with `(u, v)`
+/// within the outline and `w` from [`lower`](Self::lower) to `lower + thickness`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateSolid {
     /// Axes of the plate in the frame of the body, as columns; the third is the normal.
@@ -130,9 +130,11 @@ impl PlateSolid {
         p + self.axes * Vector3::new(at.x - local.x, at.y - local.y, w - local.z)
     }
 
-    /// The share of the segment `x y` at which it is nearest to the plate, its holes filled, and the nearest point there.
+    /// The share of the segment `x y` at which it is nearest to the plate, its holes filled, and the nearest point
+    /// there.
     ///
-    /// The distance from a convex body is convex along the segment: where it falls neither at the beginning nor at the end, the zero of its slope is enclosed by halving.
+    /// The distance from a convex body is convex along the segment: where it falls neither at the beginning nor at the
+    /// end, the zero of its slope is enclosed by halving.
     #[must_use]
     pub fn nearest_to_segment(&self, [x, y]: [&Point3<f64>; 2]) -> (f64, Point3<f64>) {
         let d = y - x;
@@ -177,7 +179,8 @@ impl PlateSolid {
         [(seat.at, 0.5 * plate.hole)].into_iter().chain(seat.bolts.iter().map(move |p| (*p, bolt)))
     }
 
-    /// For each seat by how much its holes are farther from the outline than they have to be: `depth - radius - edge_distance`, the least over the holes.
+    /// For each seat by how much its holes are farther from the outline than they have to be:
+    /// `depth - radius - edge_distance`, the least over the holes.
     pub(crate) fn edge_margins(&self, plate: &PlateDesign) -> Vec<HoleMargin> {
         let of = |seat: &PlateSeat| {
             let margins = Self::holes_of(plate, seat).map(|(p, r)| self.outline.depth(&p) - r);
@@ -187,7 +190,8 @@ impl PlateSolid {
         self.seats.iter().map(of).collect()
     }
 
-    /// For each two seats by how much their holes and feet are farther apart than they have to be, the bolts of one from the foot of the other too, and for each seat alone the same of its own holes.
+    /// For each two seats by how much their holes and feet are farther apart than they have to be, the bolts of one
+    /// from the foot of the other too, and for each seat alone the same of its own holes.
     pub(crate) fn gap_margins(&self, plate: &PlateDesign) -> Vec<HoleMargin> {
         let gap = |(p, r): &(Point2<f64>, f64), (q, s): &(Point2<f64>, f64)| {
             (p - q).norm() - r - s - plate.hole_distance

@@ -1,4 +1,5 @@
-//! Plates against values by hand and by other routes: polygons with many corners, dense points, laws of motions and scales.
+//! Plates against values by hand and by other routes: polygons with many corners, dense points, laws of motions and
+//! scales.
 
 use std::f64::consts::{PI, TAU};
 
@@ -116,7 +117,8 @@ fn depths_and_nearest_points_are_those_of_a_polygon_with_many_corners() {
     }
 }
 
-/// By Green's theorem over the edges of a polygon with many corners, by Simpson's rule, which is exact for these integrands on straight edges.
+/// By Green's theorem over the edges of a polygon with many corners, by Simpson's rule, which is exact for these
+/// integrands on straight edges.
 fn green(ring: &[Point2<f64>]) -> AreaMoments {
     let mut out = AreaMoments::default();
     for (i, a) in ring.iter().enumerate() {
@@ -324,7 +326,8 @@ fn legs_that_lean_come_near_their_own_plates_by_what_trigonometry_says_and_it_is
     let (m, home) = upright();
     let plate = PlateDesign { bolts: None, foot: None, ..stated() };
     let mut r = required(&plate);
-    // legs lean up to 45 degrees: from the housing on, half a unit along the leg, a cylinder of radius 0.5 over a face 0.6 below the joint
+    // legs lean up to 45 degrees: from the housing on, half a unit along the leg, a cylinder of radius 0.5 over a face
+    // 0.6 below the joint
     let space = PoseSpace { translation: Vector3::new(10.0, 0.0, 0.0), ..PoseSpace::at(home) };
     let quick = AssessOptions::new().points(60).searches(1);
     let of = |r: &Requirements| {

@@ -52,10 +52,11 @@ const MARGIN: f64 = 0.01;
 
 /// The roots of `p` with radii at most `2^-bits` times the largest modulus, in order of real and imaginary part.
 ///
-/// Ehrlich-Aberth iteration on each square-free factor. With `z_1, .., z_n` the iterates and `c` the leading coefficient, the discs of radius
-/// `n |p(z_i) / (c prod (z_i - z_j))|` about `z_i` hold all roots, and one that meets no other holds exactly one (Smith 1970). The values are
-/// computed with bounds of their errors and the precision is doubled until the discs are disjoint, and small enough. A root whose disc meets
-/// the real axis is real when its mirror image meets no other disc.
+/// Ehrlich-Aberth iteration on each square-free factor. With `z_1, .., z_n` the iterates and `c` the leading
+/// coefficient, the discs of radius `n |p(z_i) / (c prod (z_i - z_j))|` about `z_i` hold all roots, and one that meets
+/// no other holds exactly one (Smith 1970). The values are computed with bounds of their errors and the precision is
+/// doubled until the discs are disjoint, and small enough. A root whose disc meets the real axis is real when its
+/// mirror image meets no other disc.
 ///
 /// # Errors
 /// [`NotSeparated`] beyond 32768 bits.
@@ -171,7 +172,8 @@ impl FixedPoint {
         Self { re: (re << precision) / &norm, im: (im << precision) / &norm }
     }
 
-    /// `log2 |z|` of the integers, between half a bit too small and exact when `up` is false, exact and half a bit too large otherwise.
+    /// `log2 |z|` of the integers, between half a bit too small and exact when `up` is false, exact and half a bit too
+    /// large otherwise.
     fn log2(&self, up: bool) -> f64 {
         let larger = self.re.magnitude().max(self.im.magnitude());
         let base = log2(larger);
@@ -260,7 +262,8 @@ impl FixedPoly {
         settled
     }
 
-    /// Discs about the iterates, `None` unless they are disjoint and of radius below `2^-bits`; real roots get real centres.
+    /// Discs about the iterates, `None` unless they are disjoint and of radius below `2^-bits`; real roots get real
+    /// centres.
     fn enclose(&self, z: &[FixedPoint], bits: u64) -> Option<Vec<(BigInt, BigInt, f64)>> {
         let n = z.len();
         let units = self.precision as f64;

@@ -16,10 +16,12 @@ pub struct SquarefreeFactor {
     pub multiplicity: usize,
 }
 
-/// The greatest common divisor, primitive with positive leading coefficient (contents are ignored); zero when both are zero.
+/// The greatest common divisor, primitive with positive leading coefficient (contents are ignored); zero when both are
+/// zero.
 ///
-/// Computed modulo primes, combined by the Chinese remainder theorem until the candidate divides both, which proves it (Brown 1971): its degree,
-/// that of a greatest common divisor modulo a prime that divides neither leading coefficient, cannot be too small.
+/// Computed modulo primes, combined by the Chinese remainder theorem until the candidate divides both, which proves it
+/// (Brown 1971): its degree, that of a greatest common divisor modulo a prime that divides neither leading coefficient,
+/// cannot be too small.
 #[must_use]
 pub fn gcd(a: &IntPoly, b: &IntPoly) -> IntPoly {
     let (a, b) = (a.primitive(), b.primitive());
@@ -93,7 +95,8 @@ fn centred(c: &BigInt, modulus: &BigInt) -> BigInt {
     if &c + &c > *modulus { c - modulus } else { c }
 }
 
-/// `p = c prod factor^multiplicity`, multiplicities ascending, factors without common roots (Yun 1976). Empty for constants and zero.
+/// `p = c prod factor^multiplicity`, multiplicities ascending, factors without common roots (Yun 1976). Empty for
+/// constants and zero.
 #[must_use]
 pub fn squarefree_factors(p: &IntPoly) -> Vec<SquarefreeFactor> {
     let p = p.primitive();

@@ -7,7 +7,8 @@ use num_traits::{One, Zero};
 
 use super::{Dyadic, IntPoly, gcd, squarefree_factors, sturm_count};
 
-/// One real root: it is `low` when `low = high`, otherwise the only root of the polynomial with `low < x < high`, and neither end is a root.
+/// One real root: it is `low` when `low = high`, otherwise the only root of the polynomial with `low < x < high`, and
+/// neither end is a root.
 #[derive(Debug, Clone)]
 pub struct RealRoot {
     low: Dyadic,
@@ -115,9 +116,11 @@ impl RealRoot {
     }
 }
 
-/// All distinct real roots, ascending, each isolated from all others, with multiplicities. Constants and zero have none.
+/// All distinct real roots, ascending, each isolated from all others, with multiplicities. Constants and zero have
+/// none.
 ///
-/// Square-free factors by Yun's algorithm, then Descartes' rule of signs on halved intervals (Collins, Akritas 1976), in integers throughout: the number of roots is proved.
+/// Square-free factors by Yun's algorithm, then Descartes' rule of signs on halved intervals (Collins, Akritas 1976),
+/// in integers throughout: the number of roots is proved.
 ///
 /// ```
 /// # mod equipod { pub use equipod_num::Cancel; pub mod methods { pub use equipod_num::poly; } }
@@ -212,7 +215,8 @@ fn without_powers_of_two(p: IntPoly) -> IntPoly {
     if common == 0 { p } else { IntPoly(p.0.into_iter().map(|c| c >> common).collect()) }
 }
 
-/// Changes of sign in the sequence of coefficients: the number of positive roots, or more by an even number (Descartes).
+/// Changes of sign in the sequence of coefficients: the number of positive roots, or more by an even number
+/// (Descartes).
 fn variations(p: &IntPoly) -> usize {
     let signs: Vec<Sign> = p.0.iter().map(BigInt::sign).filter(|s| *s != Sign::NoSign).collect();
     signs.windows(2).filter(|w| w[0] != w[1]).count()

@@ -22,7 +22,8 @@ pub use sturm::sturm_count;
 
 /// `c_0 + c_1 x + .. + c_n x^n` with integer coefficients, `c_n != 0`.
 ///
-/// The zero polynomial has no coefficients and no degree. Products use Kronecker substitution, so that they cost one product of large integers.
+/// The zero polynomial has no coefficients and no degree. Products use Kronecker substitution, so that they cost one
+/// product of large integers.
 ///
 /// ```
 /// # mod equipod { pub use equipod_num::Cancel; pub mod methods { pub use equipod_num::poly; } }

@@ -6,7 +6,8 @@ use super::{Dyadic, IntPoly};
 
 /// The number of distinct real roots `x` with `low < x <= high` (Sturm 1829), for any `low <= high`.
 ///
-/// The chain of signed pseudo-remainders is long-winded beside [`real_roots`](super::real_roots); it is here as a check that shares nothing with it.
+/// The chain of signed pseudo-remainders is long-winded beside [`real_roots`](super::real_roots); it is here as a check
+/// that shares nothing with it.
 #[must_use]
 pub fn sturm_count(p: &IntPoly, low: &Dyadic, high: &Dyadic) -> usize {
     let chain = chain(p);

@@ -144,7 +144,8 @@ fn plates() -> Plates {
     }
 }
 
-/// The least item of each kind of plates is the margin that `assess` has, and below zero where that is; its gradient is that of differences for legs beside and inside plates.
+/// The least item of each kind of plates is the margin that `assess` has, and below zero where that is; its gradient is
+/// that of differences for legs beside and inside plates.
 #[test]
 #[ignore = "evidence"]
 fn holes_and_plates_are_those_of_the_margins() {
@@ -325,7 +326,8 @@ fn stiffness_and_frequency_are_those_of_the_margins() {
     }
 }
 
-/// The widest joints vibrate more slowly than they need to: a frequency between that and the highest one is met at the price of room, and more than the highest one is in conflict.
+/// The widest joints vibrate more slowly than they need to: a frequency between that and the highest one is met at the
+/// price of room, and more than the highest one is in conflict.
 #[test]
 #[ignore = "evidence"]
 fn a_least_frequency_is_obeyed_and_the_greatest_one_is_sought() {
@@ -411,7 +413,8 @@ fn convex_forms_are_exact_far_from_the_point() {
 
 #[test]
 fn clusters_of_singular_values_bound_the_objective_to_first_order() {
-    // at home of a regular design singular values coincide: the cone has the slope of every direction, a gradient has not
+    // at home of a regular design singular values coincide: the cone has the slope of every direction, a gradient has
+    // not
     let p = problem(&[VariableKind::Offsets], Objective::SmallestSingularValue);
     let model = Model::new(&p).unwrap();
     let at_home = [HeldPose { pose: p.space.home, follows: true }];
@@ -590,7 +593,8 @@ fn families_of_an_octahedral_design_are_its_offsets() {
     assert!((own - det).abs() < 1e-9 && det.abs() > 1e-3, "{own} {det}");
 }
 
-/// Distances of joints and room in envelopes, with a housing of its own at every joint, are the margins that `assess` has.
+/// Distances of joints and room in envelopes, with a housing of its own at every joint, are the margins that `assess`
+/// has.
 #[test]
 fn housings_of_single_joints_are_those_of_the_margins() {
     let mut p = crowded(&[VariableKind::Offsets, VariableKind::Triangles], JointAxes::Home);

@@ -148,7 +148,8 @@ fn what_cannot_be_asked_is_refused() {
     assert_eq!(refused(&p), InvalidProblem::SwingTooWide(120.0));
 }
 
-/// An octahedral hexapod whose legs are longest with the joints near the corners, and must be longer than they are on the way between.
+/// An octahedral hexapod whose legs are longest with the joints near the corners, and must be longer than they are on
+/// the way between.
 fn long_struts(limits: LengthLimits) -> DimensionalProblem {
     let corner = |r: f64, k: f64| {
         let (s, c) = (std::f64::consts::TAU * k / 3.0).sin_cos();
@@ -175,7 +176,8 @@ fn long_struts(limits: LengthLimits) -> DimensionalProblem {
 #[ignore = "evidence"]
 fn what_other_starts_can_meet_is_no_conflict() {
     let p = long_struts(LengthLimits::Range(24.0, 33.0));
-    // the compromise of both has joints in the middle of sides, where the least length has a saddle and climbs do not leave
+    // the compromise of both has joints in the middle of sides, where the least length has a saddle and climbs do not
+    // leave
     let model = Model::new(&p).unwrap();
     let others =
         [TermKind::LegTooLong, TermKind::BaseSpacing, TermKind::PlatformSpacing].map(ConstraintGroup::Term);
@@ -200,7 +202,8 @@ fn what_other_starts_can_meet_is_no_conflict() {
     }
 }
 
-/// An end of the search that is asked for while a conflict is looked for leaves no conflict behind: what was not tried to its end shows nothing.
+/// An end of the search that is asked for while a conflict is looked for leaves no conflict behind: what was not tried
+/// to its end shows nothing.
 #[test]
 fn a_search_that_is_told_to_end_names_no_conflict() {
     let mut p = problem(&[VariableKind::Offsets], Objective::WorstConditioning);

@@ -1,20 +1,24 @@
 //! Functions that are affine in every offset: determinants, whose greatest values on a box are at its corners.
 //!
-//! With rows `N_i(t_i)` (direction and moment of leg `i`, not divided by its length `l_i`) affine in `t_i`, `J = diag(1 / l_i) N`. For any vectors `x`, `y` by Cramer's rule
+//! With rows `N_i(t_i)` (direction and moment of leg `i`, not divided by its length `l_i`) affine in `t_i`,
+//! `J = diag(1 / l_i) N`. For any vectors `x`, `y` by Cramer's rule
 //!
 //! ```text
 //! y^T J^-1 x = (1 / det N) sum_i x_i l_i(t_i) C_i,      C_i = det N with row i replaced by y,
 //! ```
 //!
-//! and `|y^T J^-1 x| <= |x| |y| / sigma_6`. So offsets that reach the limit `g`, where `det N` is not zero, satisfy for either sign
+//! and `|y^T J^-1 x| <= |x| |y| / sigma_6`. So offsets that reach the limit `g`, where `det N` is not zero, satisfy for
+//! either sign
 //!
 //! ```text
 //! |x| |y| |det N| - g sigma_1 (+-) sum_i x_i l_i C_i >= 0.
 //! ```
 //!
-//! `det N` and `C_i` are affine in every offset; `l_i` is convex: its chord minus at most the greatest distance from it; `sigma_1` is at least a number on the box. `|det N|` is convex
-//! in every offset alone and hence nowhere above the function that is affine in every offset and agrees with it at the corners. What results is affine in
-//! every offset, and so is every combination with multipliers: its greatest value is at one of the 64 corners, however the functions share offsets.
+//! `det N` and `C_i` are affine in every offset; `l_i` is convex: its chord minus at most the greatest distance from
+//! it; `sigma_1` is at least a number on the box. `|det N|` is convex in every offset alone and hence nowhere above the
+//! function that is affine in every offset and agrees with it at the corners. What results is affine in every offset,
+//! and so is every combination with multipliers: its greatest value is at one of the 64 corners, however the functions
+//! share offsets.
 
 use nalgebra::Matrix6;
 
@@ -33,7 +37,8 @@ fn dot(a: &[Real; 6], b: &[Real; 6]) -> Real {
 /// Corners of a box; bit `i` of the number tells the end of offset `i`.
 pub(super) const CORNERS: usize = 64;
 
-/// Values at the corners of a function that is affine in every offset, and not below 0 at offsets which reach the limit.
+/// Values at the corners of a function that is affine in every offset, and not below 0 at offsets which reach the
+/// limit.
 pub(super) type AtCorners = [Real; CORNERS];
 
 /// Vectors in the middle of the box.
@@ -151,7 +156,8 @@ fn lengths(row: &LegRow, (low, high): (f64, f64)) -> Option<([Real; 2], f64)> {
     Some(([a, b], by_bend.max(0.0)))
 }
 
-/// A ball of which all numbers are at most the length anywhere in the range: `l >= (l_low + l_high - width |rate|) / 2` by the triangle inequality, or the least distance of the line.
+/// A ball of which all numbers are at most the length anywhere in the range: `l >= (l_low + l_high - width |rate|) / 2`
+/// by the triangle inequality, or the least distance of the line.
 fn least_length(q: &[Real; 3], low: f64, high: f64, a: &Real, b: &Real) -> Option<Real> {
     let width = Real::point(high) - Real::point(low);
     let travel = width * q[2].sqrt()?;
@@ -240,7 +246,8 @@ fn greatest_singular_value(rows: &[LegRow; 6], v: &Vectors, bounds: &OffsetRange
 /// Parts into which a range is cut for that.
 const PARTS: u32 = 4;
 
-/// A lower bound of `z (row . w) / length` on a range: on each part the value in the middle less the rate over the part times half its width.
+/// A lower bound of `z (row . w) / length` on a range: on each part the value in the middle less the rate over the part
+/// times half its width.
 fn least_along(row: &LegRow, w: &Row, z: Real, (low, high): (f64, f64)) -> Option<f64> {
     let (constant, rate, q) = row.balls();
     let (a, b) = (dot(constant, w), dot(rate, w));

@@ -138,8 +138,9 @@ impl<'a> Bounding<'a> {
         )
     }
 
-    /// Drives the bound down to `value (1 + gap)` over the boxes given. `improve` is asked with the middle of every box that is kept and
-    /// answers with the best value known from then on. `None` when `tick` breaks off, or when nothing could be proved.
+    /// Drives the bound down to `value (1 + gap)` over the boxes given. `improve` is asked with the middle of every box
+    /// that is kept and answers with the best value known from then on. `None` when `tick` breaks off, or when nothing
+    /// could be proved.
     fn prove_once(
         &self,
         boxes: Vec<OffsetRanges>,
@@ -239,8 +240,8 @@ impl<'a> Bounding<'a> {
     }
 }
 
-/// Attempts at a proof: poses that are looked at, those of them that take part, those for which vectors are mixed, and those that take part with
-/// determinants. Most boxes need the first only, which costs little.
+/// Attempts at a proof: poses that are looked at, those of them that take part, those for which vectors are mixed, and
+/// those that take part with determinants. Most boxes need the first only, which costs little.
 const ATTEMPTS: [(usize, usize, usize, usize); 2] = [(10, 6, 3, 8), (usize::MAX, 30, 20, 14)];
 
 /// The poses of the problem as rows in intervals and the singular vectors that bound the singular values.
@@ -251,9 +252,9 @@ struct EnclosedPose {
 
 /// Vectors that bound the smallest and the largest singular value, and the quotient of these.
 ///
-/// The first of each is the right singular vector. Where another singular value is near, the eigenvectors turn quickly with the offsets, and one vector
-/// bounds to first order only: then the other vector and the two halfway directions are added, so that the
-/// multipliers can mix them.
+/// The first of each is the right singular vector. Where another singular value is near, the eigenvectors turn quickly
+/// with the offsets, and one vector bounds to first order only: then the other vector and the two halfway directions
+/// are added, so that the multipliers can mix them.
 struct Direction {
     ratio: f64,
     low: Vec<[f64; 6]>,
@@ -308,11 +309,12 @@ struct Function<'a> {
 
 /// Tries to prove that no offsets in `bounds` have an inverse condition number of `limit` or more at all poses.
 ///
-/// For every pose `k` and all vectors, `sigma_6 <= |J v| / |v|` and `sigma_1 >= |J w| / |w|`. If offsets `t` reached the limit, then
-/// `|J_k v_k|^2 / |v_k|^2 - limit^2 |J_k w_k|^2 / |w_k|^2 >= 0` for all `k`. Row `i` of `J_k` depends on `t_i` alone, so for any multipliers
-/// `mu_k >= 0` the sum over `k` is a sum of six functions of one offset each, and the box is excluded when their greatest values
-/// add up to less than 0. `v_k`, `w_k` are the singular vectors in the middle of the box; the multipliers come from a linear
-/// program over samples; both only decide how sharp the proof is.
+/// For every pose `k` and all vectors, `sigma_6 <= |J v| / |v|` and `sigma_1 >= |J w| / |w|`. If offsets `t` reached
+/// the limit, then `|J_k v_k|^2 / |v_k|^2 - limit^2 |J_k w_k|^2 / |w_k|^2 >= 0` for all `k`. Row `i` of `J_k` depends
+/// on `t_i` alone, so for any multipliers `mu_k >= 0` the sum over `k` is a sum of six functions of one offset each,
+/// and the box is excluded when their greatest values add up to less than 0. `v_k`, `w_k` are the singular vectors in
+/// the middle of the box; the multipliers come from a linear program over samples; both only decide how sharp the proof
+/// is.
 fn test(
     poses: &[EnclosedPose],
     plain: &[PoseLegs],

@@ -1,4 +1,5 @@
-//! The multipliers that make a sum of greatest values least: a small linear program, by the simplex method on a dense tableau.
+//! The multipliers that make a sum of greatest values least: a small linear program, by the simplex method on a dense
+//! tableau.
 
 /// Offsets at which functions are sampled, for each coordinate.
 pub(super) const SAMPLES: usize = 7;
@@ -16,10 +17,12 @@ const SMALL: f64 = 1e-12;
 /// Pivots after which the multipliers reached are taken: any bound is valid, the best one only tighter.
 const MOST_PIVOTS: usize = 600;
 
-/// Multipliers `mu >= 0`, `sum mu <= 1`, that minimise `sum_i max_j sum_k mu_k samples[k][i][j]`; `None` when the least value is not below 0.
+/// Multipliers `mu >= 0`, `sum mu <= 1`, that minimise `sum_i max_j sum_k mu_k samples[k][i][j]`; `None` when the least
+/// value is not below 0.
 ///
-/// With `m_i` for the greatest values and slacks `s_ij = m_i - sum_k mu_k S_kij >= 0` the `m_i` are eliminated by the first
-/// sample of each coordinate, `m_i = s_i0 + sum_k mu_k S_ki0`. What is left has the feasible start `mu = 0`, `s = 0`.
+/// With `m_i` for the greatest values and slacks `s_ij = m_i - sum_k mu_k S_kij >= 0` the `m_i` are eliminated by the
+/// first sample of each coordinate, `m_i = s_i0 + sum_k mu_k S_ki0`. What is left has the feasible start `mu = 0`,
+/// `s = 0`.
 pub(super) fn multipliers(samples: &[Sampled]) -> Option<Vec<f64>> {
     let n = samples.len();
     let scale = samples.iter().flatten().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -50,9 +53,11 @@ pub(super) fn multipliers(samples: &[Sampled]) -> Option<Vec<f64>> {
     Some(mu.into_iter().map(|m| if m < NEGLIGIBLE * largest { 0.0 } else { m }).collect())
 }
 
-/// Multipliers `mu >= 0`, `sum mu = 1`, that minimise the greatest of the values `sum_k mu_k values[k][j]`; `None` when that is not below 0.
+/// Multipliers `mu >= 0`, `sum mu = 1`, that minimise the greatest of the values `sum_k mu_k values[k][j]`; `None` when
+/// that is not below 0.
 ///
-/// A matrix game (von Neumann 1928): with all values raised above 0, `p = mu / value` maximises `sum p` under `sum_k p_k values[k][j] <= 1`.
+/// A matrix game (von Neumann 1928): with all values raised above 0, `p = mu / value` maximises `sum p` under
+/// `sum_k p_k values[k][j] <= 1`.
 pub(super) fn game<const N: usize>(values: &[[f64; N]]) -> Option<Vec<f64>> {
     let n = values.len();
     let range =
@@ -94,7 +99,8 @@ pub(super) fn game<const N: usize>(values: &[[f64; N]]) -> Option<Vec<f64>> {
     (0..N).all(|j| at(j) < 0.0).then_some(mu)
 }
 
-/// Basic variables over the others: `basic + sum entry * other = right-hand side`, the costs of the others in the last row.
+/// Basic variables over the others: `basic + sum entry * other = right-hand side`, the costs of the others in the last
+/// row.
 struct Tableau {
     rows: usize,
     /// Without the right-hand side, which is one more.

@@ -146,8 +146,8 @@ impl QuadraticQuotient {
 /// Parts into which a range of an offset is cut.
 const PARTS: u32 = 8;
 
-/// An upper bound of `sum mu f(t)` over `low <= t <= high`: on each part the value in the middle plus the derivative over the
-/// part times half its width (mean value form), in intervals.
+/// An upper bound of `sum mu f(t)` over `low <= t <= high`: on each part the value in the middle plus the derivative
+/// over the part times half its width (mean value form), in intervals.
 pub(super) fn greatest(terms: &[(f64, QuadraticQuotient)], (low, high): (f64, f64)) -> f64 {
     let cut = |k: u32| if k == PARTS { high } else { low + (high - low) * (f64::from(k) / f64::from(PARTS)) };
     let part = |k: u32| -> Option<f64> {

@@ -131,8 +131,8 @@ fn better_offsets_than_the_value_given_are_come_upon() {
     assert!(best > start && bound.upper >= best && bound.upper < best * 1.06, "{best} {bound:?}");
 }
 
-/// What the corners say of a function holds between them: at offsets drawn in the box, the function of the theory page by plain arithmetic is not above the one that
-/// is affine in every offset.
+/// What the corners say of a function holds between them: at offsets drawn in the box, the function of the theory page
+/// by plain arithmetic is not above the one that is affine in every offset.
 #[test]
 fn functions_at_the_corners_are_above_what_they_bound() {
     use super::corners::{CORNERS, at_corners};

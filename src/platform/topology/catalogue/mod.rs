@@ -7,8 +7,8 @@ use crate::manipulator::Manipulator;
 
 /// A topology with its place in [`catalogue`].
 ///
-/// The number is the place, counted from 1, printed as `T01`; topologies are counted up to exchange of the bodies and stand here
-/// with at least as many base joints as platform joints.
+/// The number is the place, counted from 1, printed as `T01`; topologies are counted up to exchange of the bodies and
+/// stand here with at least as many base joints as platform joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct NamedTopology {
     number: u8,
@@ -52,8 +52,8 @@ impl NamedTopology {
     }
 }
 
-/// All topologies of six legs that are not [always singular](Topology::always_singular), up to relabelling and exchange of base and
-/// platform, the one without shared joints first, those with fewest joints last.
+/// All topologies of six legs that are not [always singular](Topology::always_singular), up to relabelling and exchange
+/// of base and platform, the one without shared joints first, those with fewest joints last.
 ///
 /// Takes milliseconds; the order never changes. Porta and Thomas count 34.
 #[must_use]

@@ -56,7 +56,8 @@ impl Scorer<'_> {
         (0..6).flat_map(|j| (0..j).map(move |i| (i, j)))
     }
 
-    /// Smallest distance of two joints of one body; joints that are one in the whole pattern are left out unless none may be shared.
+    /// Smallest distance of two joints of one body; joints that are one in the whole pattern are left out unless none
+    /// may be shared.
     fn spacing(&self, legs: &[Leg; 6]) -> f64 {
         let all = self.wishes.no_shared_joints && self.pattern.shared == 0;
         let mut least = f64::MAX;
@@ -100,7 +101,8 @@ impl Scorer<'_> {
     }
 }
 
-/// The smallest slack. The reach is a limit, nothing that is better the larger it is: it counts only where it is missed.
+/// The smallest slack. The reach is a limit, nothing that is better the larger it is: it counts only where it is
+/// missed.
 pub(super) fn worst(margins: &[WishMargin]) -> f64 {
     let counts = |m: &&WishMargin| m.wish != Wish::Reach || m.slack < 0.0;
     margins.iter().filter(counts).map(|m| m.slack).fold(f64::INFINITY, f64::min)
@@ -111,7 +113,8 @@ const FIRST_STEP: f64 = 0.25;
 /// The climb ends below this step.
 const LAST_STEP: f64 = 1e-6;
 
-/// Compass search: steps along the parameters and along random directions, halved when none helps. The value never falls.
+/// Compass search: steps along the parameters and along random directions, halved when none helps. The value never
+/// falls.
 pub(super) fn climb(
     scorer: &Scorer,
     start: Vec<f64>,
@@ -192,8 +195,9 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Whether the other one is not worth a place beside this one: the same legs within a thousandth of the size or, where no hole tells the places of a body
-    /// apart, a platform with the same distances between joints and the same lengths at home (a symmetry of the design takes one to the other).
+    /// Whether the other one is not worth a place beside this one: the same legs within a thousandth of the size or,
+    /// where no hole tells the places of a body apart, a platform with the same distances between joints and the same
+    /// lengths at home (a symmetry of the design takes one to the other).
     pub(super) fn repeats(&self, other: &Self, wishes: &Wishes, size: f64) -> bool {
         let limit = 1e-3 * size;
         let near = |a: &Leg, b: &Leg| (a.base - b.base).norm().max((a.platform - b.platform).norm()) <= limit;
@@ -257,8 +261,9 @@ pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>,
     Ok(Some(Candidate { assembled, map, placements, margins, worst: least, fulfilled, shared_joints }))
 }
 
-/// A number for each row: kept legs have theirs, the others those that make the product of `|A_ri|` as large as possible, legs for
-/// named joints among theirs. A regular matrix has a product that is not zero (Leibniz' formula), so that each leg can replace the one whose number it gets.
+/// A number for each row: kept legs have theirs, the others those that make the product of `|A_ri|` as large as
+/// possible, legs for named joints among theirs. A regular matrix has a product that is not zero (Leibniz' formula), so
+/// that each leg can replace the one whose number it gets.
 fn numbering(scorer: &Scorer, a: &Matrix6<f64>) -> Option<[LegIndex; 6]> {
     let allowed = |row: usize, leg: LegIndex| match scorer.pool.places[scorer.pattern.places[row]].source {
         LegSource::Kept(own) => own == leg,

@@ -1,13 +1,15 @@
 //! Equivalent platforms that fulfil wishes.
 //!
-//! A platform equivalent to `m` is six independent replaceable legs. Each is a leg of `m` that stays, a leg of a family, or a leg through a hole. Which of
-//! them can stand together is decided once for every *pattern* (how many legs from where) at generic parameters; in the patterns left the parameters are chosen so
-//! that the worst margin of all wishes is as large as possible, from several starts.
+//! A platform equivalent to `m` is six independent replaceable legs. Each is a leg of `m` that stays, a leg of a
+//! family, or a leg through a hole. Which of them can stand together is decided once for every *pattern* (how many legs
+//! from where) at generic parameters; in the patterns left the parameters are chosen so that the worst margin of all
+//! wishes is as large as possible, from several starts.
 //!
-//! What is proved, by ranks of rational numbers and by counting the legs whose vectors span a family: that no replaceable leg ends at a hole, that all its partners are
-//! at infinity, that legs there replace none of those named, and, when every replaceable leg and every pattern is known exactly, the least number of shared joints.
-//! Floating point chooses what to look at; where it alone leaves something out the verdict is `Undecided`. That no platform with a spacing or clearance was found
-//! proves nothing.
+//! What is proved, by ranks of rational numbers and by counting the legs whose vectors span a family: that no
+//! replaceable leg ends at a hole, that all its partners are at infinity, that legs there replace none of those named,
+//! and, when every replaceable leg and every pattern is known exactly, the least number of shared joints. Floating
+//! point chooses what to look at; where it alone leaves something out the verdict is `Undecided`. That no platform with
+//! a spacing or clearance was found proves nothing.
 
 mod candidate;
 mod pool;
@@ -249,8 +251,9 @@ fn climb_all(
 
 /// Whether the families and the six legs are all replaceable legs there are.
 ///
-/// Between a point or a line and any flat every partner is a leg of `m` or in a family that is listed, for two planes with six legs too, unless the curve has an isolated
-/// real point. Five legs between planes and six between a plane and space can have further single ones.
+/// Between a point or a line and any flat every partner is a leg of `m` or in a family that is listed, for two planes
+/// with six legs too, unless the curve has an isolated real point. Five legs between planes and six between a plane and
+/// space can have further single ones.
 fn all_legs_known(found: &Components) -> bool {
     let pairs = found.pairs.iter().enumerate().all(|(k, p)| {
         let low = p.base.min(p.platform);

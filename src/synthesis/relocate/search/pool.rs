@@ -1,5 +1,5 @@
-//! The places a leg of an equivalent platform can come from, and the patterns: how many legs come from where, so that six
-//! generic legs are independent.
+//! The places a leg of an equivalent platform can come from, and the patterns: how many legs come from where, so that
+//! six generic legs are independent.
 
 use super::candidate::LegSource;
 use super::wishes::{Hole, HoleAnswer, JudgedHole, Wishes};
@@ -195,7 +195,8 @@ pub(super) struct JointPattern {
     pub(super) shared: usize,
 }
 
-/// Patterns beyond this number are not looked at, and then nothing is called impossible; no platform known has a tenth of them.
+/// Patterns beyond this number are not looked at, and then nothing is called impossible; no platform known has a tenth
+/// of them.
 const MOST: usize = 50_000;
 /// A generic leg less than this out of the span of others, of vectors of unit length, depends on them.
 const INDEPENDENT: f64 = 1e-7;
@@ -207,7 +208,8 @@ const SAME: f64 = 1e-8;
 pub(super) struct Patterns {
     /// Those that fill every hole.
     pub(super) list: Vec<JointPattern>,
-    /// Whether there are no others: none was left out by the limit or by floating point alone, and no two joints were taken for one by nearness alone.
+    /// Whether there are no others: none was left out by the limit or by floating point alone, and no two joints were
+    /// taken for one by nearness alone.
     pub(super) exhaustive: bool,
 }
 
@@ -227,8 +229,9 @@ pub(super) fn patterns(pool: &LegPool, wishes: &Wishes, size: f64) -> Patterns {
     Patterns { list: growing.list, exhaustive: growing.exhaustive }
 }
 
-/// Whether no legs from these places are independent, whatever their parameters: some of them have their vectors in the span of fewer legs of the platform
-/// (the easy half of Rado's theorem on independent transversals, 1942). Exact: no number is looked at.
+/// Whether no legs from these places are independent, whatever their parameters: some of them have their vectors in the
+/// span of fewer legs of the platform (the easy half of Rado's theorem on independent transversals, 1942). Exact: no
+/// number is looked at.
 fn always_dependent(supports: &[Option<&Vec<LegIndex>>]) -> bool {
     (1..1_u32 << supports.len()).any(|mask| {
         let part: Vec<_> = (0..supports.len()).filter(|i| mask >> i & 1 == 1).map(|i| supports[i]).collect();

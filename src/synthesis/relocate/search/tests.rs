@@ -172,7 +172,8 @@ fn a_named_joint_goes_to_the_hole_with_one_of_its_legs() {
 
 #[test]
 fn nothing_is_impossible_by_a_tolerance() {
-    // turned by angles that doubles round, the families exist within the tolerance only: what was proved before is proved no more
+    // turned by angles that doubles round, the families exist within the tolerance only: what was proved before is
+    // proved no more
     let mut rng = num::Rng::new(8);
     for _ in 0..6 {
         let turn = platform::geom::random_rotation(&mut rng);
@@ -220,7 +221,8 @@ fn a_hole_on_a_cubic_has_one_leg() {
 
 #[test]
 fn legs_that_cross_are_moved_apart() {
-    // legs 1 and 4 of a platform without shared joints, moved along the edges until they meet at home, then searched from there
+    // legs 1 and 4 of a platform without shared joints, moved along the edges until they meet at home, then searched
+    // from there
     let m = octahedral();
     let mut w = wishes(&m);
     w.clearance = Some(0.05 * m.size());

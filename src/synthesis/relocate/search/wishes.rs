@@ -128,14 +128,15 @@ pub struct JudgedHole {
     pub hole: Hole,
     /// The answer within the tolerance.
     pub answer: HoleAnswer,
-    /// The smallest singular value of the equations of the partners (unit equations, unit point); zero when there are partners.
+    /// The smallest singular value of the equations of the partners (unit equations, unit point); zero when there are
+    /// partners.
     pub singular_value: f64,
     /// Dimension of the space of homogeneous partners of the hole as written, by exact arithmetic.
     pub exact: Option<usize>,
     /// Whether all of these are at infinity.
     exactly_at_infinity: bool,
-    /// Whether they are the partners in combinations of the legs that were not named for the hole: a leg there then replaces none of those named. `false` where there
-    /// are not exact partners.
+    /// Whether they are the partners in combinations of the legs that were not named for the hole: a leg there then
+    /// replaces none of those named. `false` where there are not exact partners.
     pub(super) exactly_by_others: bool,
     /// What counted as zero.
     pub tolerance: f64,
@@ -183,7 +184,8 @@ pub(super) fn records(
     Ok(out)
 }
 
-/// The kernel of the equations `<n_r, alpha (x) beta> = 0`, `n_r` an orthonormal basis of the complement of the span, `alpha` the hole.
+/// The kernel of the equations `<n_r, alpha (x) beta> = 0`, `n_r` an orthonormal basis of the complement of the span,
+/// `alpha` the hole.
 fn partners(span: &LegSpan, hole: &Hole, tolerance: f64) -> Result<(HoleAnswer, f64), LinalgError> {
     let n = span.normalisation();
     let on_base = hole.body == Body::Base;
@@ -205,7 +207,8 @@ fn partners(span: &LegSpan, hole: &Hole, tolerance: f64) -> Result<(HoleAnswer, 
     if kernel.is_empty() {
         return Ok((HoleAnswer::None, smallest));
     }
-    // the kernel vector that is farthest from infinity, and an orthonormal basis of what is orthogonal to it: its vectors are directions
+    // the kernel vector that is farthest from infinity, and an orthonormal basis of what is orthogonal to it: its
+    // vectors are directions
     let first: Vec<f64> = (0..4).map(|q| kernel.iter().map(|k| k[0] * k[q]).sum()).collect();
     if first[0] <= 1e-12 {
         return Ok((HoleAnswer::AtInfinity, smallest));

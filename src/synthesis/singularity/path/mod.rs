@@ -1,13 +1,15 @@
 //! Joins poses by paths without a singular pose: `det J` along paths, and paths that keep its sign.
 //!
-//! The *straight path* from one pose to another: `p` linear, the quaternion linear (and normalised), that is, the rotation about the fixed axis of
-//! the relative rotation, the short way. On it `det J` is a polynomial of degree 18 over a positive function, so that its sign is proved piece
-//! by piece in interval arithmetic. Poses of the same sign may be joined by other paths ([`join()`]).
+//! The *straight path* from one pose to another: `p` linear, the quaternion linear (and normalised), that is, the
+//! rotation about the fixed axis of the relative rotation, the short way. On it `det J` is a polynomial of degree 18
+//! over a positive function, so that its sign is proved piece by piece in interval arithmetic. Poses of the same sign
+//! may be joined by other paths ([`join()`]).
 //!
-//! For the polynomial, with the quaternion `e(u) = (1 - u) e_0 + u e_1` (not normalised) and `p(u) = (1 - u) p_0 + u p_1` the vectors
-//! `N n_i = N R(e) b_i + N (p - a_i)`, `N = e.e`, are cubic forms in `(1 - u, u)`, and `N^6 det J` is one of degree 18. It is kept by its
-//! coefficients `c_k` of `(1 - u)^{18 - k} u^k`, which multiply like those of ordinary polynomials; `c_k` over the binomial coefficient is
-//! the Bernstein coefficient: when all have one sign the form has it on `[0, 1]`.
+//! For the polynomial, with the quaternion `e(u) = (1 - u) e_0 + u e_1` (not normalised) and
+//! `p(u) = (1 - u) p_0 + u p_1` the vectors `N n_i = N R(e) b_i + N (p - a_i)`, `N = e.e`, are cubic forms in
+//! `(1 - u, u)`, and `N^6 det J` is one of degree 18. It is kept by its coefficients `c_k` of `(1 - u)^{18 - k} u^k`,
+//! which multiply like those of ordinary polynomials; `c_k` over the binomial coefficient is the Bernstein coefficient:
+//! when all have one sign the form has it on `[0, 1]`.
 //!
 //! A *curved path* is given by the control points of a Bezier curve of positions and quaternions; of degree `n` it has
 //! a form of degree `18 n`
@@ -94,7 +96,8 @@ pub fn between(from: &Pose, to: &Pose, u: f64) -> Pose {
 
 /// Where `det J` is proved to have which sign on the straight path from `from` to `to`.
 ///
-/// Rotations are those of the rounded quaternions of the poses, exactly; the poses of the path are exact functions of these and of the positions.
+/// Rotations are those of the rounded quaternions of the poses, exactly; the poses of the path are exact functions of
+/// these and of the positions.
 #[must_use]
 pub fn signs_along(m: &Manipulator, from: &Pose, to: &Pose) -> SignsAlong {
     signs(determinant(m, &Curve::straight(from, to)))
@@ -357,7 +360,8 @@ pub struct Way {
     pub from: usize,
     /// Index of the pose it leads to.
     pub to: usize,
-    /// All poses of the chain, both ends included; `det J` is proved to keep its sign on every straight path from one to the next.
+    /// All poses of the chain, both ends included; `det J` is proved to keep its sign on every straight path from one
+    /// to the next.
     pub poses: Vec<Pose>,
 }
 
@@ -366,8 +370,8 @@ pub struct Way {
 pub struct Joined {
     /// Sign of `det J` at each pose, `None` where it is not proved.
     pub signs: Vec<Option<Sign>>,
-    /// Poses proved to be joined, each pose in one group. Poses of different groups and opposite signs cannot be joined; those of equal signs
-    /// were not joined by the search.
+    /// Poses proved to be joined, each pose in one group. Poses of different groups and opposite signs cannot be
+    /// joined; those of equal signs were not joined by the search.
     pub groups: Vec<Vec<usize>>,
     /// Ways inside the groups: every pose of a group is reached from its first.
     pub ways: Vec<Way>,
@@ -375,7 +379,8 @@ pub struct Joined {
 
 /// Joins poses by chains of straight paths without a singular pose.
 ///
-/// Two poses in different regions of `det J != 0` are never joined, whatever the effort; two in one region may be missed.
+/// Two poses in different regions of `det J != 0` are never joined, whatever the effort; two in one region may be
+/// missed.
 #[must_use]
 pub fn join(m: &Manipulator, poses: &[Pose], options: &JoinOptions) -> Joined {
     let signs: Vec<Option<Sign>> = poses.iter().map(|p| signs_along(m, p, p).kept()).collect();

@@ -1,20 +1,23 @@
 //! Sets of poses in which the Jacobian is proved to be regular: the largest box about a pose, and a workspace.
 //!
-//! Poses are those of a workspace, `R = exp([w]x) R_0`, `p = p_0 + d`, and the set of scale `t` is `|d_k| <= t D_k`, `|w_k| <= t theta_k`, or the two ellipsoids with
-//! these half axes. From below: cells in which `det J != 0` is proved by interval arithmetic, shell by shell. From above: a pose at which `det J` has the
-//! other sign; the segment in `(d, w)` from home to it stays in the set and holds a singular pose.
+//! Poses are those of a workspace, `R = exp([w]x) R_0`, `p = p_0 + d`, and the set of scale `t` is `|d_k| <= t D_k`,
+//! `|w_k| <= t theta_k`, or the two ellipsoids with these half axes. From below: cells in which `det J != 0` is proved
+//! by interval arithmetic, shell by shell. From above: a pose at which `det J` has the other sign; the segment in
+//! `(d, w)` from home to it stays in the set and holds a singular pose.
 //!
-//! `J` is the matrix of leg lines that are not divided by the leg lengths, so that for a leg map `det J' = det A det J` at every pose: the
-//! sets are those of all equivalent platforms.
+//! `J` is the matrix of leg lines that are not divided by the leg lengths, so that for a leg map `det J' = det A det J`
+//! at every pose: the sets are those of all equivalent platforms.
 //!
-//! The leg lines over a box of poses are independent at all of them by this test. With `K` near the inverse of `J` at the centre and `J_k` an enclosure of `dJ / dq_k` over the box, the mean value theorem gives
+//! The leg lines over a box of poses are independent at all of them by this test. With `K` near the inverse of `J` at
+//! the centre and `J_k` an enclosure of `dJ / dq_k` over the box, the mean value theorem gives
 //!
 //! ```text
 //! |I - K J(q)| <= W = |I - K J(centre)| + sum_k |K J_k| half_k      entry by entry, for every q of the box.
 //! ```
 //!
-//! When `W u < u` for some positive vector `u` the spectral radius of `I - K J(q)` is below 1 and `J(q)` is regular (Neumaier, Interval methods for systems of equations, 1990,
-//! sec. 4.1). Rows are `[n, a x n]`, `n = R b + p - a`, about the mean base joint, in units of the size.
+//! When `W u < u` for some positive vector `u` the spectral radius of `I - K J(q)` is below 1 and `J(q)` is regular
+//! (Neumaier, Interval methods for systems of equations, 1990, sec. 4.1). Rows are `[n, a x n]`, `n = R b + p - a`,
+//! about the mean base joint, in units of the size.
 
 #[cfg(test)]
 mod tests;
@@ -55,7 +58,8 @@ pub struct RegularBox {
     pub proved: f64,
     /// Proved: a singular pose at this scale or below; `None` when none was found up to [`RegularBox::searched`].
     pub refuted: Option<SingularSegment>,
-    /// Scale up to which singular poses were looked for: where a component of the rotation vector is a half-turn, or a translation 16 times the size.
+    /// Scale up to which singular poses were looked for: where a component of the rotation vector is a half-turn, or a
+    /// translation 16 times the size.
     pub searched: f64,
     /// Cells tested.
     pub regions: usize,
@@ -113,7 +117,8 @@ pub fn regular_box(m: &Manipulator, home: &Pose, options: &BoxOptions) -> Regula
 pub enum Regularity {
     /// Proved: `det J` vanishes at no pose.
     Regular,
-    /// Proved: `det J` vanishes at some pose. It has opposite signs at the home pose and at this one, of the same connected part of the workspace.
+    /// Proved: `det J` vanishes at some pose. It has opposite signs at the home pose and at this one, of the same
+    /// connected part of the workspace.
     ChangesSign(Pose),
     /// The leg lines at this pose are not proved to be independent, or cells ran out near it.
     Undecided(Pose),
@@ -131,7 +136,8 @@ impl Regularity {
     }
 }
 
-/// Judges the region, the single poses and the trajectory of a workspace on at most `cells` cells for each of its parts, and counts them.
+/// Judges the region, the single poses and the trajectory of a workspace on at most `cells` cells for each of its
+/// parts, and counts them.
 #[must_use]
 pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed: u64) -> (Regularity, usize) {
     let (mut doubt, mut tested) = (None, 0);
@@ -228,7 +234,8 @@ fn reach(chart: &Chart, cell: &ChartCell) -> f64 {
     chart.scale_of(&corner)
 }
 
-/// Twelve cells that cover the outer box less the inner one, fewer where axes have no width; one that covers it all where the sets are not boxes.
+/// Twelve cells that cover the outer box less the inner one, fewer where axes have no width; one that covers it all
+/// where the sets are not boxes.
 fn slabs(chart: &Chart, inner: f64, outer: f64) -> Vec<ChartCell> {
     let axes = chart.coordinates();
     let cube = |half: f64| {

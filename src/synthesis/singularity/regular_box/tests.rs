@@ -19,7 +19,8 @@ const OPTIONS: BoxOptions = BoxOptions {
     seed: 1,
 };
 
-/// Poses of the set of a scale, by a rotation formula of their own; every other one with all components at the boundary.
+/// Poses of the set of a scale, by a rotation formula of their own; every other one with all components at the
+/// boundary.
 fn poses_within(home: &Pose, o: &BoxOptions, scale: f64, count: usize, rng: &mut Rng) -> Vec<Pose> {
     let mut draw = |k: usize, half: [f64; 3]| {
         let u = Vector3::from_fn(|_, _| rng.uniform(-1.0, 1.0));
@@ -133,7 +134,8 @@ fn random_platform(rng: &mut Rng, octahedral: bool) -> Manipulator {
     Manipulator::try_new(joints(n, 1.0), joints(n, 0.7), pairs).unwrap()
 }
 
-/// Workspaces of wide rotations, where a component of the rotation vector is far from the tangent of a half angle: version 0.1.0 proved a set in the wrong coordinates.
+/// Workspaces of wide rotations, where a component of the rotation vector is far from the tangent of a half angle:
+/// version 0.1.0 proved a set in the wrong coordinates.
 #[test]
 #[ignore = "evidence"]
 fn wide_rotations_never_contradict_the_proved_set() {
@@ -167,7 +169,8 @@ fn wide_rotations_never_contradict_the_proved_set() {
     assert!(proved >= 14 && reached >= 4, "{proved} {reached}");
 }
 
-/// The set of scale 1 of `regular_box` and the region of a workspace are one: the two agree at scales to either side of the singular surface.
+/// The set of scale 1 of `regular_box` and the region of a workspace are one: the two agree at scales to either side of
+/// the singular surface.
 #[test]
 #[ignore = "evidence"]
 fn a_workspace_is_judged_as_its_scale_is() {

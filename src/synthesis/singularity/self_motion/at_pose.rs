@@ -150,8 +150,8 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
 /// Whether the leg lines are proved to have the same rank at the pose and at all poses around it, and this is below
 /// six.
 ///
-/// No pose has a greater rank than almost all poses have, and the rank does not fall near a pose. The rank at the pose is proved for all joints between their bounds, that of almost all
-/// poses about the exact joints.
+/// No pose has a greater rank than almost all poses have, and the rank does not fall near a pose. The rank at the pose
+/// is proved for all joints between their bounds, that of almost all poses about the exact joints.
 fn has_generic_rank(m: &Manipulator, local: &LegsAtPose, split: &LineVectors) -> bool {
     let k = split.corank();
     if k == 0 || Inverted::of(&local.rows(), split, k).is_none() {

@@ -1,14 +1,16 @@
 //! A pose on every real component of the curves of poses: critical points of a linear function.
 //!
-//! Leg lengths bound the position, so that the real poses `(e, g)`, `|e| = 1`, form closed loops (and single points), and on each of them a linear function
-//! `c.(e, g)` takes its largest and its smallest value. There the derivatives of the equations, `(e, 0)` and `c` are dependent:
+//! Leg lengths bound the position, so that the real poses `(e, g)`, `|e| = 1`, form closed loops (and single points),
+//! and on each of them a linear function `c.(e, g)` takes its largest and its smallest value. There the derivatives of
+//! the equations, `(e, 0)` and `c` are dependent:
 //!
 //! ```text
 //! D(y) = det (six combinations of the rows of J(y); (e, 0); c) = 0,   of degree 7 in y.
 //! ```
 //!
-//! On a curve of degree `d` in projective 7-space the zeros of `D` are limits of the `7 d` zeros of a product of seven linear forms under the homotopy
-//! `(1 - t) gamma L_1 .. L_7 + t D` (Sommese, Wampler 2005). The zeros of a linear form are the points by which the degree is found.
+//! On a curve of degree `d` in projective 7-space the zeros of `D` are limits of the `7 d` zeros of a product of seven
+//! linear forms under the homotopy `(1 - t) gamma L_1 .. L_7 + t D` (Sommese, Wampler 2005). The zeros of a linear form
+//! are the points by which the degree is found.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -41,7 +43,8 @@ pub struct CriticalPoses {
     pub components: Vec<CurveDegree>,
     /// Real critical points, and ends that are nearly real where curves meet.
     pub poses: Vec<Pose>,
-    /// Paths followed in the last homotopy: seven times the sum of the degrees. Paths that are given up lead to another homotopy, of four at most.
+    /// Paths followed in the last homotopy: seven times the sum of the degrees. Paths that are given up lead to another
+    /// homotopy, of four at most.
     pub paths: usize,
     /// Ends that are regular critical points, real or not.
     pub regular: usize,
@@ -56,7 +59,8 @@ pub struct CriticalPoses {
 }
 
 impl CriticalPoses {
-    /// Whether, numerically, nothing is missing on the curves of the poses given: all trace tests hold and no path was given up.
+    /// Whether, numerically, nothing is missing on the curves of the poses given: all trace tests hold and no path was
+    /// given up.
     #[must_use]
     pub fn is_accounted(&self) -> bool {
         !self.components.is_empty()
@@ -66,7 +70,8 @@ impl CriticalPoses {
     }
 }
 
-/// Real poses on all real components of the irreducible complex curves of poses that pass through given ones, which may be complex.
+/// Real poses on all real components of the irreducible complex curves of poses that pass through given ones, which may
+/// be complex.
 #[must_use]
 pub fn critical_poses(
     m: &Manipulator,

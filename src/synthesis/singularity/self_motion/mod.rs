@@ -1,14 +1,15 @@
 //! Follows self-motions: curves of poses with the same leg lengths.
 //!
-//! Poses are dual quaternions `y = (e, g)`, `g = p e`, `|e| = 1`, lengths in units of the size; `y` and `-y` are one pose. On a curve of poses the
-//! equations (six legs, `e.g = 0`, `|e| = 1`) have rank 7 of 8; the curve is followed along its tangent, the null vector, with Gauss-Newton corrections ([`trace`]).
-//! Where it crosses itself or another curve the rank is 6 and the tangents are the real zeros of a quadratic form; every branch is
-//! followed. Leg lengths bound the position, so that every real curve is a closed loop.
+//! Poses are dual quaternions `y = (e, g)`, `g = p e`, `|e| = 1`, lengths in units of the size; `y` and `-y` are one
+//! pose. On a curve of poses the equations (six legs, `e.g = 0`, `|e| = 1`) have rank 7 of 8; the curve is followed
+//! along its tangent, the null vector, with Gauss-Newton corrections ([`trace`]). Where it crosses itself or another
+//! curve the rank is 6 and the tangents are the real zeros of a quadratic form; every branch is followed. Leg lengths
+//! bound the position, so that every real curve is a closed loop.
 //!
 //! Whether the platform moves at a pose at all is decided before anything is followed ([`motion_at`]).
 //!
-//! Real components that meet none of the curves from the poses given are not found from them: [`critical_poses`] gives poses on all real components of the complex
-//! curves through given poses, real or complex.
+//! Real components that meet none of the curves from the poses given are not found from them: [`critical_poses`] gives
+//! poses on all real components of the complex curves through given poses, real or complex.
 
 mod at_pose;
 mod critical;

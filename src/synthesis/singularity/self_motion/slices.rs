@@ -1,11 +1,12 @@
-//! Slices of a curve of poses: points of the leg equations that satisfy one more condition, carried along while the condition
-//! changes.
+//! Slices of a curve of poses: points of the leg equations that satisfy one more condition, carried along while the
+//! condition changes.
 //!
 //! They give the degree of the curve among the dual quaternions `(e : g)` of projective 7-space.
 //!
-//! A general hyperplane meets the curve in as many points as its degree. From one point the others are reached by carrying the hyperplane around random
-//! triangles (monodromy). They are all of an irreducible curve when, for parallel hyperplanes `h(y) = tau` in an affine chart, the sum of the points is a linear function
-//! of `tau` (trace test; Sommese, Verschelde, Wampler 2002). Numerical, not a proof.
+//! A general hyperplane meets the curve in as many points as its degree. From one point the others are reached by
+//! carrying the hyperplane around random triangles (monodromy). They are all of an irreducible curve when, for parallel
+//! hyperplanes `h(y) = tau` in an affine chart, the sum of the points is a linear function of `tau` (trace test;
+//! Sommese, Verschelde, Wampler 2002). Numerical, not a proof.
 
 use nalgebra::{ComplexField, SMatrix, SVector, Vector3};
 use num_complex::Complex64;
@@ -277,7 +278,8 @@ pub struct CurveDegree {
     pub defect: f64,
 }
 
-/// Degree in the projective space of `(e, g)`, over the complex numbers, of the irreducible curve of poses through a regular pose of a self-motion.
+/// Degree in the projective space of `(e, g)`, over the complex numbers, of the irreducible curve of poses through a
+/// regular pose of a self-motion.
 ///
 /// `None` when the pose is on no curve or too near a crossing to be followed.
 #[must_use]

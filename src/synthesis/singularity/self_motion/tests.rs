@@ -76,7 +76,8 @@ fn five_legs_at_one_joint_leave_two_freedoms() {
 
 #[test]
 fn crossing_curves_are_all_followed() {
-    // a planar pose of a platform with a plane of symmetry is often on two curves: the home of the midline platform, all legs alike
+    // a planar pose of a platform with a plane of symmetry is often on two curves: the home of the midline platform,
+    // all legs alike
     let m = midline();
     let home = default_home(&m);
     let s = home.squared_lengths(&m).unwrap();

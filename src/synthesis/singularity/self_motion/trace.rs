@@ -447,10 +447,11 @@ impl<'a> Web<'a> {
         })
     }
 
-    /// Directions of the branches at a crossing: with null vectors `v_1, v_2` and the left null vectors `w` the curves' tangents
-    /// `v = alpha v_1 + beta v_2` have `w.F(v) = 0`.
+    /// Directions of the branches at a crossing: with null vectors `v_1, v_2` and the left null vectors `w` the curves'
+    /// tangents `v = alpha v_1 + beta v_2` have `w.F(v) = 0`.
     ///
-    /// One of the two left null vectors belongs to the dependency of the legs, which holds to all orders; its form vanishes.
+    /// One of the two left null vectors belongs to the dependency of the legs, which holds to all orders; its form
+    /// vanishes.
     fn tangents(&self, y: &Point<f64>) -> Vec<Point<f64>> {
         let (right, left) = self.tracer.null_planes(y);
         let form = |w: &Point<f64>| {

@@ -18,8 +18,8 @@ use records::{BenchAnswer, BenchClassRecord};
 #[derive(Debug, clap::Args)]
 pub(crate) struct BenchArgs {
     /// 6-6, 6-5, 6P-6, 6P-6P, tilted-planes, octahedral, griffis-duffy, hexapod, similar, affine, congruent, collinear,
-    /// close-pair, spread, double-root, hexapod-home, or all of these; T01 to T34 (also T04-planar-base, -planar-platform,
-    /// -both-planar), or topologies for the 34; several with commas between
+    /// close-pair, spread, double-root, hexapod-home, or all of these; T01 to T34 (also T04-planar-base,
+    /// -planar-platform, -both-planar), or topologies for the 34; several with commas between
     #[arg(long, value_name = "CLASS", default_value = "6-6")]
     class: String,
     /// Number of problems of each class
@@ -34,16 +34,19 @@ pub(crate) struct BenchArgs {
     /// Method of solution; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = BenchMethodArg::Auto)]
     method: BenchMethodArg,
-    /// Squared lengths uniform in [0.5, 3], or those of a random real pose; the former where the class allows it when absent
+    /// Squared lengths uniform in [0.5, 3], or those of a random real pose; the former where the class allows it when
+    /// absent
     #[arg(long, value_enum, value_name = "SOURCE")]
     lengths_from: Option<Source>,
     /// Look for missed roots from two other starts once in so many problems; 0 means never
     #[arg(long, value_name = "N", default_value_t = 10)]
     recheck_every: u64,
-    /// Count the poses modulo random primes where completeness is not proved, as fk does; this takes some milliseconds per problem
+    /// Count the poses modulo random primes where completeness is not proved, as fk does; this takes some milliseconds
+    /// per problem
     #[arg(long)]
     count_poses: bool,
-    /// Measure noise instead: disturb the leg lengths of random poses by relative errors from 1e-12 to 1e-1 and measure how far the poses move
+    /// Measure noise instead: disturb the leg lengths of random poses by relative errors from 1e-12 to 1e-1 and measure
+    /// how far the poses move
     #[arg(long, conflicts_with_all = ["first", "lengths_from", "recheck_every", "count_poses"])]
     noise: bool,
     /// Write a picture of how noise moves the poses

@@ -30,9 +30,11 @@ use records::{
 pub(crate) struct CalibrateArgs {
     /// Design file (.toml or .json) of the machine as it was meant
     design: PathBuf,
-    /// A table with a measured pose and six measured lengths a line (`-` for standard input); without it, poses to measure are planned
+    /// A table with a measured pose and six measured lengths a line (`-` for standard input); without it, poses to
+    /// measure are planned
     measurements: Option<PathBuf>,
-    /// Standard deviation of a length, design units; without it lengths count as equally uncertain, poses as exact, and the deviation is estimated
+    /// Standard deviation of a length, design units; without it lengths count as equally uncertain, poses as exact, and
+    /// the deviation is estimated
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     sigma_length: Option<f64>,
     /// Standard deviation of each coordinate of a measured position, design units; 0 when absent
@@ -47,7 +49,8 @@ pub(crate) struct CalibrateArgs {
     /// What the loss doubts: whole poses, or the lengths of single legs
     #[arg(long, value_enum, default_value_t = UnitArg::Pose)]
     loss_of: UnitArg,
-    /// Frames of the joints: those of the measured poses, or those of the design, into which the joints are carried by the rigid motions that fit best
+    /// Frames of the joints: those of the measured poses, or those of the design, into which the joints are carried by
+    /// the rigid motions that fit best
     #[arg(long, value_enum, default_value_t = FramesArg::Measured)]
     frames: FramesArg,
     /// What is known and stays as it is, separated by commas
@@ -56,7 +59,8 @@ pub(crate) struct CalibrateArgs {
     /// Where to begin: at the design, at a solution that needs no design, or at both, and the better end is taken
     #[arg(long, value_enum, default_value_t = StartArg::Best)]
     start: StartArg,
-    /// Greatest standard deviation of a change of the machine that counts as identified, as a share of the size of the design
+    /// Greatest standard deviation of a change of the machine that counts as identified, as a share of the size of the
+    /// design
     #[arg(long, value_name = "SHARE", default_value_t = 0.01, allow_hyphen_values = true)]
     identified: f64,
     /// Another table of measurements, for residuals that the fit has not seen
@@ -65,7 +69,8 @@ pub(crate) struct CalibrateArgs {
     /// Number of poses to measure next
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(0..=200))]
     next: u16,
-    /// Number of poses of a Halton sequence in the workspace, and as many random ones, among which the next ones are chosen and at which computed poses are judged
+    /// Number of poses of a Halton sequence in the workspace, and as many random ones, among which the next ones are
+    /// chosen and at which computed poses are judged
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u16).range(1..=5000))]
     candidates: u16,
     /// Write the calibrated design, where all of it is identified and nothing refutes it
@@ -159,7 +164,8 @@ impl CalibrateArgs {
     }
 }
 
-/// Exit 0 where the machine is calibrated, 1 where it is not identifiable or the model is refuted, 3 where that is open.
+/// Exit 0 where the machine is calibrated, 1 where it is not identifiable or the model is refuted, 3 where that is
+/// open.
 pub(crate) fn run(args: &CalibrateArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     args.refuse_without_effect(context)?;

@@ -1,4 +1,5 @@
-//! `equipod design convert`: a design in the other notation, in another unit of length, or as parameters of a motion-simulator program.
+//! `equipod design convert`: a design in the other notation, in another unit of length, or as parameters of a
+//! motion-simulator program.
 
 use std::path::PathBuf;
 
@@ -21,7 +22,8 @@ pub(crate) struct DesignConvertArgs {
     /// Write all lengths in this unit: um, mm, cm, m, in or ft
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
-    /// Write the parameters of a motion-simulator program in place of a design: `motion4sim` (and `FlyPT Mover`), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
+    /// Write the parameters of a motion-simulator program in place of a design: `motion4sim` (and `FlyPT Mover`), where
+    /// L4 is the long side of the base, or `dr-sim-manager`, where L3 is
     #[arg(long, value_name = "DIALECT")]
     dialect: Option<SheetDialect>,
 }

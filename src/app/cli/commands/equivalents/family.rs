@@ -19,7 +19,8 @@ use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EquivalentsFamilyArgs {
-    /// Design (.toml or .json) that is octahedral, or made from an octahedral platform by offsets along the sides of its triangles
+    /// Design (.toml or .json) that is octahedral, or made from an octahedral platform by offsets along the sides of
+    /// its triangles
     design: PathBuf,
     /// Write the graph of topologies for Graphviz
     #[arg(long, value_name = "FILE")]
@@ -88,7 +89,8 @@ pub(crate) fn run(args: &EquivalentsFamilyArgs, context: &mut Context) -> Result
     Ok(Answer::new(exit, answer, sheet))
 }
 
-/// The octahedral platform that a design is or is made of; a design that is proved to be equivalent to none is the answer no.
+/// The octahedral platform that a design is or is made of; a design that is proved to be equivalent to none is the
+/// answer no.
 fn original(design: &Design) -> Result<Original, Failure> {
     let no = |code, message: String| Failure::new(Exit::No, code, message);
     let original = match Original::behind(design) {

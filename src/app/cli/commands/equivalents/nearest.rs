@@ -15,7 +15,8 @@ use optimize::offsets::DEFAULT_MIN_ABS_DET;
 use records::NearestAnswer;
 use synthesis::NearestOptions;
 
-/// How far a joint of the design may stand beyond a corner of the triangles sought, in lengths of the side, where nothing is said: what exists is recognised, nothing is chosen.
+/// How far a joint of the design may stand beyond a corner of the triangles sought, in lengths of the side, where
+/// nothing is said: what exists is recognised, nothing is chosen.
 pub(in crate::app::cli::commands) const EXTENSION: f64 = 1.0;
 
 /// Arguments of `equivalents nearest`.

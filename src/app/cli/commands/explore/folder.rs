@@ -1,4 +1,5 @@
-//! The folder `explore` fills: each file appears whole or not at all, all of them at the end of the run, and none in the place of a file of the user.
+//! The folder `explore` fills: each file appears whole or not at all, all of them at the end of the run, and none in
+//! the place of a file of the user.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -115,11 +116,12 @@ pub(super) struct Folder {
 }
 
 impl Folder {
-    /// Makes the folder, and refuses one in which results would stand in the place of files of the user: such as `explore` didn't write, or as were
-    /// changed since. Nothing else in the folder is looked at or touched.
+    /// Makes the folder, and refuses one in which results would stand in the place of files of the user: such as
+    /// `explore` didn't write, or as were changed since. Nothing else in the folder is looked at or touched.
     ///
     /// # Errors
-    /// Exit 2: the folder cannot be made or written, `explore::not_ours`, or an input of the run is one of the files to be written.
+    /// Exit 2: the folder cannot be made or written, `explore::not_ours`, or an input of the run is one of the files to
+    /// be written.
     pub(super) fn prepare(path: &Path) -> Result<Self, Failure> {
         files::make_folder(path)?;
         let manifest = Self::manifest_in(path)?;
@@ -188,7 +190,8 @@ impl Folder {
         }
     }
 
-    /// Puts the results in the place of those of the earlier run. Each file is whole at any time, and the manifest knows the old ones and the new ones until all are there.
+    /// Puts the results in the place of those of the earlier run. Each file is whole at any time, and the manifest
+    /// knows the old ones and the new ones until all are there.
     ///
     /// # Errors
     /// As [`files::write_into`]; `explore::not_ours` for a file that has come since the run began.

@@ -1,4 +1,5 @@
-//! `equipod explore` for designs that are not octahedral: replaceable legs, an equivalent platform by moves of legs, the nearest octahedral platform.
+//! `equipod explore` for designs that are not octahedral: replaceable legs, an equivalent platform by moves of legs,
+//! the nearest octahedral platform.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,5 @@
-//! `equipod explore`: everything about a design in one folder. This file is about octahedral designs, [`general`] about the others.
+//! `equipod explore`: everything about a design in one folder. This file is about octahedral designs, [`general`] about
+//! the others.
 
 mod figures;
 pub(super) mod folder;
@@ -50,19 +51,25 @@ use verify::{Verification, verify};
 pub(crate) struct ExploreArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Folder for the results; it is made where it does not exist, the results of an earlier run are replaced, and a file of yours that a result would replace is refused
+    /// Folder for the results; it is made where it does not exist, the results of an earlier run are replaced, and a
+    /// file of yours that a result would replace is refused
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
-    /// Number of sets of leg lengths at which two designs are solved and compared: an octahedral design with the optimised one, another with the equivalent found, or its nearest octahedral platform with that one's equivalent
+    /// Number of sets of leg lengths at which two designs are solved and compared: an octahedral design with the
+    /// optimised one, another with the equivalent found, or its nearest octahedral platform with that one's equivalent
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
     samples: usize,
-    /// How far a joint may stand beyond a corner, on the extension of its side, in lengths of the side; default: 0.3, and 1 for the nearest octahedral platform of a design that is not octahedral
+    /// How far a joint may stand beyond a corner, on the extension of its side, in lengths of the side; default: 0.3,
+    /// and 1 for the nearest octahedral platform of a design that is not octahedral
     #[arg(long, value_name = "X")]
     extension: Option<f64>,
-    /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could win, as `optimize --drives` does, in place of that of the design (`drives` in `[hardware]`). Of octahedral designs
+    /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could
+    /// win, as `optimize --drives` does, in place of that of the design (`drives` in `[hardware]`). Of octahedral
+    /// designs
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
-    /// End the search after so many seconds, the judging of what it found included: the folder has the best platform until then. Of octahedral designs
+    /// End the search after so many seconds, the judging of what it found included: the folder has the best platform
+    /// until then. Of octahedral designs
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
     time_limit: Option<TimeLimit>,
 }
@@ -455,7 +462,8 @@ struct Careful {
     reserve: Option<DefaultReserve>,
 }
 
-/// The search with the default reserve first, where the design states none, and without it where that leads to no platform.
+/// The search with the default reserve first, where the design states none, and without it where that leads to no
+/// platform.
 fn searched_carefully(
     asked: &ExploreQuestion<'_>,
     careful: Option<&Design>,
@@ -477,11 +485,13 @@ fn searched_carefully(
     Ok(Careful { found, holes, reserve: Some(DefaultReserve::GivenUp) })
 }
 
-/// A platform with its joints on the holes that the design states; `None` where it states none, or no platform was found.
+/// A platform with its joints on the holes that the design states; `None` where it states none, or no platform was
+/// found.
 type OnHoles = Option<Result<DesignOnHoles, NoRounding>>;
 
-/// The best platform, and the same on the holes that the design states. Where a symmetry that nobody asked for leads to a platform on the holes that is not proved to meet its
-/// requirements, the search without it is the answer if it leads to one that is.
+/// The best platform, and the same on the holes that the design states. Where a symmetry that nobody asked for leads to
+/// a platform on the holes that is not proved to meet its requirements, the search without it is the answer if it leads
+/// to one that is.
 fn searched(
     asked: &ExploreQuestion<'_>,
     progress: &mut ProgressLine,

@@ -104,7 +104,8 @@ fn part(progress: &mut ProgressLine, p: &Progress) {
 }
 
 impl ExploreSearch {
-    /// The answer of `optimize`. Where nothing was found the search is made with one more freedom each, whose platforms are kept in the folder.
+    /// The answer of `optimize`. Where nothing was found the search is made with one more freedom each, whose platforms
+    /// are kept in the folder.
     pub(super) fn answer(
         &mut self,
         asked: &ExploreQuestion<'_>,
@@ -168,7 +169,8 @@ impl ExploreSearch {
         self.found.checked().or(self.found.nearest()).map(|c| &c.design)
     }
 
-    /// The closest platform with its joints on the holes that the design states; `None` without such a platform or holes.
+    /// The closest platform with its joints on the holes that the design states; `None` without such a platform or
+    /// holes.
     pub(super) fn on_holes(
         &self,
         asked: &ExploreQuestion<'_>,

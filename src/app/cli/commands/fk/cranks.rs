@@ -1,6 +1,7 @@
 //! `equipod fk DESIGN --angles`: poses for given angles of cranks.
 //!
-//! With the cranks at these angles their tips are base joints and the rods legs of known lengths: what is solved and certified is the platform on the tips, rounded to doubles.
+//! With the cranks at these angles their tips are base joints and the rods legs of known lengths: what is solved and
+//! certified is the platform on the tips, rounded to doubles.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -167,7 +168,8 @@ impl CrankMachine<'_> {
         self.platform.at(angles).map_err(|why| Failure::refused(BAD_ANGLES, why.to_string()))
     }
 
-    /// Follows one pose from the angles that the cranks have there. A row that is not tracked leaves the next to start from the last tracked pose.
+    /// Follows one pose from the angles that the cranks have there. A row that is not tracked leaves the next to start
+    /// from the last tracked pose.
     fn follow(
         &self,
         rows: &[SeriesRow<AnglesDeg>],

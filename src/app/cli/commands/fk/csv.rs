@@ -64,7 +64,8 @@ impl PoseTable {
         names
     }
 
-    /// A row for each pose that is not known to be complex, the real ones from the nearest to home on; with `all` the complex ones after them.
+    /// A row for each pose that is not known to be complex, the real ones from the nearest to home on; with `all` the
+    /// complex ones after them.
     fn poses(&self, out: &mut String, before: &[String], one: &FkOneAnswer) {
         let far = |s: &SolutionRecord| s.real_pose.map_or(f64::INFINITY, |p| p.distance_from_home);
         let points = one.solved.solution_set.witness_points().iter().chain(&one.solved.solutions);

@@ -32,10 +32,12 @@ use self::lengths::GivenLengths;
 pub(crate) struct FkArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
-    /// Six lengths, or a table with six columns (`-` for standard input) and times where it has them; those of the design when absent
+    /// Six lengths, or a table with six columns (`-` for standard input) and times where it has them; those of the
+    /// design when absent
     #[arg(long, value_name = "L1,..,L6|FILE")]
     lengths: Option<String>,
-    /// Six angles of cranks in degrees, or a table with six columns (`-` for standard input), where the legs are rods on cranks
+    /// Six angles of cranks in degrees, or a table with six columns (`-` for standard input), where the legs are rods
+    /// on cranks
     #[arg(long, value_name = "A1,..,A6|FILE", allow_hyphen_values = true, conflicts_with = "lengths")]
     angles: Option<String>,
     /// Method of solution; auto takes the best one for the design
@@ -44,7 +46,8 @@ pub(crate) struct FkArgs {
     /// Worker threads for the rows of a CSV file, one for each processor when absent; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Follow one real pose from this one, row by row for a CSV file: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
+    /// Follow one real pose from this one, row by row for a CSV file: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or
+    /// `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "method")]
     near: Option<String>,
     /// Write a CSV table with one real pose a row, the one nearest to home first

@@ -18,7 +18,8 @@ use records::{
     SolvedRecord,
 };
 
-/// What is followed: joints and legs, from where real poses are measured, and the length that turns angles into lengths.
+/// What is followed: joints and legs, from where real poses are measured, and the length that turns angles into
+/// lengths.
 pub(super) struct TrackedMachine<'a> {
     pub(super) m: &'a Manipulator,
     pub(super) home: Pose,
@@ -45,7 +46,8 @@ pub(super) struct TrackedRow {
     pub(super) line: String,
 }
 
-/// The answer about one set of lengths, or about each row of a table in turn; `step` is given the lengths and the number of their line.
+/// The answer about one set of lengths, or about each row of a table in turn; `step` is given the lengths and the
+/// number of their line.
 pub(super) fn followed(
     design: &Design,
     given: &GivenLengths,

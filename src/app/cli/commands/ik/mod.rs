@@ -25,17 +25,20 @@ pub(crate) struct IkArgs {
     /// A table with a pose a line (`-` for standard input), and times where it has them
     #[arg(conflicts_with = "pose")]
     poses: Option<PathBuf>,
-    /// A pose, as often as there are poses: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`; home when absent
+    /// A pose, as often as there are poses: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`; home
+    /// when absent
     #[arg(long, value_name = "POSE", allow_hyphen_values = true)]
     pose: Vec<String>,
-    /// Columns for swing and angles of the joints (of cranks: transmissions and torques), the inverse condition number and the margins besides; --json has them anyway
+    /// Columns for swing and angles of the joints (of cranks: transmissions and torques), the inverse condition number
+    /// and the margins besides; --json has them anyway
     #[arg(long)]
     details: bool,
 }
 
 const BAD_POSE: &str = "ik::bad_pose";
 
-/// Every pose has lengths: the distances of the joints with the offsets of a calibration, or the lengths of the drives beside the distances where joints are not ideal.
+/// Every pose has lengths: the distances of the joints with the offsets of a calibration, or the lengths of the drives
+/// beside the distances where joints are not ideal.
 pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let (series, one) = match &args.poses {

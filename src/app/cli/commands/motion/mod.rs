@@ -25,7 +25,8 @@ pub(crate) struct MotionArgs {
     design: PathBuf,
     /// A table with a time in seconds and a pose a line (`-` for standard input)
     trajectory: Option<PathBuf>,
-    /// A sine about a pose, as often as there are some: x, y, z (design units), roll, pitch or yaw (degrees), amplitude and frequency
+    /// A sine about a pose, as often as there are some: x, y, z (design units), roll, pitch or yaw (degrees), amplitude
+    /// and frequency
     #[arg(long, value_name = "AXIS:AMPLITUDE:HERTZ", allow_hyphen_values = true)]
     sine: Vec<String>,
     /// An acceleration from rest at a pose, design units or degrees per second squared, as often as there are some
@@ -34,7 +35,8 @@ pub(crate) struct MotionArgs {
     /// Stiffness matrix and natural frequencies at the pose of --about
     #[arg(long)]
     stiffness: bool,
-    /// The pose of sines, accelerations and the stiffness: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
+    /// The pose of sines, accelerations and the stiffness: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or
+    /// `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     about: String,
     /// A load of the design that acts all the time besides the weight, by its name

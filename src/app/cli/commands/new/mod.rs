@@ -1,4 +1,5 @@
-//! `equipod new`: a design from a few sizes, from corners, from a table of points, from a sheet of parameters or from a model.
+//! `equipod new`: a design from a few sizes, from corners, from a table of points, from a sheet of parameters or from a
+//! model.
 
 mod prompts;
 
@@ -33,7 +34,8 @@ pub(crate) struct NewArgs {
     /// Radius of the circle of the platform joints
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     platform_radius: Option<f64>,
-    /// Angle between the two joints of a pair on the base, seen from the centre, in degrees; 0 for one joint of two legs
+    /// Angle between the two joints of a pair on the base, seen from the centre, in degrees; 0 for one joint of two
+    /// legs
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     base_spread: Option<f64>,
     /// The same angle on the platform
@@ -51,21 +53,25 @@ pub(crate) struct NewArgs {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "points"]
     )]
     corners: Option<Vec<String>>,
-    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any usual notation, the pins of `genhexkins`, or a model of `MuJoCo`
+    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any
+    /// usual notation, the pins of `genhexkins`, or a model of `MuJoCo`
     #[arg(
         long,
         value_name = "FILE",
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread"]
     )]
     points: Option<PathBuf>,
-    /// The parameters of a motion-simulator program (`-` for standard input): lines `L1 = 900` to `L4`, and `middle` and `range` of legs, or `crank`, `rod`, `middle_angle` and `crank_angle_1` to `crank_angle_6`; --dialect says whose
+    /// The parameters of a motion-simulator program (`-` for standard input): lines `L1 = 900` to `L4`, and `middle`
+    /// and `range` of legs, or `crank`, `rod`, `middle_angle` and `crank_angle_1` to `crank_angle_6`; --dialect says
+    /// whose
     #[arg(
         long,
         value_name = "FILE",
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "height", "corners", "points"]
     )]
     sheet: Option<PathBuf>,
-    /// Whose parameters --sheet has: `motion4sim` (and `FlyPT Mover`), where L4 is the long side of the base, or `dr-sim-manager`, where L3 is
+    /// Whose parameters --sheet has: `motion4sim` (and `FlyPT Mover`), where L4 is the long side of the base, or
+    /// `dr-sim-manager`, where L3 is
     #[arg(long, value_name = "DIALECT", requires = "sheet")]
     dialect: Option<SheetDialect>,
     /// Label of the length unit; that of the table, else mm, when absent

@@ -25,7 +25,9 @@ use sheet::Sheet;
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct OptimizeArgs {
-    /// Design (.toml or .json); its tables home, workspace, hardware and optimize set poses and limits. Of an octahedral design the shared joints are spread along the sides, of others the legs are moved along their families of replaceable legs, unless the design names other variables
+    /// Design (.toml or .json); its tables home, workspace, hardware and optimize set poses and limits. Of an
+    /// octahedral design the shared joints are spread along the sides, of others the legs are moved along their
+    /// families of replaceable legs, unless the design names other variables
     design: PathBuf,
     /// Write the optimised design; .json gives JSON, anything else TOML
     #[arg(short, long, value_name = "FILE")]
@@ -36,22 +38,27 @@ pub(crate) struct OptimizeArgs {
     /// Search every branch for its own best platform, which takes ten times as long
     #[arg(long)]
     survey: bool,
-    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer is called optimal
+    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer is
+    /// called optimal
     #[arg(long, value_name = "X", default_value_t = 1e-2)]
     gap: f64,
     /// Write the steps of the run that found the answer: .svg a picture, anything else CSV
     #[arg(long, value_name = "FILE")]
     history: Option<OutputPath>,
-    /// Write the answer and the other local optima that meet the requirements, which look different, into this folder: `equipod compare` sets them side by side. Where there is no answer, the platforms that other freedoms lead to
+    /// Write the answer and the other local optima that meet the requirements, which look different, into this folder:
+    /// `equipod compare` sets them side by side. Where there is no answer, the platforms that other freedoms lead to
     #[arg(long, value_name = "DIR")]
     candidates: Option<OutputPath>,
-    /// Table of drives (.csv), as `equipod build drives` reads it, in place of that of the design (`drives` in `[hardware]`): the search is made with each drive that could win, and the answer is the best platform with its drive, the cheapest with which the requirements are met where every drive has a price
+    /// Table of drives (.csv), as `equipod build drives` reads it, in place of that of the design (`drives` in
+    /// `[hardware]`): the search is made with each drive that could win, and the answer is the best platform with its
+    /// drive, the cheapest with which the requirements are met where every drive has a price
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
     /// Worker threads, one for each processor when absent; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// End after so many seconds: the search is interrupted as by Ctrl-C, the last quarter of the time, at most 10 s, is for the judging of the best until then, and the status is `interrupted`
+    /// End after so many seconds: the search is interrupted as by Ctrl-C, the last quarter of the time, at most 10 s,
+    /// is for the judging of the best until then, and the status is `interrupted`
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
     time_limit: Option<TimeLimit>,
 }

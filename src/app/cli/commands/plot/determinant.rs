@@ -17,8 +17,8 @@ const SIDE: usize = 201;
 pub(super) struct PlotDeterminantArgs {
     /// Octahedral design (.toml or .json)
     design: PathBuf,
-    /// Two offsets on the axes, 1 to 6 in the order of the legs around the octahedron, or `equal` for the three of the base and the three of the
-    /// platform
+    /// Two offsets on the axes, 1 to 6 in the order of the legs around the octahedron, or `equal` for the three of the
+    /// base and the three of the platform
     #[arg(long, value_name = "I,J", default_value = "equal", value_parser = ChangedOffsets::parse)]
     slice: ChangedOffsets,
     /// Six offsets of the marked design, in edges of the triangles; those that are not on the axes keep these values

@@ -69,7 +69,8 @@ enum Figure {
         #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
         slice: Freedoms,
     },
-    /// Draw columns of the table of a sweep: colours or lines over two, the distribution of one, parallel axes, points, a front
+    /// Draw columns of the table of a sweep: colours or lines over two, the distribution of one, parallel axes, points,
+    /// a front
     Sweep(swept::PlotSweptArgs),
     /// Draw the ways to share joints: that of a design, or all of them
     Topologies {

@@ -13,13 +13,15 @@ use files::plot::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_hist
 pub(super) struct PlotSweptArgs {
     /// Folder of a sweep, or the file that `equipod sweep merge` wrote
     table: PathBuf,
-    /// What is drawn: colours or lines over two columns, the distribution of one, parallel axes, points over two, the front of two
+    /// What is drawn: colours or lines over two columns, the distribution of one, parallel axes, points over two, the
+    /// front of two
     #[arg(long, value_enum, default_value_t = SweptKind::Scatter)]
     kind: SweptKind,
     /// Columns with commas between: across, up and, as colour, a third; parallel axes take from two to eight
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', required = true)]
     columns: Vec<String>,
-    /// Leave out rows for which this does not hold, as in a plan: "conditioning > 0.1"; as often as there are conditions
+    /// Leave out rows for which this does not hold, as in a plan: "conditioning > 0.1"; as often as there are
+    /// conditions
     #[arg(long, value_name = "CONDITION")]
     keep: Vec<String>,
     /// Which values are the better ones of the first and the second column, for the front

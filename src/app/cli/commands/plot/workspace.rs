@@ -20,11 +20,12 @@ const DEGREES: f64 = 90.0;
 pub(super) struct PlotWorkspaceArgs {
     /// Design file (.toml or .json) with its limits in the table hardware
     design: PathBuf,
-    /// Two freedoms on the axes: x, y, z (reachable positions at a fixed orientation), rx, ry, rz (reachable orientations at a position; rotation
-    /// vector in the base frame)
+    /// Two freedoms on the axes: x, y, z (reachable positions at a fixed orientation), rx, ry, rz (reachable
+    /// orientations at a position; rotation vector in the base frame)
     #[arg(long, value_name = "A,B", default_value = "x,y", value_parser = Freedoms::parse)]
     slice: Freedoms,
-    /// Pose in the middle of the picture, which fixes the other four freedoms; the legs are mounted for the home pose of the design
+    /// Pose in the middle of the picture, which fixes the other four freedoms; the legs are mounted for the home pose
+    /// of the design
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
     /// Half widths of the picture, design units or degrees; the size of the design and 90 degrees when absent

@@ -32,7 +32,8 @@ pub(crate) struct SweepBestArgs {
     /// Which of its values are the better ones
     #[arg(long, value_enum, default_value_t = Better::High)]
     better: Better,
-    /// Leave out rows for which this does not hold, as in a plan: "conditioning > 0.1"; as often as there are conditions
+    /// Leave out rows for which this does not hold, as in a plan: "conditioning > 0.1"; as often as there are
+    /// conditions
     #[arg(long, value_name = "CONDITION")]
     keep: Vec<String>,
     /// Number of candidates

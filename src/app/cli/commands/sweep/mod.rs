@@ -17,7 +17,8 @@ use crate::app::cli::output::Answer;
 /// Commands about sweeps.
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepCommand {
-    /// Compute the candidates of a plan, or one shard of them; what is done already stays. `equipod sweep PLAN` is the same
+    /// Compute the candidates of a plan, or one shard of them; what is done already stays. `equipod sweep PLAN` is the
+    /// same
     Run(run::SweepRunArgs),
     /// Say which shards are done, missing or damaged
     Status(status::SweepStatusArgs),

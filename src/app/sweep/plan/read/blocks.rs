@@ -196,7 +196,8 @@ impl PlanReader<'_, '_> {
     }
 }
 
-/// The values with their whole names: a table without `from` and `to` holds further ones (`offsets.1 = ...` without quotes).
+/// The values with their whole names: a table without `from` and `to` holds further ones (`offsets.1 = ...` without
+/// quotes).
 fn flatten<'a>(entries: &'a [Entry], before: &str, out: &mut Vec<(String, &'a Entry)>) {
     for entry in entries {
         let path = if before.is_empty() { entry.key.clone() } else { format!("{before}.{}", entry.key) };

@@ -119,7 +119,8 @@ impl Settings {
         Ok(())
     }
 
-    /// The value of an attribute: that of the element, else of its class (or that of the bodies around it), else of the classes above.
+    /// The value of an attribute: that of the element, else of its class (or that of the bodies around it), else of the
+    /// classes above.
     ///
     /// # Errors
     /// A class that is not defined.

@@ -1,8 +1,10 @@
 //! Six legs in a kinematic tree: slides between joints at one point on either side, or tendons from site to site.
 //!
-//! Without its six slides the graph of rigid groups and joints has the base with one part of each leg in one piece, and the platform with the other part in another. The ball
-//! joints on the way from a slide to the base (to the platform) and the axes of the hinges have to have one point in common: this point is the end of the leg. In which order hinges and
-//! bodies make a universal or ball joint does not matter; nor does which of the two parts of a leg carries the slide, or its direction.
+//! Without its six slides the graph of rigid groups and joints has the base with one part of each leg in one piece, and
+//! the platform with the other part in another. The ball joints on the way from a slide to the base (to the platform)
+//! and the axes of the hinges have to have one point in common: this point is the end of the leg. In which order hinges
+//! and bodies make a universal or ball joint does not matter; nor does which of the two parts of a leg carries the
+//! slide, or its direction.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -123,9 +125,11 @@ impl<'a> Graph<'a> {
 /// Axes whose directions differ by less than about this angle have no point in common that is worth the name, radians.
 const NEARLY_PARALLEL: f64 = 1e-3;
 
-/// The point that the joints on a way have in common and how far the farthest of them is from it; `None` without one, as of parallel hinges.
+/// The point that the joints on a way have in common and how far the farthest of them is from it; `None` without one,
+/// as of parallel hinges.
 ///
-/// It is the place of the last joint where all are there, digit by digit, else the point with the least sum of squared distances from points and axes.
+/// It is the place of the last joint where all are there, digit by digit, else the point with the least sum of squared
+/// distances from points and axes.
 fn common_point(way: &[&Link<'_>], near: f64) -> Option<(Point3<f64>, f64)> {
     let last = *way.iter().flat_map(|link| link.points()).last()?;
     let apart = way.iter().flat_map(|link| link.points()).map(|p| (p - last).norm()).fold(0.0, f64::max);
@@ -273,7 +277,8 @@ fn by_slides(model: &MujocoModel, slides: &[&ModelJoint]) -> Result<(usize, Vec<
     Ok((platform, legs))
 }
 
-/// The group of a piece with the most joints; of several the one with the site `platform_frame` or a body named platform.
+/// The group of a piece with the most joints; of several the one with the site `platform_frame` or a body named
+/// platform.
 fn platform_of(model: &MujocoModel, graph: &Graph<'_>, piece: &RootedPiece) -> Result<usize, String> {
     let most = piece.keys().map(|g| graph.links_of(*g).len()).max().unwrap_or(0);
     let candidates: Vec<usize> = piece.keys().copied().filter(|g| graph.links_of(*g).len() == most).collect();

@@ -1,4 +1,5 @@
-//! Models of `MuJoCo` (MJCF): legs and home at the reference configuration, as `export --to mjcf` writes them and people do.
+//! Models of `MuJoCo` (MJCF): legs and home at the reference configuration, as `export --to mjcf` writes them and
+//! people do.
 
 mod attributes;
 mod legs;
@@ -62,7 +63,8 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
     placed.table(&unit, guesses).ok_or_else(|| "the coordinates of the joints overflow".to_string())
 }
 
-/// Attributes of an element: whether two have one name is looked up in a time that grows with the square of their number.
+/// Attributes of an element: whether two have one name is looked up in a time that grows with the square of their
+/// number.
 const MAX_ATTRIBUTES: usize = 200;
 
 /// Refuses an element with too many attributes before the text is parsed.

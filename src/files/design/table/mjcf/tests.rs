@@ -22,7 +22,8 @@ const PLATFORM: [[f64; 3]; 6] = [
     [0.1, -0.3, 0.0],
 ];
 
-/// A home pose that is turned about all axes: 10, 20 and 30 degrees, each about the frame that the one before has turned.
+/// A home pose that is turned about all axes: 10, 20 and 30 degrees, each about the frame that the one before has
+/// turned.
 fn home() -> Pose {
     let [x, y, z] = [10.0_f64, 20.0, 30.0].map(f64::to_radians);
     let about = |axis, angle| Rotation3::from_axis_angle(&axis, angle);
@@ -57,7 +58,8 @@ fn refusal(model: &str) -> String {
     read(model).unwrap_err()
 }
 
-/// The platform floats in the world; cylinders hang on balls of the world and rods slide in them; the order of the legs in the file is another than that of their names.
+/// The platform floats in the world; cylinders hang on balls of the world and rods slide in them; the order of the legs
+/// in the file is another than that of their names.
 fn free_platform(joints: impl Fn(usize) -> String) -> String {
     let mut bodies = String::new();
     let mut loops = String::new();

@@ -1,4 +1,5 @@
-//! The kinematic tree at the reference configuration: rigid groups of bodies, the joints between them, sites, and loops that `equality` closes.
+//! The kinematic tree at the reference configuration: rigid groups of bodies, the joints between them, sites, and loops
+//! that `equality` closes.
 
 use std::collections::BTreeMap;
 

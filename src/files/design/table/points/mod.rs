@@ -24,7 +24,8 @@ pub struct PointTable {
     pub names: Option<[[String; 6]; 2]>,
     /// The length unit that the header names.
     pub units: Option<String>,
-    /// Where the platform frame is at home, base frame, when a comment says so or the table has both bodies in one frame.
+    /// Where the platform frame is at home, base frame, when a comment says so or the table has both bodies in one
+    /// frame.
     pub home: Option<Pose>,
     /// What was guessed, a sentence each.
     pub guesses: Vec<String>,
@@ -53,8 +54,9 @@ pub enum InvalidPointTable {
 impl PointTable {
     /// Reads six rows of two points, base end first, or twelve rows of one point, in whatever notation.
     ///
-    /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one point belong to the body that a cell, a title above them
-    /// or their name says, else the first six to the base. Settings of `genhexkins` and models of `MuJoCo` are read too.
+    /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one
+    /// point belong to the body that a cell, a title above them or their name says, else the first six to the base.
+    /// Settings of `genhexkins` and models of `MuJoCo` are read too.
     ///
     /// # Errors
     /// [`InvalidPointTable`].
@@ -99,7 +101,8 @@ impl PointTable {
         Ok(table)
     }
 
-    /// When one body is all above the other the table has both in one frame, as a drawing has them: the platform frame is then put at the mean height of the platform joints.
+    /// When one body is all above the other the table has both in one frame, as a drawing has them: the platform frame
+    /// is then put at the mean height of the platform joints.
     fn part_frames(&mut self) {
         let heights = |body: Body| self.legs.map(|leg| leg.end(body).z);
         let range = |z: [f64; 6]| {
@@ -487,7 +490,8 @@ fn by_letters(words: &[Vec<&str>], guesses: &mut Vec<String>) -> Option<Vec<Body
     Some(letters.iter().map(|l| order[usize::from(l != first)]).collect())
 }
 
-/// The names, where every end has one that can stand in a file, and no two ends of a body the same unless they are at the same place.
+/// The names, where every end has one that can stand in a file, and no two ends of a body the same unless they are at
+/// the same place.
 fn names(ends: &Ends) -> Option<[[String; 6]; 2]> {
     let usable = |name: &str| {
         name.chars().count() <= 32 && name.chars().all(|c| c.is_alphanumeric() || "_-. ".contains(c))

@@ -1,6 +1,8 @@
-//! C99 for rods on cranks: the angles of poses on the sides that the cranks keep, and one pose followed from angles to angles.
+//! C99 for rods on cranks: the angles of poses on the sides that the cranks keep, and one pose followed from angles to
+//! angles.
 //!
-//! `equipod_cranks.c` and `equipod_cranks.h` are the same for every design and stand beside this file; a pose is followed by `equipod.c` on the tips of the cranks.
+//! `equipod_cranks.c` and `equipod_cranks.h` are the same for every design and stand beside this file; a pose is
+//! followed by `equipod.c` on the tips of the cranks.
 
 use std::fmt::Write as _;
 
@@ -87,7 +89,8 @@ fn source(export: &Export, cranks: &ExportCranks) -> String {
     out
 }
 
-/// Numbers of the library for the self-test: poses about home, some of them out of reach, and ways from one to the next.
+/// Numbers of the library for the self-test: poses about home, some of them out of reach, and ways from one to the
+/// next.
 fn vectors(export: &Export, cranks: &ExportCranks) -> String {
     let mut rng = Rng::new(SEED);
     let about: Vec<Pose> = (0..POSES).map(|_| moved(&export.home, AWAY, export.size, &mut rng)).collect();

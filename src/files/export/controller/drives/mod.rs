@@ -1,6 +1,8 @@
-//! C99 for drives that are not as long as the distances of their joints: corrected lengths of poses, one pose followed from lengths to lengths, and a proved bound of its error.
+//! C99 for drives that are not as long as the distances of their joints: corrected lengths of poses, one pose followed
+//! from lengths to lengths, and a proved bound of its error.
 //!
-//! `equipod_drives.c` and `equipod_drives.h` are the same for every design and stand beside this file; the poses of distances are followed by `equipod.c`.
+//! `equipod_drives.c` and `equipod_drives.h` are the same for every design and stand beside this file; the poses of
+//! distances are followed by `equipod.c`.
 
 use std::fmt::Write as _;
 
@@ -89,7 +91,8 @@ fn source(export: &Export, drives: &CoupledLegs) -> String {
     out
 }
 
-/// Numbers of the library for the self-test: poses about home, one at which a leg goes along its first axis, and ways from one to the next.
+/// Numbers of the library for the self-test: poses about home, one at which a leg goes along its first axis, and ways
+/// from one to the next.
 fn vectors(export: &Export, drives: &CoupledLegs) -> String {
     let mut rng = Rng::new(SEED);
     let about: Vec<Pose> = (0..POSES).map(|_| moved(&export.home, AWAY, export.size, &mut rng)).collect();

@@ -1,13 +1,15 @@
-//! Clusters: `m` roots in one ball, counted with multiplicity. What can be proved about a multiple pose, and about poses too close to be told apart.
+//! Clusters: `m` roots in one ball, counted with multiplicity. What can be proved about a multiple pose, and about
+//! poses too close to be told apart.
 //!
-//! Where the Jacobian `J` at the centre `c` has one small singular value, with `w` near the direction that its image lacks and `l` near the row that its kernel
-//! needs, the bordered equations in `z = (h, mu)`,
+//! Where the Jacobian `J` at the centre `c` has one small singular value, with `w` near the direction that its image
+//! lacks and `l` near the row that its kernel needs, the bordered equations in `z = (h, mu)`,
 //!
 //! ```text
 //! F(c + h) - mu w = 0,    l.h = t,        B = [ J  -w ; l  0 ],
 //! ```
 //!
-//! are regular although `F` is not (Keller 1977; Griewank and Reddien 1984). Let `Y` be an approximate inverse of `B` and expand their solution to an order `K`,
+//! are regular although `F` is not (Keller 1977; Griewank and Reddien 1984). Let `Y` be an approximate inverse of `B`
+//! and expand their solution to an order `K`,
 //!
 //! ```text
 //! z_1 = last column of Y,    c_n = -Y (sum over i + j = n, i, j <= K of Q(h_i, h_j), 0),    z_n = c_n as computed, within e_n,
@@ -20,27 +22,36 @@
 //! T(zeta) = (I - Y B)(p + zeta) - Y (F(c), 0) + sum over 2 <= n <= 2K of c_n t^n, less z_n t^n for n <= K - Y (2 Q(h_p, k) + Q(k, k), 0),
 //! ```
 //!
-//! and has the bounds `eta >= |Y (F(c), 0)|`, `kappa >= |I - Y B|`, `beta >= sup |Y (Q(h, k), 0)|` over unit `h`, `k` (max norm). On `|t| <= rho` let `H = sum |h_n| rho^n` and `Z = sum |z_n| rho^n`
-//! over `n <= K`, and
+//! and has the bounds `eta >= |Y (F(c), 0)|`, `kappa >= |I - Y B|`, `beta >= sup |Y (Q(h, k), 0)|` over unit `h`, `k`
+//! (max norm). On `|t| <= rho` let `H = sum |h_n| rho^n` and `Z = sum |z_n| rho^n` over `n <= K`, and
 //!
 //! ```text
 //! C = eta + kappa Z + sum over n of e_n rho^n + sum over n > K of |z_n| rho^n.
 //! ```
 //!
-//! 1. If `C + kappa R + beta (2 H R + R^2) <= R` and `kappa + 2 beta (H + R) < 1`, then for every complex `t` with `|t| <= rho` there is exactly one fixed point with
-//!    `|zeta| <= R`, and it is analytic in `t`: `h(t)`, `mu(t)`. It is the only one with `|zeta| <= S` for every `S` with `kappa + 2 beta (H + S) < 1`. `kappa < 1` makes `Y` regular.
-//! 2. The bordered equations with `t` as a further unknown have a regular Jacobian by `(h, mu)` there, hence their zeros near `(h(t), mu(t), t)` are this curve, and the local ring of `F` at `c + h(t_0)`, where
-//!    `mu(t_0) = 0`, is that of `mu` at `t_0`: the multiplicity of the root is the order of the zero (Lyapunov-Schmidt reduction).
-//! 3. The last row of the fixed-point equation is `mu(t) = mu_1 t + .. + mu_2K t^2K + E(t)`, `mu_n` the last entry of `z_n`, with
-//!    `|E| <= eta_8 + kappa_8 (Z + R) + sum e_n,8 rho^n + beta_8 (2 H R + R^2)`, the index 8 standing for that row. If `|mu_m| rho^m` is larger than this and `|mu_n| rho^n` of all other `n` together, `mu` has exactly `m`
-//!    zeros with `|t| < rho` by Rouche's theorem: `m` roots, counted with multiplicity, within `H + R` of `c`, for every choice of the data.
-//! 4. A root at `h` with `|h| <= r`, `|l|_1 r <= rho`, `r + H <= S` and `|mu_1| rho + .. + |mu_K| rho^K <= S` is the fixed point for `t = l.h`, with `mu = 0`: within `r` of `c` there are no roots but those `m`.
-//!    1. and 3. may hold for a small `rho`, which says how close the roots are, and for a large one, which says how far away all others are: they are the same `m` roots.
+//! 1. If `C + kappa R + beta (2 H R + R^2) <= R` and `kappa + 2 beta (H + R) < 1`, then for every complex `t` with
+//!    `|t| <= rho` there is exactly one fixed point with `|zeta| <= R`, and it is analytic in `t`: `h(t)`, `mu(t)`. It
+//!    is the only one with `|zeta| <= S` for every `S` with `kappa + 2 beta (H + S) < 1`. `kappa < 1` makes `Y`
+//!    regular.
+//! 2. The bordered equations with `t` as a further unknown have a regular Jacobian by `(h, mu)` there, hence their
+//!    zeros near `(h(t), mu(t), t)` are this curve, and the local ring of `F` at `c + h(t_0)`, where `mu(t_0) = 0`, is
+//!    that of `mu` at `t_0`: the multiplicity of the root is the order of the zero (Lyapunov-Schmidt reduction).
+//! 3. The last row of the fixed-point equation is `mu(t) = mu_1 t + .. + mu_2K t^2K + E(t)`, `mu_n` the last entry of
+//!    `z_n`, with `|E| <= eta_8 + kappa_8 (Z + R) + sum e_n,8 rho^n + beta_8 (2 H R + R^2)`, the index 8 standing for
+//!    that row. If `|mu_m| rho^m` is larger than this and `|mu_n| rho^n` of all other `n` together, `mu` has exactly
+//!    `m` zeros with `|t| < rho` by Rouche's theorem: `m` roots, counted with multiplicity, within `H + R` of `c`, for
+//!    every choice of the data.
+//! 4. A root at `h` with `|h| <= r`, `|l|_1 r <= rho`, `r + H <= S` and `|mu_1| rho + .. + |mu_K| rho^K <= S` is the
+//!    fixed point for `t = l.h`, with `mu = 0`: within `r` of `c` there are no roots but those `m`.
+//!    1. and 3. may hold for a small `rho`, which says how close the roots are, and for a large one, which says how far
+//!       away all others are: they are the same `m` roots.
 //!
-//! For `m = 2` and `K = 1` the expansion has the term in `t^2` only. More terms count where the next root is so close that the bound of the remainder would reach it.
+//! For `m = 2` and `K = 1` the expansion has the term in `t^2` only. More terms count where the next root is so close
+//! that the bound of the remainder would reach it.
 //!
-//! **Rounding** as in `krawczyk.rs`; a row of `Y B` is a sum of at most 16 products in each part, below `20 u sum |Y|_1 |B|_1`. `Q(h_i, h_j)` has the bounds of the
-//! `system` module; the sum over `i` has at most `K` terms, and a row of `Y` times it at most 14 products in each part.
+//! **Rounding** as in `krawczyk.rs`; a row of `Y B` is a sum of at most 16 products in each part, below
+//! `20 u sum |Y|_1 |B|_1`. `Q(h_i, h_j)` has the bounds of the `system` module; the sum over `i` has at most `K` terms,
+//! and a row of `Y` times it at most 14 products in each part.
 
 use nalgebra::SMatrix;
 use num_complex::Complex64;
@@ -56,7 +67,8 @@ use platform::geom::ComplexPose;
 
 /// Newton steps towards the middle of a cluster.
 const STEPS: usize = 12;
-/// How far these may lead, in coordinates of order one: means of the ends of paths are multiple poses to about six digits.
+/// How far these may lead, in coordinates of order one: means of the ends of paths are multiple poses to about six
+/// digits.
 const REACH: f64 = 1e-3;
 /// The radii `rho` that are tried.
 const RADII: [i32; 2] = [-48, -4];
@@ -67,10 +79,12 @@ const FAR: f64 = 1.0 / 64.0;
 
 type BorderedMatrix = SMatrix<Complex64, 8, 8>;
 
-/// Proof that exactly so many roots, counted with multiplicity, lie near a point: one multiple root, or several that are close.
+/// Proof that exactly so many roots, counted with multiplicity, lie near a point: one multiple root, or several that
+/// are close.
 ///
-/// Coordinates are those of a [`Certificate`](super::Certificate). For every choice of the data within their radii [`multiplicity`](Self::multiplicity) roots lie within
-/// [`radius`](Self::radius) of the centre [`centre`](Self::centre) `+` [`low`](Self::low), on the curve of the text of the module, and no others within
+/// Coordinates are those of a [`Certificate`](super::Certificate). For every choice of the data within their radii
+/// [`multiplicity`](Self::multiplicity) roots lie within [`radius`](Self::radius) of the centre
+/// [`centre`](Self::centre) `+` [`low`](Self::low), on the curve of the text of the module, and no others within
 /// [`uniqueness_radius`](Self::uniqueness_radius).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClusterCertificate {
@@ -142,7 +156,8 @@ impl ClusterCertificate {
         self.dominance
     }
 
-    /// [`NonReal`](ProvedReality::NonReal) when no root of the cluster is real; whether close roots are real is not decided.
+    /// [`NonReal`](ProvedReality::NonReal) when no root of the cluster is real; whether close roots are real is not
+    /// decided.
     #[must_use]
     pub fn reality(&self) -> ProvedReality {
         self.reality
@@ -195,7 +210,8 @@ impl BorderedSystem {
         let (u, v_t) = (svd.u?, svd.v_t?);
         let mut b = BorderedMatrix::zeros();
         b.fixed_view_mut::<7, 7>(0, 0).copy_from(&jacobian);
-        // real data have real singular vectors up to a phase; with the phase the curve of a real centre would not be its own conjugate
+        // real data have real singular vectors up to a phase; with the phase the curve of a real centre would not be
+        // its own conjugate
         let phase = |entries: &[Complex64]| {
             let top =
                 entries.iter().fold(Complex64::ONE * 0.0, |m, z| if z.norm() > m.norm() { *z } else { m });
@@ -224,7 +240,8 @@ fn values_at(system: &LegSystem, x: &Study<DoubleDouble>) -> [Complex64; N] {
     complex(&f.f_re.map(RealScalar::rounded), &f.f_im.map(RealScalar::rounded))
 }
 
-/// The numbers `z_n` of the module's text, from `n = 1` to twice the order, with bounds of `e_n` in all rows and in the last.
+/// The numbers `z_n` of the module's text, from `n = 1` to twice the order, with bounds of `e_n` in all rows and in the
+/// last.
 struct CurveExpansion {
     order: usize,
     terms: Vec<[Complex64; 8]>,
@@ -313,7 +330,8 @@ impl Middle {
         }
     }
 
-    /// The point of the curve at which the term of order `m - 1` vanishes, by Newton's method on this and on the equations; an approximation, nothing is proved of it.
+    /// The point of the curve at which the term of order `m - 1` vanishes, by Newton's method on this and on the
+    /// equations; an approximation, nothing is proved of it.
     fn of(system: &LegSystem, start: &Study<DoubleDouble>, m: usize) -> Result<Self, WhyUncertified> {
         let mut x = *start;
         let mut last = f64::INFINITY;
@@ -500,7 +518,8 @@ fn prove(
     Ok((rounded_pose(x, unit), certificate))
 }
 
-/// The points about which two roots may lie beside a third: where the slope of `mu` vanishes about its point of inflection.
+/// The points about which two roots may lie beside a third: where the slope of `mu` vanishes about its point of
+/// inflection.
 fn flat_points(system: &LegSystem, inflection: &Middle) -> Vec<Middle> {
     let e = &inflection.expansion;
     let t = (-e.mu(1) / (e.mu(3) * 3.0)).sqrt();
@@ -515,7 +534,8 @@ fn flat_points(system: &LegSystem, inflection: &Middle) -> Vec<Middle> {
 /// The middle of a cluster, rounded, with its proof.
 pub(crate) type ProvedCluster = (ComplexPose, ClusterCertificate);
 
-/// Clusters of at most so many roots that are proved to lie near the pose, in ascending order; or why there is none of so many.
+/// Clusters of at most so many roots that are proved to lie near the pose, in ascending order; or why there is none of
+/// so many.
 pub(super) fn clusters_near<'a>(
     system: &'a LegSystem,
     pose: &ComplexPose,

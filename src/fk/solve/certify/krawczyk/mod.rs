@@ -14,9 +14,9 @@
 //!    as `kappa + beta (rho + r) < 1`.
 //! 3. The Jacobian at `h*` is regular: `|I - Y (J + 2 Q(h*, .))| <= kappa + 2 beta r < 1`.
 //!
-//! **Rounding.** Moduli are bounded by `|z|_1 = |re| + |im|`. A row of `Y J` or `Y F` is in each part a sum of 14 products;
-//! with the subtraction from the identity the `|.|_1` of its error is at most `gamma_15 sum |Y|_1 |J|_1 < 16 u sum`.
-//! `J` and `F` themselves carry the bounds of the `system` module.
+//! **Rounding.** Moduli are bounded by `|z|_1 = |re| + |im|`. A row of `Y J` or `Y F` is in each part a sum of 14
+//! products; with the subtraction from the identity the `|.|_1` of its error is at most
+//! `gamma_15 sum |Y|_1 |J|_1 < 16 u sum`. `J` and `F` themselves carry the bounds of the `system` module.
 
 use num_complex::Complex64;
 
@@ -44,7 +44,8 @@ pub(super) struct RootBall {
     pub(super) step: [Complex64; 8],
 }
 
-/// The three bounds of the theorem; `eta` is split into the part of the centre and the whole with the width of the data.
+/// The three bounds of the theorem; `eta` is split into the part of the centre and the whole with the width of the
+/// data.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct KrawczykBounds {
     pub(super) eta_centre: f64,
@@ -91,8 +92,8 @@ impl Centre<'_> {
 /// Digits with which the equations may be evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Digits {
-    /// Those of the centre: doubles, or values in double-double with an inverse in double; where that is not enough, differences of
-    /// the equations in double-double.
+    /// Those of the centre: doubles, or values in double-double with an inverse in double; where that is not enough,
+    /// differences of the equations in double-double.
     OfTheCentre,
     /// 256 bits, the inverse of the Jacobian included; for centres in double-double.
     Octuple,
@@ -196,7 +197,8 @@ fn radii(b: &KrawczykBounds) -> Result<RootBall, WhyUncertified> {
     if unique { Ok(proof) } else { Err(failure) }
 }
 
-/// The theorem: a ball that holds exactly one root, when the bounds prove one and the Newton step at the centre is at most `near`.
+/// The theorem: a ball that holds exactly one root, when the bounds prove one and the Newton step at the centre is at
+/// most `near`.
 pub(super) fn holds_one_root(b: &KrawczykBounds, near: f64) -> Result<RootBall, WhyUncertified> {
     // a NaN fails every one of these; 2^200 keeps products of bounds in range
     let regular = b.kappa < 1.0 && b.beta < 2f64.powi(200);

@@ -1,10 +1,12 @@
 //! Certificates for octahedral platforms, all sixteen poses at once.
 //!
-//! With base triangle `P1 P2 P3`, platform triangle `P4 P5 P6` and legs `14 24 25 35 36 16`, each corner of the platform is on a circle about a side of the base, and
-//! three angles are left, for which the three sides of the platform have to have their lengths (`circles.rs`). A regular zero of these three equations belongs to exactly one pose,
-//! regular too; its mirror image in the base plane has the opposite heights above that plane; theorem and proof: `docs/theory/certificates.md`. So a test in three unknowns certifies two poses, and their
-//! places follow by disc arithmetic (`poses.rs`). Coefficients are enclosed from the joints, each coordinate within its radius of a double, and from squared
-//! lengths as intervals. Nothing is shared with the solver but the order of the legs.
+//! With base triangle `P1 P2 P3`, platform triangle `P4 P5 P6` and legs `14 24 25 35 36 16`, each corner of the
+//! platform is on a circle about a side of the base, and three angles are left, for which the three sides of the
+//! platform have to have their lengths (`circles.rs`). A regular zero of these three equations belongs to exactly one
+//! pose, regular too; its mirror image in the base plane has the opposite heights above that plane; theorem and proof:
+//! `docs/theory/certificates.md`. So a test in three unknowns certifies two poses, and their places follow by disc
+//! arithmetic (`poses.rs`). Coefficients are enclosed from the joints, each coordinate within its radius of a double,
+//! and from squared lengths as intervals. Nothing is shared with the solver but the order of the legs.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -43,10 +45,12 @@ pub struct OctahedralCertifier {
     origins: [RealVector; 2],
 }
 
-/// Proof that exactly two poses, mirror images of each other in the base plane, have their corners near given ones, and that two given poses approximate them.
+/// Proof that exactly two poses, mirror images of each other in the base plane, have their corners near given ones, and
+/// that two given poses approximate them.
 ///
-/// About its side of the base each corner `k` is on a circle `h^2 + z^2 = rho`, `h` across the side in the plane of the base and `z` along `(P2 - P1) x (P3 - P1)`; with `u = h + i z`,
-/// `v = h - i z` that is `u v = rho`. Distance of two points of a circle: `|log|` of the ratio of their `u`, an angle; of two poses: the largest of the three.
+/// About its side of the base each corner `k` is on a circle `h^2 + z^2 = rho`, `h` across the side in the plane of the
+/// base and `z` along `(P2 - P1) x (P3 - P1)`; with `u = h + i z`, `v = h - i z` that is `u v = rho`. Distance of two
+/// points of a circle: `|log|` of the ratio of their `u`, an angle; of two poses: the largest of the three.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairCertificate {
     /// `u` of `P4`, `P5`, `P6` of the centre, design units: for pose `2k`. The other pose has `u` and `v` exchanged.
@@ -61,8 +65,9 @@ pub struct PairCertificate {
     pub uniqueness_radius: f64,
     /// What is proved about the two poses: both are real, or neither is.
     pub reality: ProvedReality,
-    /// The given poses are at most this far from the certified ones: entries of `R` relative to the larger of 1 and the largest of them, entries of `p` relative
-    /// to the larger of the power of two near the larger triangle and the largest of them.
+    /// The given poses are at most this far from the certified ones: entries of `R` relative to the larger of 1 and the
+    /// largest of them, entries of `p` relative to the larger of the power of two near the larger triangle and the
+    /// largest of them.
     pub deviation: f64,
     /// The same distances as they are, of the entries of `R` and of `p` (design units).
     pub distances: [f64; 2],
@@ -73,7 +78,8 @@ pub struct PairCertificate {
 }
 
 impl PairCertificate {
-    /// Proved: the poses of both certificates are different ones. Mirror images have the same distances across the sides.
+    /// Proved: the poses of both certificates are different ones. Mirror images have the same distances across the
+    /// sides.
     #[must_use]
     pub fn is_distinct_from(&self, other: &Self) -> bool {
         (0..3).any(|k| {
@@ -84,7 +90,8 @@ impl PairCertificate {
     }
 }
 
-/// Proof that exactly one root lies near a pose of an octahedral platform: the certificate of its pair, and which of its two poses it is.
+/// Proof that exactly one root lies near a pose of an octahedral platform: the certificate of its pair, and which of
+/// its two poses it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OctahedralCertificate {
     pub(super) order: [usize; 6],
@@ -106,7 +113,8 @@ impl OctahedralCertificate {
         &self.pair
     }
 
-    /// Whether the root is the mirror image, in the plane of the base triangle, of the pose that the numbers of the pair are for.
+    /// Whether the root is the mirror image, in the plane of the base triangle, of the pose that the numbers of the
+    /// pair are for.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
         self.mirrored
@@ -187,7 +195,8 @@ impl OctahedralCertifier {
         OctahedralCertificate { order: self.order, pair: *pair, mirrored, enclosure }
     }
 
-    /// Tries to prove that near each pose `2k` there is exactly one pose of the platform, and that pose `2k + 1` approximates its mirror image.
+    /// Tries to prove that near each pose `2k` there is exactly one pose of the platform, and that pose `2k + 1`
+    /// approximates its mirror image.
     ///
     /// `s` are the squared leg lengths in the design's order.
     #[must_use]
@@ -277,7 +286,8 @@ impl pulp::WithSimd for OctahedralProof<'_> {
 /// Coordinates and squared distances in units of the design stay below this, and products of eight of them in range.
 const LARGEST: f64 = (1u64 << 50) as f64;
 
-/// The equations are real, so that the conjugate of a zero is one; within the uniqueness ball it is the zero itself, and the pose is real. A corner that cannot be real proves the opposite.
+/// The equations are real, so that the conjugate of a zero is one; within the uniqueness ball it is the zero itself,
+/// and the pose is real. A corner that cannot be real proves the opposite.
 #[inline(always)]
 fn reality(found: &ZeroDiscs, k: usize) -> ProvedReality {
     let [above, below] = found.conjugates;

@@ -1,16 +1,18 @@
 //! From enclosed corners to the poses, and how far given poses are from these.
 //!
-//! **Poses.** `R = E^T F G`: rows of `E`, `G` are the frames of base and platform triangle, `F` is enclosed. Mirrored in the base plane the third
-//! coordinates of the corners change sign; the third axis is a cross product, so that `F` becomes `D F D`, `D = diag(1, 1, -1)`. With
-//! `F = F_e + F_o`, the part that keeps its signs and the part that changes them, `R = E^T F_e G +- E^T F_o G`. And `p = P1 + E^T c4 - R b4`.
+//! **Poses.** `R = E^T F G`: rows of `E`, `G` are the frames of base and platform triangle, `F` is enclosed. Mirrored
+//! in the base plane the third coordinates of the corners change sign; the third axis is a cross product, so that `F`
+//! becomes `D F D`, `D = diag(1, 1, -1)`. With `F = F_e + F_o`, the part that keeps its signs and the part that changes
+//! them, `R = E^T F_e G +- E^T F_o G`. And `p = P1 + E^T c4 - R b4`.
 //!
-//! **Bounds.** `E`, `G` are orthogonal and known up to `r_E`, `r_G <= 2^-10` an entry; entries of `F` up to `rho`, their moduli at most `M`.
-//! Entries are at most the spectral norm, and that is at most three times the largest entry:
+//! **Bounds.** `E`, `G` are orthogonal and known up to `r_E`, `r_G <= 2^-10` an entry; entries of `F` up to `rho`,
+//! their moduli at most `M`. Entries are at most the spectral norm, and that is at most three times the largest entry:
 //!
 //! * `|E'^T F' G' - E^T F G| <= 3 rho + 9 M (r_E + r_G) (1 + 3 r_G)`;
-//! * rounding: each term passes 7 roundings, column sums of `|E|`, `|G|` are at most `sqrt 3 (1 + 2^-8)`, two parts: below `40 u M`;
-//! * `p`: `2 rho_4 + 3 r_E M_4 + (bound of R) |b4|_1`, rounding `12 u (|a1| + 2 M_4 + M_R |b4|_1)`, and where the corners `a1`, `b4` are known within radii `r_a`, `r_b` a
-//!   coordinate `r_a + 3 r_b (M_R + bound of R)`.
+//! * rounding: each term passes 7 roundings, column sums of `|E|`, `|G|` are at most `sqrt 3 (1 + 2^-8)`, two parts:
+//!   below `40 u M`;
+//! * `p`: `2 rho_4 + 3 r_E M_4 + (bound of R) |b4|_1`, rounding `12 u (|a1| + 2 M_4 + M_R |b4|_1)`, and where the
+//!   corners `a1`, `b4` are known within radii `r_a`, `r_b` a coordinate `r_a + 3 r_b (M_R + bound of R)`.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -36,12 +38,15 @@ fn cross(a: &Points, b: &Points) -> Points {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The pose of the zero: that of the corners at the centre, with derivatives by the three `t` times the radius, and a bound of the rest.
+/// The pose of the zero: that of the corners at the centre, with derivatives by the three `t` times the radius, and a
+/// bound of the rest.
 ///
-/// The axes of the platform triangle are `x = (P5 - P4) / L`, `y = (P6 - P4 - U x) / H` and `x cross y`. Far out the corners are nearly isotropic vectors, nearly parallel to each other: cross products are much smaller than
-/// their factors, and a disc for each factor would say little about them. With `|exp(t) - 1 - t| <= |t|^2` for `|t| <= 1` a coordinate of a corner is within
-/// `(|u| + |v|) r^2` of its linear part; `x = x0 + dx + ex` and `y` likewise give for the product, coordinate by coordinate,
-/// `x0 cross y0 + (dx cross y0 + x0 cross dy)` up to twice `(|dx| + |ex|) (|dy| + |ey|) + |x0| |ey| + |ex| |y0|`.
+/// The axes of the platform triangle are `x = (P5 - P4) / L`, `y = (P6 - P4 - U x) / H` and `x cross y`. Far out the
+/// corners are nearly isotropic vectors, nearly parallel to each other: cross products are much smaller than their
+/// factors, and a disc for each factor would say little about them. With `|exp(t) - 1 - t| <= |t|^2` for `|t| <= 1` a
+/// coordinate of a corner is within `(|u| + |v|) r^2` of its linear part; `x = x0 + dx + ex` and `y` likewise give for
+/// the product, coordinate by coordinate, `x0 cross y0 + (dx cross y0 + x0 cross dy)` up to twice `(|dx| + |ex|)
+/// (|dy| + |ey|) + |x0| |ey| + |ex| |y0|`.
 #[inline(always)]
 pub(super) fn place(
     design: &OctahedralCertifier,

@@ -10,39 +10,46 @@
 //!
 //! `T` is skew, so the gradient of `F_i` is `v_i` by `g` and `-T_i v_i - s_i e` by `e`.
 //!
-//! **Error bounds.** `U` is the unit of the arithmetic at hand, `2^-53` or [`DoubleDouble::UNIT`], and `u = 2^-53`. A sum of products
-//! in which every term passes through at most `n` roundings is computed with error at most `gamma_n = nU/(1-nU)`
-//! times the sum of the terms' moduli (Higham 2002, lemma 3.1). Real coefficients act on real and
-//! imaginary parts alike, so that bounds by moduli hold for the moduli of the complex errors. `E >= |e_j|`, `G >= |g_j|`,
-//! `P >= sum |e_j|^2`, `t_i` >= the absolute row sums of `T_i`, `W_i` = sum of the `|v|^2` of the four computed components.
+//! **Error bounds.** `U` is the unit of the arithmetic at hand, `2^-53` or [`DoubleDouble::UNIT`], and `u = 2^-53`. A
+//! sum of products in which every term passes through at most `n` roundings is computed with error at most
+//! `gamma_n = nU/(1-nU)` times the sum of the terms' moduli (Higham 2002, lemma 3.1). Real coefficients act on real and
+//! imaginary parts alike, so that bounds by moduli hold for the moduli of the complex errors. `E >= |e_j|`,
+//! `G >= |g_j|`, `P >= sum |e_j|^2`, `t_i` >= the absolute row sums of `T_i`, `W_i` = sum of the `|v|^2` of the four
+//! computed components.
 //!
 //! * `v`: four terms with at most five roundings (entry of `T`, product, three sums): `delta_i = 5U (G + t_i E)`.
-//! * `F_i`: from `v`, `(1/2) sum |dv| (2|v| + |dv|) <= 2 delta sqrt W + 2 delta^2`; its own at most seven roundings in each part, factor
-//!   `sqrt 2` for two parts: `(sqrt 2 / 2) 7 U (W + s P) < 5U (W + s P)`.
-//! * joints known exactly have low parts as squared lengths have: data in double-double and with 256 bits, within the radii in double.
-//! * data: in double the squared length is the double nearest to its middle; what that leaves, `|s_low| P / 2` in `F_i` and `|s_low| e` in its
-//!   gradient, counts as rounding. In double-double it is part of the data.
+//! * `F_i`: from `v`, `(1/2) sum |dv| (2|v| + |dv|) <= 2 delta sqrt W + 2 delta^2`; its own at most seven roundings in
+//!   each part, factor `sqrt 2` for two parts: `(sqrt 2 / 2) 7 U (W + s P) < 5U (W + s P)`.
+//! * joints known exactly have low parts as squared lengths have: data in double-double and with 256 bits, within the
+//!   radii in double.
+//! * data: in double the squared length is the double nearest to its middle; what that leaves, `|s_low| P / 2` in `F_i`
+//!   and `|s_low| e` in its gradient, counts as rounding. In double-double it is part of the data.
 //! * `F_7`: five roundings, two parts: `sqrt 2 * 5 U * 4 E G < 32 U E G`.
 //! * gradient (always in double): `delta_i` by each `g_j`; `t_i delta_i + 5u (t_i sqrt W + s E)` by each `e_j`.
 //!
-//! **Joints within radii.** The coordinates of `a_i` and `b_i` may be any within radii of the doubles. Then `d` and `c` change by at most the sum of both radii a coordinate, and
-//! the absolute row sums of `T_i` by at most three times that, `tau_i`. With `V_i >= |v_i|` at the centre:
+//! **Joints within radii.** The coordinates of `a_i` and `b_i` may be any within radii of the doubles. Then `d` and `c`
+//! change by at most the sum of both radii a coordinate, and the absolute row sums of `T_i` by at most three times
+//! that, `tau_i`. With `V_i >= |v_i|` at the centre:
 //!
 //! * `v`: `omega = tau_i E` a component; `F_i`: `(1/2) sum |dv| (2|v| + |dv|) <= 2 omega V_i + 2 omega^2`, as above;
 //! * gradient: `omega` by each `g_j`; `T v` by `dT v + T dv + dT dv`, `tau_i V_i + (t_i + tau_i) omega` by each `e_j`;
-//! * `Q_i(h, k) = (w(h).w(k) - s h_e.k_e) / 2`, `w = h_g + T_i h_e`, on the unit polydisc: `|w_r| <= 1 + t_i`, `|dw_r| <= tau_i`, so
-//!   `(1/2) sum_r (2 (1 + t_i) tau_i + tau_i^2) = 4 (1 + t_i) tau_i + 2 tau_i^2`.
+//! * `Q_i(h, k) = (w(h).w(k) - s h_e.k_e) / 2`, `w = h_g + T_i h_e`, on the unit polydisc: `|w_r| <= 1 + t_i`,
+//!   `|dw_r| <= tau_i`, so `(1/2) sum_r (2 (1 + t_i) tau_i + tau_i^2) = 4 (1 + t_i) tau_i + 2 tau_i^2`.
 //!
 //! These are widths of the data, as those of the squared lengths are: what is proved is proved for every choice.
 //!
-//! **Second-order part of two vectors** (always in double, for the polar form of `F`, whose value on `h`, `h` is `F(h)` where `h_patch = 0`). With `D_h = delta_h + omega_h`, what rounding and radii
-//! do to a component of `w(h) = h_g + T h_e`, and `W_h = |w(h)|` as computed:
+//! **Second-order part of two vectors** (always in double, for the polar form of `F`, whose value on `h`, `h` is `F(h)`
+//! where `h_patch = 0`). With `D_h = delta_h + omega_h`, what rounding and radii do to a component of
+//! `w(h) = h_g + T h_e`, and `W_h = |w(h)|` as computed:
 //!
-//! * `Q_i(h, k) = (w(h).w(k) - s h_e.k_e) / 2`: from `w`, `D_h W_k + D_k W_h + 2 D_h D_k`; its own, as above, below `5U (W_h W_k + s sqrt(P_h P_k))`; the squared length's low part and radius,
-//!   half of their sum times `sqrt(P_h P_k)`.
-//! * `Q_7(h, k) = (h_e.k_g + k_e.h_g) / 2`: five roundings of eight products in each part, below `16U (E_h G_k + E_k G_h)`.
+//! * `Q_i(h, k) = (w(h).w(k) - s h_e.k_e) / 2`: from `w`, `D_h W_k + D_k W_h + 2 D_h D_k`; its own, as above, below
+//!   `5U (W_h W_k + s sqrt(P_h P_k))`; the squared length's low part and radius, half of their sum times
+//!   `sqrt(P_h P_k)`.
+//! * `Q_7(h, k) = (h_e.k_g + k_e.h_g) / 2`: five roundings of eight products in each part, below
+//!   `16U (E_h G_k + E_k G_h)`.
 //!
-//! `gamma_n < nU (1 + 2^-44)` and the rounding of the bounds themselves are covered by the factor [`UP`], underflow by [`TINY`].
+//! `gamma_n < nU (1 + 2^-44)` and the rounding of the bounds themselves are covered by the factor [`UP`], underflow by
+//! [`TINY`].
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -98,7 +105,8 @@ impl RealScalar for DoubleDouble {
     }
 }
 
-/// Squared leg lengths for a proof, design units squared. Negative numbers and unbounded intervals may be asked about; the latter have no certificates.
+/// Squared leg lengths for a proof, design units squared. Negative numbers and unbounded intervals may be asked about;
+/// the latter have no certificates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SquareData {
     pub(super) middle: [DoubleDouble; 6],
@@ -190,10 +198,12 @@ pub(super) struct LegSystem {
     /// How far from the middles the data may be.
     pub(super) s_radius: [f64; 6],
     pub(super) t: [f64; 6],
-    /// What the doubles leave of the joints: part of the data in double-double and with 256 bits, within the radii in double.
+    /// What the doubles leave of the joints: part of the data in double-double and with 256 bits, within the radii in
+    /// double.
     pub(super) a_low: [[f64; 3]; 6],
     pub(super) b_low: [[f64; 3]; 6],
-    /// `tau_i`: how much the radii of the joints may change the absolute row sums of `T_i`; zero for joints that are their doubles.
+    /// `tau_i`: how much the radii of the joints may change the absolute row sums of `T_i`; zero for joints that are
+    /// their doubles.
     pub(super) turn_radius: [f64; 6],
     /// The same beside the low parts.
     pub(super) low_turn_radius: [f64; 6],
@@ -311,7 +321,8 @@ impl LegSystem {
         Some(system)
     }
 
-    /// The same problem with lengths divided by a larger unit: `g` weighs less against `e` in the norm of the proofs. `None` when that is not exact.
+    /// The same problem with lengths divided by a larger unit: `g` weighs less against `e` in the norm of the proofs.
+    /// `None` when that is not exact.
     pub(super) fn coarser(&self, factor: f64) -> Option<Self> {
         let (inverse, mut system) = (factor.recip(), Self::empty(self.unit * factor));
         for i in 0..6 {
@@ -365,7 +376,8 @@ impl LegSystem {
         self.q[i] = (own + self.joint_width_of_second_order(i)) * UP;
     }
 
-    /// How far `F_i` changes over the joints' radii at a point with coordinates `e` of modulus at most `e` and a leg vector of norm at most `v`.
+    /// How far `F_i` changes over the joints' radii at a point with coordinates `e` of modulus at most `e` and a leg
+    /// vector of norm at most `v`.
     pub(super) fn joint_width_of_value(&self, i: usize, e: f64, v: f64) -> f64 {
         width_of_value(self.turn_radius[i], e, v)
     }
@@ -527,7 +539,8 @@ impl LegSystem {
         (value, error)
     }
 
-    /// Bounds `|sum_i y_i Q_i(h, k)|` on the unit polydisc, `weights` being the `|y_i|_1`; see the `second_order` module.
+    /// Bounds `|sum_i y_i Q_i(h, k)|` on the unit polydisc, `weights` being the `|y_i|_1`; see the `second_order`
+    /// module.
     pub(super) fn second_order_bound(
         &self,
         y_re: &[f64; 8],

@@ -17,12 +17,14 @@ use records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 pub(crate) struct BuildDrivesArgs {
     /// Design file (.toml or .json) with its home pose, workspace, limits and loads
     design: PathBuf,
-    /// Table of drives (.csv), that of the design (`drives` in `[hardware]`) when absent; its first line names the columns and their units: name, stroke, dead or retracted length, force, speed, mass, stiffness, price, source
+    /// Table of drives (.csv), that of the design (`drives` in `[hardware]`) when absent; its first line names the
+    /// columns and their units: name, stroke, dead or retracted length, force, speed, mass, stiffness, price, source
     table: Option<PathBuf>,
     /// A table with a time in seconds and a pose a line, along which the drives have to be fast and strong enough too
     #[arg(long, value_name = "FILE")]
     trajectory: Option<PathBuf>,
-    /// A sine about home, as often as there are some: x, y, z (design units), roll, pitch or yaw (degrees), amplitude and frequency
+    /// A sine about home, as often as there are some: x, y, z (design units), roll, pitch or yaw (degrees), amplitude
+    /// and frequency
     #[arg(long, value_name = "AXIS:AMPLITUDE:HERTZ", allow_hyphen_values = true)]
     sine: Vec<String>,
     /// An acceleration from rest at home, design units or degrees per second squared, as often as there are some

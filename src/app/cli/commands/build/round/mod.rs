@@ -37,7 +37,8 @@ pub(crate) struct BuildRoundArgs {
     /// How the holes of the platform lie; as those of --pattern when absent
     #[arg(long, value_enum, value_name = "PATTERN")]
     pattern_platform: Option<PatternWord>,
-    /// Position of one hole of the base grid, in the plane of the base joints; 0,0 where neither this nor the design says it
+    /// Position of one hole of the base grid, in the plane of the base joints; 0,0 where neither this nor the design
+    /// says it
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     origin: Option<String>,
     /// Position of one hole of the platform grid
@@ -93,7 +94,8 @@ impl From<PatternWord> for HolePattern {
 /// Which rounding is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum Variant {
-    /// The exact rounding when it meets the requirements and keeps the share of --keep, else the nearest, else the exact one; where neither meets them the one that misses them least
+    /// The exact rounding when it meets the requirements and keeps the share of --keep, else the nearest, else the
+    /// exact one; where neither meets them the one that misses them least
     Rule,
     /// All joints lie exactly on the sides of two triangles
     Exact,

@@ -12,7 +12,8 @@ pub(in crate::app::cli::commands) struct RoundReport<'a> {
     pub(in crate::app::cli::commands) choices: &'a RoundingChoices,
     pub(in crate::app::cli::commands) found: &'a Rounding,
     pub(in crate::app::cli::commands) rounded: Option<(RoundingWay, &'a Design)>,
-    /// The rounded design is that of the rule or of the variant asked for, not the one that misses the requirements least.
+    /// The rounded design is that of the rule or of the variant asked for, not the one that misses the requirements
+    /// least.
     pub(in crate::app::cli::commands) is_taken: bool,
     pub(in crate::app::cli::commands) assessment: Option<AssessAnswer>,
     pub(in crate::app::cli::commands) written: Option<&'a str>,

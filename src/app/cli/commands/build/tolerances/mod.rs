@@ -42,13 +42,16 @@ pub(crate) struct BuildTolerancesArgs {
     /// Number of random joint errors and poses that are solved
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     trials: u32,
-    /// Also say how uncertain computed poses are by the calibration table of the design, and draw errors of joints and offsets with its standard deviations and correlations
+    /// Also say how uncertain computed poses are by the calibration table of the design, and draw errors of joints and
+    /// offsets with its standard deviations and correlations
     #[arg(long)]
     calibrated: bool,
-    /// Greatest error of each joint in any direction for the map of errors, design units; the radius that keeps the bound when absent
+    /// Greatest error of each joint in any direction for the map of errors, design units; the radius that keeps the
+    /// bound when absent
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     joint_error: Option<f64>,
-    /// Greatest difference between the length of a leg and the one it shows, design units: homing, backlash, pitch of the screw
+    /// Greatest difference between the length of a leg and the one it shows, design units: homing, backlash, pitch of
+    /// the screw
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     length_error: Option<f64>,
     /// Growth of base, platform and legs by temperature, as shares: degrees times coefficient of expansion
@@ -83,10 +86,11 @@ pub(super) struct ToleranceReports {
 /// The first order against poses that are solved.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Solved {
-    /// The largest share of a bound that was used up: by the worst errors at their pose, either way, and by random errors in the budget. `None` where a pose could
-    /// not be followed.
+    /// The largest share of a bound that was used up: by the worst errors at their pose, either way, and by random
+    /// errors in the budget. `None` where a pose could not be followed.
     pub(super) share: Option<f64>,
-    /// A radius, not above that of the budget, with which the worst errors at their pose keep the bound when they are solved, either way.
+    /// A radius, not above that of the budget, with which the worst errors at their pose keep the bound when they are
+    /// solved, either way.
     pub(super) radius: Option<f64>,
 }
 
@@ -137,7 +141,8 @@ fn asked(bound: &str, tool: &str) -> Result<(ErrorBound, Point3<f64>), Failure> 
 /// The greatest error that every joint may have in any direction, design units, for a bound and a tool point.
 ///
 /// # Errors
-/// Exit 1: singular poses in the workspace, or no radius that keeps the bound when it is solved. Exit 2: numbers that cannot be read.
+/// Exit 1: singular poses in the workspace, or no radius that keeps the bound when it is solved. Exit 2: numbers that
+/// cannot be read.
 pub(in crate::app::cli::commands) fn joint_radius(
     design: &Design,
     (bound, tool): (&str, &str),
@@ -235,7 +240,8 @@ fn uncertainty(design: &Design) -> Result<MachineUncertainty, Failure> {
     })
 }
 
-/// The covariances of the poses of the workspace: the corners and a sample of the region, and the poses that are listed.
+/// The covariances of the poses of the workspace: the corners and a sample of the region, and the poses that are
+/// listed.
 fn computed_poses(
     design: &Design,
     known: &MachineUncertainty,

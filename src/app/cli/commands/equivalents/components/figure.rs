@@ -11,7 +11,8 @@ use synthesis::components::{Components, FlatPair, PlaneCurve, PlanePair, flat_na
 /// Corresponding points that are marked.
 const MARKS: usize = 8;
 
-/// The picture of all pairs of planes, those with most legs first, or of one (`wanted`, an index of `pairs`); `None` when there is none.
+/// The picture of all pairs of planes, those with most legs first, or of one (`wanted`, an index of `pairs`); `None`
+/// when there is none.
 pub(super) fn picture(
     design: &Design,
     found: &Components,

@@ -110,7 +110,8 @@ impl JudgedPlatform<'_> {
     }
 }
 
-/// The platforms as designs with their requirements; those that fulfil everything come first, in the order of the search.
+/// The platforms as designs with their requirements; those that fulfil everything come first, in the order of the
+/// search.
 fn judged<'a>(design: &Design, outcome: &'a SearchOutcome, seed: u64) -> Vec<JudgedPlatform<'a>> {
     let judge = |candidate: &'a Candidate| {
         let shares: Vec<f64> = candidate.placements.iter().flat_map(|p| p.parameters.clone()).collect();

@@ -1,4 +1,5 @@
-//! `equipod equivalents move`: legs moved along families of replaceable legs, and the search for an equivalent platform.
+//! `equipod equivalents move`: legs moved along families of replaceable legs, and the search for an equivalent
+//! platform.
 
 pub(in crate::app::cli::commands) mod found;
 mod naming;
@@ -31,13 +32,15 @@ pub(crate) struct EquivalentsMoveArgs {
     /// Number of the leg to move, 1 to 6
     #[arg(long, value_name = "LEG", requires_all = ["along", "to"])]
     leg: Option<String>,
-    /// Family of the leg: its number in `equipod equivalents components`, or the joints that span it, for instance P1:P4-P5 for the legs from P1 to the line P4 P5
+    /// Family of the leg: its number in `equipod equivalents components`, or the joints that span it, for instance
+    /// P1:P4-P5 for the legs from P1 to the line P4 P5
     #[arg(long, value_name = "FAMILY", requires = "leg")]
     along: Option<String>,
     /// Parameters of the new leg in the family
     #[arg(long, value_name = "T[,U,..]", allow_hyphen_values = true, requires = "leg")]
     to: Option<String>,
-    /// Leg, family and parameters in one word, for instance 1:3:0.25 or 1:P1:P4-P5:0.25; repeat the option for several moves
+    /// Leg, family and parameters in one word, for instance 1:3:0.25 or 1:P1:P4-P5:0.25; repeat the option for several
+    /// moves
     #[arg(long = "move", value_name = "LEG:FAMILY:T[,U,..]", conflicts_with = "leg")]
     moves: Vec<String>,
     /// Make all moves at once, along families of the given design, instead of one after another

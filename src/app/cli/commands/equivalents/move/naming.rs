@@ -23,8 +23,8 @@ pub(super) struct Meant {
     pub(super) formulas: Option<Parametrisation>,
 }
 
-/// The family that is meant. Joint names are those of `given`, at the places they have there, which families keep; joints that
-/// only `current` has can be named too.
+/// The family that is meant. Joint names are those of `given`, at the places they have there, which families keep;
+/// joints that only `current` has can be named too.
 pub(super) fn resolve(
     along: &NamedFamily,
     given: &Design,
@@ -130,10 +130,11 @@ pub(super) fn list_families(design: &Design, found: &Components) -> Result<Strin
     Ok(format!("families, with the legs they can replace: {}", entries.join("; ")))
 }
 
-/// The design with the joints of the new platform: one that all legs left keeps its name where the first of them goes, the ends of others that left get the
-/// name with a letter. `None` when the legs make no platform.
+/// The design with the joints of the new platform: one that all legs left keeps its name where the first of them goes,
+/// the ends of others that left get the name with a letter. `None` when the legs make no platform.
 ///
-/// A new joint that is at one of the `shares` of the way between two joints that stay is constructed there: then it is exact.
+/// A new joint that is at one of the `shares` of the way between two joints that stay is constructed there: then it is
+/// exact.
 pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[f64]) -> Option<Design> {
     let platform = new.platform.clone().ok()?;
     let points = [platform.base_joints().to_vec(), platform.platform_joints().to_vec()];

@@ -26,7 +26,8 @@ pub(in crate::app::cli::commands) struct WishArgs {
     /// Search: the joint of this name moves here, with one of its legs; repeat the option for several
     #[arg(long, value_name = "NAME=X,Y,Z")]
     joint: Vec<String>,
-    /// Search: least distance between two joints of one body; that of the design when absent, else a hundredth of its size
+    /// Search: least distance between two joints of one body; that of the design when absent, else a hundredth of its
+    /// size
     #[arg(long, value_name = "D")]
     spacing: Option<f64>,
     /// Search: least inverse condition number of the Jacobian; a tenth of the design's when absent

@@ -40,7 +40,8 @@ pub(crate) struct EquivalentsTopologiesArgs {
     /// Write a representative design (T01.toml, ...) and a picture (T01.svg, ...) of each into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<OutputPath>,
-    /// Say also what equivalent rearrangement can do for each, with bodies in space or in a plane: the fewest shared joints, octahedral or not; with -o, write the designs that show it
+    /// Say also what equivalent rearrangement can do for each, with bodies in space or in a plane: the fewest shared
+    /// joints, octahedral or not; with -o, write the designs that show it
     #[arg(long)]
     rearrangements: bool,
 }

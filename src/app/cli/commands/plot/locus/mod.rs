@@ -39,7 +39,8 @@ pub(crate) struct PlotLocusArgs {
     /// Number of lengths, both ends included
     #[arg(long, value_name = "N", default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     steps: u32,
-    /// Virtual leg, named by its joints; the first that trilateration needs when absent, else the first pair that no leg joins
+    /// Virtual leg, named by its joints; the first that trilateration needs when absent, else the first pair that no
+    /// leg joins
     #[arg(long, value_name = "BASE,PLATFORM")]
     between: Option<String>,
     /// Method of solution; auto takes the best one for the design
@@ -228,7 +229,8 @@ fn named(text: &str, design: &Design) -> Result<VirtualLeg, Failure> {
     Ok(between(design, pair))
 }
 
-/// The first virtual leg of the shortest trilateration sequence; for a design that needs none the first pair that no leg joins.
+/// The first virtual leg of the shortest trilateration sequence; for a design that needs none the first pair that no
+/// leg joins.
 fn default_pair(m: &Manipulator) -> Result<(usize, usize), Failure> {
     let pairs = m.pairs();
     let topology = Topology::unordered(pairs.map(|p| p.0), pairs.map(|p| p.1));

@@ -39,7 +39,8 @@ pub(crate) struct CurveQuestion {
     /// Six lengths instead of a pose: find all real components of the poses with these lengths
     #[arg(long, value_name = "L1,..,L6", conflicts_with = "pose")]
     lengths: Option<String>,
-    /// Number of random sections by which all curves over the complex numbers are cut; 0 follows only what hangs together with the pose
+    /// Number of random sections by which all curves over the complex numbers are cut; 0 follows only what hangs
+    /// together with the pose
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..=100))]
     sections: u64,
     /// Largest turn of the tangent from point to point, radians

@@ -28,8 +28,8 @@ pub(crate) struct SingularPosesArgs {
     /// Six lengths at which all assembly modes are judged; those of the pose when absent
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
-    /// Shape of the box: half widths of translations (design units) and components of the rotation vector (degrees); without it
-    /// the workspace of the design, box or ellipsoid, else half its size and 30 degrees
+    /// Shape of the box: half widths of translations (design units) and components of the rotation vector (degrees);
+    /// without it the workspace of the design, box or ellipsoid, else half its size and 30 degrees
     #[arg(long = "box", value_name = "X,Y,Z,RX,RY,RZ")]
     shape: Option<String>,
     /// Greatest number of cells of the region of poses over which det J is bounded to prove the box
@@ -41,7 +41,8 @@ pub(crate) struct SingularPosesArgs {
     /// Two freedoms of that picture: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
     #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse, requires = "svg")]
     slice: Freedoms,
-    /// Compute det J along the straight path between two assembly modes, by their numbers in the list; 0 is the pose of --pose
+    /// Compute det J along the straight path between two assembly modes, by their numbers in the list; 0 is the pose of
+    /// --pose
     #[arg(long, value_name = "I,J")]
     path: Option<String>,
     /// A pose that the path passes through; repeat the option for several, in order
@@ -53,7 +54,8 @@ pub(crate) struct SingularPosesArgs {
     /// Write a picture of det J along that path
     #[arg(long, value_name = "FILE", requires = "path")]
     path_svg: Option<OutputPath>,
-    /// Compute det J along the straight paths between all assembly modes, and find which modes other paths join without a singular pose
+    /// Compute det J along the straight paths between all assembly modes, and find which modes other paths join without
+    /// a singular pose
     #[arg(long)]
     between: bool,
     /// Number of random poses drawn in the search for such paths, for each sign of det J

@@ -12,7 +12,8 @@ const SIDE: usize = 161;
 /// Rotations shown each way, degrees.
 const DEGREES: f64 = 90.0;
 
-/// `det J` about the pose: positions three times the box and at least 1.5 times the size, rotations 90 degrees each way.
+/// `det J` about the pose: positions three times the box and at least 1.5 times the size, rotations 90 degrees each
+/// way.
 pub(crate) fn figure(design: &Design, freedoms: Freedoms, pose: &Pose, options: &BoxOptions) -> SliceFigure {
     let m = design.manipulator();
     let places = freedoms.places();

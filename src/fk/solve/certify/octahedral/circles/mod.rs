@@ -1,11 +1,14 @@
 //! Three corners on three circles, and Krawczyk's test for their angles, eight centres at once.
 //!
-//! **Circles.** Two legs to neighbouring base joints `A`, `B` put a corner of the platform on a circle about the line `AB`: in the frame of the base triangle it is
-//! `m + h a + z n`, with `m` a point of `AB`, `a` across `AB` in the plane of the base, `n` normal to that plane, and `h^2 + z^2 = rho`. With `u = h + i z`, `v = h - i z` that is
-//! `u v = rho`: where `rho != 0` the circle, over the complex numbers, is run through by `u = c exp(t)`, `v = rho / u` for any `c != 0`; `t` is `i` times an angle. A corner so given is on its circle whatever
-//! `u` is, and has all its digits where `h` and `z` are large and nearly `+- i` times each other.
+//! **Circles.** Two legs to neighbouring base joints `A`, `B` put a corner of the platform on a circle about the line
+//! `AB`: in the frame of the base triangle it is `m + h a + z n`, with `m` a point of `AB`, `a` across `AB` in the
+//! plane of the base, `n` normal to that plane, and `h^2 + z^2 = rho`. With `u = h + i z`, `v = h - i z` that is
+//! `u v = rho`: where `rho != 0` the circle, over the complex numbers, is run through by `u = c exp(t)`, `v = rho / u`
+//! for any `c != 0`; `t` is `i` times an angle. A corner so given is on its circle whatever `u` is, and has all its
+//! digits where `h` and `z` are large and nearly `+- i` times each other.
 //!
-//! **Gaps.** For corners on two circles, `(u, v)` for `P` and `(p, q)` for `Q`, with `m` the difference of the middles `m_P - m_Q`,
+//! **Gaps.** For corners on two circles, `(u, v)` for `P` and `(p, q)` for `Q`, with `m` the difference of the middles
+//! `m_P - m_Q`,
 //!
 //! ```text
 //! G = |P - Q|^2 - d = c + a (u + v) + b (p + q) + A (u p + v q) - B (u q + v p)
@@ -15,15 +18,17 @@
 //!
 //! The poses are the common zeros of the three gaps `45, 56, 64`.
 //!
-//! **The test.** Norm: the largest modulus of the three `t`. Within [`REACH`] no `u`, `v` grows by more than `exp(REACH)`, so that with bounds `U, V, P, Q` of the four
-//! there the second derivatives are at most `|a| (U + V) + X`, `X` and `|b| (P + Q) + X`, `X = A (U P + V Q) + B (U Q + V P)`, and
+//! **The test.** Norm: the largest modulus of the three `t`. Within [`REACH`] no `u`, `v` grows by more than
+//! `exp(REACH)`, so that with bounds `U, V, P, Q` of the four there the second derivatives are at most
+//! `|a| (U + V) + X`, `X` and `|b| (P + Q) + X`, `X = A (U P + V Q) + B (U Q + V P)`, and
 //!
 //! ```text
 //! q = (|a| (U + V) + |b| (P + Q)) / 2 + 2 X,   |Y G(c)| <= eta,   |I - Y J(c)| <= kappa,   beta = max_k sum_i |Y_ki| q_i
 //! ```
 //!
-//! take the places of the numbers of the same names in the theorem of `docs/theory/certificates.md`: the remainder `R(h)` of `G(c) + J h` has
-//! `|R_i(h)| <= q_i |h|^2` and `|R_i(h) - R_i(k)| <= q_i (|h| + |k|) |h - k|`, by the mean of the derivative along the way.
+//! take the places of the numbers of the same names in the theorem of `docs/theory/certificates.md`: the remainder
+//! `R(h)` of `G(c) + J h` has `|R_i(h)| <= q_i |h|^2` and `|R_i(h) - R_i(k)| <= q_i (|h| + |k|) |h - k|`, by the mean
+//! of the derivative along the way.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -32,7 +37,8 @@ use super::arithmetic::{CertifiedTriangle, Discs, Reals, reciprocal, root, sizes
 use num::ball::{Real, UP};
 use num::batch::{ComplexBatch, LANES};
 
-/// The sides of the base triangle about which `P4`, `P5`, `P6` turn: `P1 P2`, `P2 P3`, `P3 P1`, in the frame of the triangle.
+/// The sides of the base triangle about which `P4`, `P5`, `P6` turn: `P1 P2`, `P2 P3`, `P3 P1`, in the frame of the
+/// triangle.
 #[derive(Debug, Clone)]
 pub(super) struct BaseSides {
     start: [[Real; 2]; 3],
@@ -131,9 +137,11 @@ impl CornerGap {
         [value.plus(self.constant.centre), turned_u - across, turned_p + across]
     }
 
-    /// Bounds of the errors of [`rounded`](Self::rounded), alike for all three, and `q`. `[u, v]`, `[p, q]` are moduli, where `v` and `q` are known up to `loose` times theirs.
+    /// Bounds of the errors of [`rounded`](Self::rounded), alike for all three, and `q`. `[u, v]`, `[p, q]` are moduli,
+    /// where `v` and `q` are known up to `loose` times theirs.
     ///
-    /// A term passes seven roundings at most, that of a complex product counted by its bound `sqrt 5 U`; the coefficients have their radii.
+    /// A term passes seven roundings at most, that of a complex product counted by its bound `sqrt 5 U`; the
+    /// coefficients have their radii.
     #[inline(always)]
     fn errors(&self, [u, v]: &[Reals; 2], [p, q]: &[Reals; 2], loose: [f64; 2]) -> [Reals; 2] {
         let ([uv, pq], [same, other]) = ([*u + *v, *p + *q], [*u * *p + *v * *q, *u * *q + *v * *p]);
@@ -220,14 +228,16 @@ fn gaps_at(gaps: &[CornerGap; 3], corners: &[OnCircle; 3]) -> [[ComplexBatch; 3]
     out
 }
 
-/// Decides for each lane whether some disc about the corners `(h, z)` given holds exactly one zero of the three gaps. One Newton step comes first.
+/// Decides for each lane whether some disc about the corners `(h, z)` given holds exactly one zero of the three gaps.
+/// One Newton step comes first.
 #[inline(always)]
 pub(super) fn one_zero_about(
     circles: &[CornerCircle; 3],
     gaps: &[CornerGap; 3],
     given: &[OnCircle; 3],
 ) -> ZeroDiscs {
-    // loops all through: `map` of an array of batches is now and then a function of its own, compiled without vector units
+    // loops all through: `map` of an array of batches is now and then a function of its own, compiled without vector
+    // units
     let mut centres = [ComplexBatch::ZERO; 3];
     for k in 0..3 {
         centres[k] = larger(&given[k], circles[k].squared_radius.centre);
@@ -318,7 +328,8 @@ pub(super) fn one_zero_about(
     out
 }
 
-/// Upper bounds of `|u|` and `|v|`, where `v` is known up to `loose` times its modulus: with a squared radius known within wide bounds that is more than the slack of [`STRETCH`].
+/// Upper bounds of `|u|` and `|v|`, where `v` is known up to `loose` times its modulus: with a squared radius known
+/// within wide bounds that is more than the slack of [`STRETCH`].
 #[inline(always)]
 fn moduli_of([u, v]: &OnCircle, loose: f64) -> [Reals; 2] {
     [modulus(u), modulus(v).times(1.0 + loose).up()]
@@ -343,10 +354,11 @@ fn larger([h, z]: &OnCircle, rho: f64) -> ComplexBatch {
     u.select(v.reciprocal().times(rho), first)
 }
 
-/// How far a centre is from its conjugate: bounds from above and below of `|log(rho / |u|^2)|`, the first NaN where the circle may have no real points, the second infinite where it has none.
+/// How far a centre is from its conjugate: bounds from above and below of `|log(rho / |u|^2)|`, the first NaN where the
+/// circle may have no real points, the second infinite where it has none.
 ///
-/// The conjugate of the corner with `u` has `conj(v) = rho / conj(u) = u rho / |u|^2` in its place: for `rho > 0` it is at `t = log(rho / |u|^2)`, which is real. A corner at `t` is real
-/// only for `2 Re t = log(rho / |u|^2)`.
+/// The conjugate of the corner with `u` has `conj(v) = rho / conj(u) = u rho / |u|^2` in its place: for `rho > 0` it is
+/// at `t = log(rho / |u|^2)`, which is real. A corner at `t` is real only for `2 Re t = log(rho / |u|^2)`.
 #[inline(always)]
 fn from_conjugate(u: &ComplexBatch, rho: Real) -> [Reals; 2] {
     let (low, high) = (rho.centre - rho.radius, rho.centre + rho.radius);

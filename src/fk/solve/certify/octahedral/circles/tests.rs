@@ -15,7 +15,8 @@ struct ExactCorner {
     height: Exact,
 }
 
-/// A corner on the circle of squared lengths `s` about the side from `start` along `along`, a rational unit vector, of length `length`.
+/// A corner on the circle of squared lengths `s` about the side from `start` along `along`, a rational unit vector, of
+/// length `length`.
 fn corner(start: [i64; 2], along: [(i64, i64); 2], length: i64, s: [f64; 2], u: f64) -> ExactCorner {
     let whole = |n: i64| Exact::from_integer(n.into());
     let along = along.map(|(n, d)| Exact::new(n.into(), d.into()));
@@ -29,7 +30,8 @@ fn corner(start: [i64; 2], along: [(i64, i64); 2], length: i64, s: [f64; 2], u: 
     ExactCorner { place, height }
 }
 
-/// A triangle with sides 3, 5, 4 and frames in whole numbers: the rounded gaps are within their bounds of the squared distances over the rationals.
+/// A triangle with sides 3, 5, 4 and frames in whole numbers: the rounded gaps are within their bounds of the squared
+/// distances over the rationals.
 #[test]
 fn gaps_are_squared_distances_over_the_rationals() {
     let points = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
