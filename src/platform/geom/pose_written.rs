@@ -90,7 +90,7 @@ impl PoseQuaternionRecord {
     /// Writes a pose in this form: the function of `serialize_with`.
     ///
     /// # Errors
-    /// Those of the serializer.
+    /// As of [`Serialize::serialize`].
     pub fn write<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
         Self::from(pose).serialize(to)
     }
@@ -98,7 +98,7 @@ impl PoseQuaternionRecord {
     /// Reads a pose in this form: the function of `deserialize_with`.
     ///
     /// # Errors
-    /// Those of the deserializer.
+    /// As of [`Deserialize::deserialize`].
     pub fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Pose, D::Error> {
         Self::deserialize(from).map(|record| Pose::from(&record))
     }

@@ -20,7 +20,6 @@ CompletenessWord = Literal["modular", "proved", "unproved"]
 CorrelationsWord = Literal["design", "independent"]
 CountUndecided = Literal["degree_too_low", "joints_not_exact", "no_prime_drawn", "primes_disagree"]
 CountedLengths = Literal["generic", "given"]
-DesignFixedTo = Literal["base", "platform"]
 DesignObjective = Literal[
     "joint_spacing",
     "leg_clearance",
@@ -954,6 +953,8 @@ class Design(Record):
     source: Union[str, None]
     #: free text
     description: Union[str, None]
+    #: of the design, as its drawings and parts name it
+    revision: Union[str, None]
     #: `prismatic`: legs change their lengths; `rotary`: the legs are rods of constant length on cranks,
     #: the base joints are the centres of the cranks, and `[cranks]` is required
     drive: Union[Literal["prismatic", "rotary"], None]
@@ -968,18 +969,6 @@ class Design(Record):
     home: Union[DesignHomePose, None]
     #: the poses to reach
     workspace: Union[dict[str, Any], None]
-    #: what the platform carries
-    payload: Union[dict[str, Any], None]
-    #: what `equipod calibrate` found beside the joints
-    calibration: Union[dict[str, Any], None]
-    #: room that plates and machine may take up
-    envelope: Union[dict[str, Any], None]
-    #: grids of holes that the joints have to be put on, of both plates or of one
-    holes: Union[dict[str, Any], None]
-    #: the plates that carry the joints: sizes, material, holes and bolts
-    plates: Union[dict[str, Any], None]
-    #: what has to remain of each limit
-    limits: Union[dict[str, Any], None]
     #: what the optimiser chooses, and by what
     optimize: Union[dict[str, Any], None]
     #: sizes and limits of joints, legs and drives
@@ -992,6 +981,18 @@ class Design(Record):
     loads: Union[tuple[dict[str, Any], ...], None]
     #: bodies the legs must not touch, each a box, a sphere or a capsule
     keep_out: Union[tuple[Any, ...], None]
+    #: what the platform carries
+    payload: Union[dict[str, Any], None]
+    #: room that plates and machine may take up
+    envelope: Union[dict[str, Any], None]
+    #: grids of holes that the joints have to be put on, of both plates or of one
+    holes: Union[dict[str, Any], None]
+    #: the plates that carry the joints: sizes, material, holes and bolts
+    plates: Union[dict[str, Any], None]
+    #: what has to remain of each limit
+    limits: Union[dict[str, Any], None]
+    #: what `equipod calibrate` found beside the joints
+    calibration: Union[dict[str, Any], None]
 
 
 class DesignBolts(Record):
@@ -1028,18 +1029,19 @@ class DesignCapsule(Record):
 class DesignCrank(Record):
     """DesignCrank"""
 
-    #: as that of all cranks
+    #: of each crank, from its centre to its tip
     length: Union[DesignQuantity, None]
-    #: as that of all cranks
+    #: of each rod, from the tip to the platform joint
     rod_length: Union[DesignQuantity, None]
-    #: as that of all cranks
-    axis: Union[DesignQuantities, None]
-    #: as that of all cranks
-    zero: Union[DesignQuantities, None]
-    #: as that of all cranks
+    #: direction of the axis, base frame; angles count about it by the right hand
+    axis: Union[tuple[DesignQuantity, ...], None]
+    #: direction of the tip at the angle 0, base frame; what of it is along the axis is left out
+    zero: Union[tuple[DesignQuantity, ...], None]
+    #: the side that the crank stays on: the greater or the smaller of the two angles around the one at
+    #: which the tip is nearest to the platform joint
     elbow: Union[Literal["plus", "minus"], None]
-    #: as that of all cranks
-    angle_deg: Union[DesignQuantityPair, None]
+    #: `[least, greatest]` angle, degrees; none when absent
+    angle_deg: Union[tuple[DesignQuantity, ...], None]
     #: the base joint of another crank: this one has its values, with axis and zero turned about the z axis
     #: of the base frame
     turn: Union[str, None]
@@ -1055,9 +1057,13 @@ class DesignCrank(Record):
 class DesignEnvelope(Record):
     """DesignEnvelope"""
 
+    #: of a cylinder about a line along the z axis
     radius: Union[DesignPositive, None]
+    #: of the cylinder
     center: Union[tuple[DesignNumber, ...], None]
+    #: the least coordinates of a box
     min: Union[DesignVector, None]
+    #: the greatest coordinates of a box
     max: Union[DesignVector, None]
 
 
@@ -1085,10 +1091,10 @@ class DesignHomePose(Record):
     """DesignHomePose"""
 
     #: of the platform origin, base frame
-    position: DesignQuantities
+    position: tuple[DesignQuantity, ...]
     #: roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; exactly one of `rpy_deg`, `quat_wxyz`
     #: and `rotation` is there
-    rpy_deg: Union[DesignQuantities, None]
+    rpy_deg: Union[tuple[DesignQuantity, ...], None]
     #: scalar part first, of norm 1 within 1e-3; it is normalised
     quat_wxyz: Union[DesignQuaternion, None]
     #: rows of R, orthonormal within 1e-9 and right-handed; taken as it is
@@ -1104,9 +1110,6 @@ class DesignJointModel(Record):
     #: universal: direction of the first axis in the frame of the body, one for all joints or six in leg
     #: order, in a list of tables one; required
     first_axis: Union[DesignVector, tuple[DesignVector, ...], None]
-    #: greatest angle between the leg and the axis of the joint, in place of that of the body
-    #: (`base_swing_deg`, `platform_swing_deg`)
-    swing_deg: Union[float, None]
     #: universal: greatest angles about the first and about the second axis, either way, degrees; none when
     #: absent
     angle_deg: Union[tuple[float, float], None]
@@ -1115,6 +1118,9 @@ class DesignJointModel(Record):
     #: the room that the joint takes up, in place of that of the body: a diameter, or edge lengths of a box
     #: along the axes of the body
     housing: Union[DesignHousing, None]
+    #: greatest angle between the leg and the axis of the joint, in place of that of the body
+    #: (`base_swing_deg`, `platform_swing_deg`)
+    swing_deg: Union[float, None]
     #: flexure: torque over angle, force units times design units per radian; required
     bending_stiffness: Union[DesignPositive, None]
 
@@ -4217,8 +4223,6 @@ class WorstPoseRecord(Record):
 
 DemandWord = Union[TermKind, Objective, SpecialDemand]
 
-DesignJointModels = Union[DesignJointModel, tuple[DesignJointModel, ...]]
-
 DesignNotNegative = float
 
 DesignNumber = float
@@ -4249,14 +4253,8 @@ DesignVector = tuple[DesignNumber, ...]
 
 DesignAxes = Union[Literal["home", "normal", "optimize"], DesignVector, tuple[Union[Literal["normal"], DesignVector], ...]]
 
+DesignBody = dict[str, Union[tuple[DesignQuantity, ...], Any, dict[str, Any]]]
+
 DesignHousing = Union[DesignPositive, DesignEdges]
 
-DesignJoint = Union[tuple[DesignQuantity, ...], Any, dict[str, Any]]
-
-DesignQuantities = tuple[DesignQuantity, ...]
-
-DesignQuantityPair = tuple[DesignQuantity, ...]
-
 DesignRows = tuple[DesignVector, ...]
-
-DesignBody = dict[str, DesignJoint]
