@@ -41,12 +41,12 @@ pub struct FkRowRecord {
     /// The line of the CSV file, from 1.
     pub line: usize,
     /// The time of the row, where the file has a column of times.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The six lengths, design units; those of the rods where angles of cranks were given.
     pub lengths: [f64; 6],
     /// The angles of the cranks, where these were given.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
     /// The poses, or why there are none.
     #[serde(flatten)]
@@ -78,28 +78,28 @@ pub struct FkOneAnswer {
     pub solved: SolvedRecord,
     /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as
     /// doubles, to the platform, and certificates hold for these tips.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
     /// Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub within_limits: Option<bool>,
     /// The legs whose cranks are beyond their limits at these angles, from 1.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally long: how
     /// many finite poses the exactly symmetric platform has, by a theorem. Further poses of the tips as doubles are so
     /// far out that their rounding decides whether there are any.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symmetric_finite: Option<usize>,
     /// How the pose was followed, with `--near`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near: Option<NearRecord>,
     /// What the corrections of joints that are not ideal came to; the lengths are then those of drives, and no
     /// certificate is given of a root.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveSolutionRecord>,
     /// The exact closure polynomial, with `--method trilateration`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closure: Option<ClosureRecord>,
 }
 
@@ -165,7 +165,7 @@ pub struct SolvedRecord {
     /// solutions.
     pub unproved: Vec<SolutionRecord>,
     /// What null stands for, where a number is not finite.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
@@ -374,7 +374,7 @@ pub struct RealPoseRecord {
     pub nearest_home: bool,
     /// Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks: a machine
     /// gets to another side only through a pose with crank and rod in one plane with the axis.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elbow_kept: Option<[bool; 6]>,
 }
 
@@ -397,7 +397,7 @@ pub struct SolutionRecord {
     /// Null: undecided.
     pub real: Option<bool>,
     /// The pose in real numbers, where it is real.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub real_pose: Option<RealPoseRecord>,
     /// Whether there is a certificate.
     pub certified: bool,

@@ -40,7 +40,7 @@ pub struct IkRecord {
     /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
     /// The time of the row, where the table has a column of times.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
@@ -49,12 +49,12 @@ pub struct IkRecord {
     pub lengths: [f64; 6],
     /// The lengths of the drives, where joints are not ideal; `within_limits`, `outside`, `J` and the angles are then
     /// those of drives and real axes, and there are no margins.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveLengthsRecord>,
     /// Whether all lengths are within `leg_length`, the ends included; null: the design limits none.
     pub within_limits: Option<bool>,
     /// The legs that are too short or too long, from 1.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// How the joints stand at the ends of the legs.
     pub joints: JointAnglesRecord,
@@ -66,11 +66,11 @@ pub struct IkRecord {
     /// 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
     /// What the flexures do to the platform when they bend, where the design has some.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flexures: Option<FlexureRecord>,
     /// How uncertain the pose is that the calibrated machine computes from its lengths here, where the design has
     /// standard deviations of a calibration and joints are ideal.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
     /// The least margin of each kind of requirement at this pose.
     pub margins: Vec<PoseMarginRecord>,

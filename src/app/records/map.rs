@@ -148,13 +148,13 @@ impl From<&LegCorrespondence> for CorrespondenceRecord {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct FramesRecord {
     /// Base and platform of the second design were exchanged first.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exchanged: bool,
     /// The rigid motions that make the second design equivalent to the first, with `--align`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub alignment: Option<AlignmentRecord>,
     /// The file written.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,
 }
 

@@ -36,7 +36,7 @@ pub struct NearRecord {
     pub angle_deg: Number,
     /// How uncertain the pose reached is, where the design has standard deviations of a calibration and joints are
     /// ideal.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
 }
 

@@ -133,7 +133,7 @@ pub struct AssessAnswer {
     pub lightest_drive: Option<LightestDriveRecord>,
     /// Assumptions about masses that the file leaves open, a sentence each; absent where no force, torque or
     /// natural frequency is judged, and where the answer around this one has the list.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumptions: Vec<String>,
 }
 

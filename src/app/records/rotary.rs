@@ -23,7 +23,7 @@ pub struct RotaryIkRecord {
     /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
     /// The time of the row, where the table has a column of times.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
@@ -35,7 +35,7 @@ pub struct RotaryIkRecord {
     /// no angle.
     pub within_limits: Option<bool>,
     /// The legs whose cranks are beyond their limits, from 1.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// The cranks in leg order; none where a rod does not reach.
     pub cranks: Vec<CrankRecord>,
@@ -47,7 +47,7 @@ pub struct RotaryIkRecord {
     /// characteristic length of the design: 1 at best, 0 at a singular pose; null: a rod does not reach.
     pub inverse_condition: Option<Number>,
     /// The torques of the cranks that hold each load at rest, where the design has loads.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub torques: Vec<CrankTorquesRecord>,
     /// The least margin of each kind of requirement at this pose.
     pub margins: Vec<PoseMarginRecord>,

@@ -29,10 +29,10 @@ pub struct SingularitiesAnswer {
     #[serde(rename = "box")]
     pub regular_box: RegularBoxRecord,
     /// det J along a path, with `--path`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<SignPathRecord>,
     /// det J between all assembly modes, with `--between`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<SignPairsRecord>,
 }
 
@@ -47,7 +47,7 @@ pub struct JudgedPoseRecord {
     /// 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
     /// The two conditions of four planes in one point, of octahedral designs.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub four_planes: Option<[Number; 2]>,
 }
 

@@ -38,10 +38,10 @@ pub struct SweepFolderRecord {
     /// Its base design.
     pub design: SweepTextRecord,
     /// Its table of drives; absent where it names none.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drives: Option<String>,
     /// The table of poses that the workspace of the base design names; absent where it names none.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poses: Option<String>,
 }
 

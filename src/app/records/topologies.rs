@@ -14,17 +14,17 @@ pub struct TopologiesAnswer {
     #[schemars(extend("const" = 34))]
     pub count: usize,
     /// The topology of the design, where one is given.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub design: Option<RecognisedRecord>,
     /// Their numbers by virtual legs; absent where a design is given.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by_virtual_legs: Option<VirtualLegsRecord>,
     /// Random members solved of each.
     pub members: u64,
     /// The topologies.
     pub topologies: Vec<TopologyRecord>,
     /// What equivalent rearrangement can do for each, with `--rearrangements`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rearrangements: Option<Vec<RearrangementRecord>>,
 }
 

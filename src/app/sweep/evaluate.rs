@@ -310,9 +310,8 @@ impl Sweep {
         let report = design.optimize_with(options).map_err(|e| e.to_string())?;
         let first = |c: &Checked| c.objectives.first().map(|(_, value)| *value);
         let value = match &report.evidence {
-            OptimizeEvidence::Offsets(found) => found.report.solution().map(|s| s.recheck.objective),
-            OptimizeEvidence::Dimensions(found) => found.checked.as_ref().and_then(first),
             OptimizeEvidence::Front(found) => found.members.first().and_then(first),
+            _ => report.checked().and_then(first),
         };
         Ok(vec![SweepCell::text(Some(report.status.name())), SweepCell::number(value)])
     }
