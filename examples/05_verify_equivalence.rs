@@ -33,7 +33,7 @@ pub(crate) fn report() -> Result<String, Box<dyn Error>> {
 
     for (name, other) in [("as designed", &b), ("a joint moved by 1e-6 of the size", &moved)] {
         let found = verify_with(&a, other, VerifyOptions::new().samples(3))?;
-        writeln!(out, "{name}: {}", found.verdict.as_str())?;
+        writeln!(out, "{name}: {}", found.verdict.name())?;
         let pairs: Vec<usize> = found.samples.iter().map(|s| s.matching.pairs.len()).collect();
         writeln!(out, "  poses in common at each sample: {pairs:?}")?;
         if let Verdict::NotEquivalent(Some(c)) = &found.verdict {

@@ -57,13 +57,13 @@ pub fn nullable(schema: &mut Schema) {
     transform_subschemas(&mut nullable, schema);
 }
 
-/// Writes enums by the words of their `as_str`, which are strings in a schema.
+/// Writes enums by the words of their `name`, which are strings in a schema.
 #[macro_export]
 macro_rules! written_as_word {
     ($($kind:ty),+) => {$(
         impl serde::Serialize for $kind {
             fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-                to.serialize_str(self.as_str())
+                to.serialize_str(self.name())
             }
         }
 

@@ -143,7 +143,7 @@ impl Relation {
 
     /// `"equivalent"`, `"singular"`, `"unrelated"` or `"undecided"`.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Equivalent => "equivalent",
             Self::Singular => "singular",
@@ -155,7 +155,7 @@ impl Relation {
 
 impl std::fmt::Display for Relation {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.as_str())
+        f.write_str(self.name())
     }
 }
 

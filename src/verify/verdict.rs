@@ -169,7 +169,7 @@ impl std::fmt::Display for Verdict {
 impl Verdict {
     /// The word of the command line.
     #[must_use]
-    pub fn as_str(&self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         match self {
             Self::Equivalent => "equivalent",
             Self::NotEquivalent(_) => "not_equivalent",

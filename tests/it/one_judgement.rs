@@ -296,7 +296,7 @@ fn check_map_and_verify_agree_on_exact_designs() {
                     let relation = if expected { Relation::Singular } else { Relation::Equivalent };
                     assert_eq!((map.relation, map.level), (relation, Level::ExactJoints), "{name}");
                     let verified = verify_with(a, b, VerifyOptions::new().samples(0)).unwrap();
-                    assert_eq!(verified.verdict.as_str(), relation.as_str(), "{name}");
+                    assert_eq!(verified.verdict.name(), relation.name(), "{name}");
                 }
                 *(if expected { &mut singular } else { &mut regular }) += 1;
             }

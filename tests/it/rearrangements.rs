@@ -136,7 +136,7 @@ fn page() -> String {
 fn reason(r: &Rearrangement) -> String {
     match &r.octahedral {
         Reduction::Octahedral(_) => "**yes**".to_string(),
-        Reduction::Not(why) => why.as_str().replace('_', " "),
+        Reduction::Not(why) => why.name().replace('_', " "),
     }
 }
 

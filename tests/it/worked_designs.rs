@@ -59,7 +59,7 @@ fn verdict(a: &Design, b: &Design) -> &'static str {
         translation: nalgebra::Vector3::repeat(0.02 * a.manipulator().size()),
         rotation: nalgebra::Vector3::repeat(0.05),
     };
-    verify(a.manipulator(), b.manipulator(), &plan, &FkOptions::default()).unwrap().verdict.as_str()
+    verify(a.manipulator(), b.manipulator(), &plan, &FkOptions::default()).unwrap().verdict.name()
 }
 
 #[test]

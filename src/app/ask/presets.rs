@@ -25,7 +25,7 @@ pub enum PresetClass {
 impl PresetClass {
     /// Stable name, as in `equipod design presets`.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Bench => "bench",
             Self::MotionSimulator => "motion simulator",

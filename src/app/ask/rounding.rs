@@ -70,16 +70,7 @@ pub enum RoundingWay {
 impl RoundingWay {
     /// The word: `"exact"` or `"nearest"`.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Nearest => "nearest",
-        }
-    }
-}
-
-impl RoundingWay {
-    fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Exact => "exact",
             Self::Nearest => "nearest",

@@ -50,7 +50,7 @@ pub enum MotionOrigin {
 impl MotionOrigin {
     /// The word.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Pose => "pose",
             Self::Section => "section",

@@ -66,7 +66,7 @@ impl From<&Failure> for FailureRecord {
     fn from(f: &Failure) -> Self {
         let violations = f.design.as_ref().map(|d| d.violations.as_slice()).unwrap_or_default();
         let violation = |v: &Violation| ViolationRecord {
-            code: v.code.as_str().into(),
+            code: v.code.name().into(),
             line: v.line,
             column: v.column,
             message: v.message.clone(),

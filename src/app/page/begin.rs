@@ -50,7 +50,7 @@ pub(super) struct PresetChoice {
 
 /// The presets.
 pub(super) fn presets() -> Vec<PresetChoice> {
-    PRESETS.iter().map(|p| PresetChoice { name: p.name, class: p.class.as_str() }).collect()
+    PRESETS.iter().map(|p| PresetChoice { name: p.name, class: p.class.name() }).collect()
 }
 
 /// The file of a preset.

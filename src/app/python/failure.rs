@@ -28,7 +28,7 @@ pub(super) fn raised(py: Python<'_>, error: Error) -> PyErr {
             let faults: Vec<TextFault> = other
                 .violations()
                 .iter()
-                .map(|v| (v.code.as_str().to_owned(), v.line, v.column, v.message.clone(), v.help.clone()))
+                .map(|v| (v.code.name().to_owned(), v.line, v.column, v.message.clone(), v.help.clone()))
                 .collect();
             design_error(py, code_of(&other), &other.to_string(), &faults)
         }
@@ -80,7 +80,7 @@ pub(super) fn refused_for_cranks(py: Python<'_>, instead: &str) -> PyErr {
     let message = format!(
         "the legs are rods on cranks, and what is asked for is about legs that change their lengths: {instead}"
     );
-    refused(py, Code::Rotary.as_str(), &message)
+    refused(py, Code::Rotary.name(), &message)
 }
 
 fn design_error(py: Python<'_>, code: &str, message: &str, faults: &[TextFault]) -> PyErr {
@@ -97,7 +97,7 @@ fn design_error(py: Python<'_>, code: &str, message: &str, faults: &[TextFault])
 /// A stable name of the kind of error.
 fn code_of(error: &Error) -> &'static str {
     match error {
-        Error::Design { violations, .. } => violations.first().map_or("design", |v| v.code.as_str()),
+        Error::Design { violations, .. } => violations.first().map_or("design", |v| v.code.name()),
         Error::Trajectory { .. } => "trajectory",
         Error::Joint(_) => "joint",
         Error::Name(_) => "unknown_name",

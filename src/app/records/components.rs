@@ -64,7 +64,7 @@ pub struct DecisionRecord {
 impl From<&Decision> for DecisionRecord {
     fn from(d: &Decision) -> Self {
         Self {
-            question: d.question.as_str().into(),
+            question: d.question.name().into(),
             value: d.value,
             numerical: d.numerical,
             exact: d.exact,
@@ -122,7 +122,7 @@ impl From<&FlatPair> for FlatPairRecord {
             rank: p.rank,
             expected_dimension: p.expected_dimension,
             dimension: p.dimension,
-            reading: p.reading.as_str().into(),
+            reading: p.reading.name().into(),
             decisions: decisions(&p.decisions),
         }
     }
@@ -192,7 +192,7 @@ impl From<&PlaneCurve> for PlaneCurveRecord {
                 .map(|s| SingularPointRecord {
                     point: s.point.as_ref().map(point),
                     coordinates: s.coordinates.map(Number),
-                    kind: s.kind.as_str().into(),
+                    kind: s.kind.name().into(),
                     gradient: Number(s.gradient),
                     line_of_partners: s.line_of_partners,
                 })
@@ -443,7 +443,7 @@ impl ComponentRecord {
         Self {
             component: k + 1,
             type_name: c.type_name(),
-            kind: c.kind.as_str().into(),
+            kind: c.kind.name().into(),
             base: flat_name(c.base_span).into(),
             platform: flat_name(c.platform_span).into(),
             dimension: c.dimension,
@@ -466,7 +466,7 @@ impl ComponentsAnswer {
         let planes = found.planes.iter().map(|p| PlanePairRecord {
             pair: p.pair + 1,
             legs: legs(&found.pairs[p.pair].legs),
-            reading: found.pairs[p.pair].reading.as_str().into(),
+            reading: found.pairs[p.pair].reading.name().into(),
             smooth: p.smooth,
             base: (&p.base).into(),
             platform: (&p.platform).into(),

@@ -353,14 +353,14 @@ pub enum ExploreVerdict {
 impl ExploreVerdict {
     /// The word.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Infeasible => "infeasible",
             Self::None => "none",
             Self::Violated => "violated",
             Self::NewKinematics => "new_kinematics",
             Self::OnHoles => "on_holes",
-            Self::Compared(verdict) => verdict.as_str(),
+            Self::Compared(verdict) => verdict.name(),
         }
     }
 }

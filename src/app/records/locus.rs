@@ -54,7 +54,7 @@ pub enum LocusWord {
 impl LocusWord {
     /// The word.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Isolated => "isolated",
             Self::Empty => "empty",

@@ -72,7 +72,7 @@ impl From<&Rearrangement> for RearrangementRecord {
     fn from(r: &Rearrangement) -> Self {
         let (octahedral, octahedral_reason, octahedral_design) = match &r.octahedral {
             Reduction::Octahedral(design) => (true, None, Some(design.into())),
-            Reduction::Not(why) => (false, Some(why.as_str().to_owned()), None),
+            Reduction::Not(why) => (false, Some(why.name().to_owned()), None),
         };
         let [base, platform] = r.planar.names().map(str::to_owned);
         Self {

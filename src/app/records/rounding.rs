@@ -189,10 +189,10 @@ pub enum RoundingVerdict {
 impl RoundingVerdict {
     /// The word.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::NotComputed => "not_computed",
-            Self::Computed(verdict) => verdict.as_str(),
+            Self::Computed(verdict) => verdict.name(),
         }
     }
 }

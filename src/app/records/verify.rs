@@ -61,7 +61,7 @@ pub enum VerdictWord {
 impl VerdictWord {
     /// The word.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Equivalent => "equivalent",
             Self::NotEquivalent => "not_equivalent",

@@ -5,7 +5,7 @@ use std::fmt;
 use super::tree::Span;
 use platform::manipulator::Body;
 
-/// What kind of violation; the name in [`Code::as_str`] is stable.
+/// What kind of violation; the name in [`Code::name`] is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Code {
@@ -84,7 +84,7 @@ pub enum Code {
 impl Code {
     /// The stable name, `design::unknown_key` for example.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Syntax => "design::syntax",
             Self::Empty => "design::empty",
@@ -127,7 +127,7 @@ impl Code {
 
 impl fmt::Display for Code {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.as_str())
+        f.write_str(self.name())
     }
 }
 

@@ -22,7 +22,7 @@ pub enum NoFormula {
     #[error(transparent)]
     NotOctahedral(#[from] FkError),
     /// The design is not equivalent to the octahedral platform.
-    #[error("the design is not equivalent to the octahedral platform (relation: {})", .0.as_str())]
+    #[error("the design is not equivalent to the octahedral platform (relation: {})", .0.name())]
     NotEquivalent(Relation),
     /// The leg map could not be computed.
     #[error(transparent)]

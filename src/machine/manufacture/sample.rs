@@ -35,7 +35,7 @@ pub enum ErrorKind {
 impl ErrorKind {
     /// `"position"` or `"rotation"`.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Position => "position",
             Self::Rotation => "rotation",
@@ -89,7 +89,7 @@ pub enum ToleranceError {
         poses: Box<[Pose; 2]>,
     },
     /// A bound is not a positive number.
-    #[error("the bound on the {} is {value}; it must be positive and finite", kind.as_str())]
+    #[error("the bound on the {} is {value}; it must be positive and finite", kind.name())]
     BadBound {
         /// Which bound.
         kind: ErrorKind,

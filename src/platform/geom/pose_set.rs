@@ -28,7 +28,7 @@ pub enum Region {
 impl Region {
     /// The word: `"box"` or `"ellipsoid"`.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Box => "box",
             Self::Ellipsoid => "ellipsoid",

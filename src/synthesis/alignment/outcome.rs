@@ -79,7 +79,7 @@ pub enum Invariant {
 impl Invariant {
     /// The name used in JSON.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::LegRank => "leg_rank",
             Self::JointRank => "joint_rank",
@@ -133,7 +133,7 @@ pub enum AlignmentUndecided {
 impl AlignmentUndecided {
     /// The name used in JSON.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::UnclearDimension => "unclear_dimension",
             Self::NoAxes => "no_axes",
@@ -292,7 +292,7 @@ fn reason(d: &Difference) -> String {
         }
         other => format!(
             "{} is {x} and {y} (smallest singular value that counts {gap:.1e}, largest that does not {bound:.1e})",
-            other.as_str().replace('_', " ")
+            other.name().replace('_', " ")
         ),
     }
 }

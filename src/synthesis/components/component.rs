@@ -37,7 +37,7 @@ pub enum FamilyKind {
 impl FamilyKind {
     /// The name used in JSON.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::AllPairs => "all_pairs",
             Self::OverLine => "over_line",

@@ -253,7 +253,7 @@ num::written_as_word!(ExactKind);
 impl ExactKind {
     /// The name used in JSON.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Line => "line",
             Self::RealLines => "two_conjugate_real_lines",

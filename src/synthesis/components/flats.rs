@@ -209,7 +209,7 @@ pub enum Reading {
 impl Reading {
     /// The name used in JSON.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Both => "exact",
             Self::ExactOnly => "exact_only",

@@ -298,7 +298,7 @@ num::written_as_word!(PartKind);
 impl PartKind {
     /// The name used in JSON.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Line => "line",
             Self::Conic => "conic",
@@ -456,7 +456,7 @@ num::written_as_word!(SingularKind);
 impl SingularKind {
     /// The name used in JSON.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Crossing => "crossing",
             Self::Isolated => "isolated",

@@ -166,7 +166,7 @@ pub enum Question {
 impl Question {
     /// The name used in JSON.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::BaseDimension => "base_dimension",
             Self::PlatformDimension => "platform_dimension",

@@ -45,7 +45,7 @@ fn within(legs: &[Leg; 6], tolerance: f64) -> Components {
 /// Type, kind, dimension and legs (from 1) of every family.
 fn list(c: &Components) -> Vec<(String, &'static str, usize, Vec<usize>)> {
     let legs = |c: &Component| c.legs.iter().map(|l| l.get() + 1).collect();
-    c.components.iter().map(|c| (c.type_name(), c.kind.as_str(), c.dimension, legs(c))).collect()
+    c.components.iter().map(|c| (c.type_name(), c.kind.name(), c.dimension, legs(c))).collect()
 }
 
 /// Draws legs of every family and checks them against the span, and their formulas against the design's legs.
@@ -54,7 +54,7 @@ fn check_samples(c: &Components, limit: f64) {
     for family in &c.components {
         for _ in 0..6 {
             let s = family.sample(&c.span, &mut rng).unwrap().expect("a leg of the family");
-            assert!(s.residual < limit, "{} {}: {:e}", family.type_name(), family.kind.as_str(), s.residual);
+            assert!(s.residual < limit, "{} {}: {:e}", family.type_name(), family.kind.name(), s.residual);
             if c.leg_rank.value == 6 && limit < 1e-8 {
                 let sum: f64 = s.coefficients.iter().sum();
                 assert!((sum - 1.0).abs() < 1e-8, "{sum}");
@@ -317,7 +317,7 @@ fn frames_order_unit_and_exchange_of_the_bodies_do_not_matter() {
         // rotations round the joints: what was a flat is one to 1e-15
         let moved = legs.map(|l| Leg { base: r * l.base + u, platform: q * l.platform + v });
         let key = |c: &Components| {
-            c.components.iter().map(|x| (x.type_name(), x.kind.as_str(), x.dimension)).collect::<Vec<_>>()
+            c.components.iter().map(|x| (x.type_name(), x.kind.name(), x.dimension)).collect::<Vec<_>>()
         };
         let flats =
             |c: &Components| c.components.iter().map(|x| (x.base_span, x.platform_span)).collect::<Vec<_>>();

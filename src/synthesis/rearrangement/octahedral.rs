@@ -34,7 +34,7 @@ pub enum NoOctahedralEquivalent {
 impl NoOctahedralEquivalent {
     /// The name used in JSON and in the documentation.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::BodyInSpace(Body::Base) => "base_in_space",
             Self::BodyInSpace(Body::Platform) => "platform_in_space",

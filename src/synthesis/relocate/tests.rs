@@ -333,7 +333,7 @@ fn at_singular_parameters_the_leg_depends_on_the_others() {
                 panic!("{}", family.type_name())
             };
             // on the two other legs of the family at least; on a cubic on all five others that are not a centre
-            let least = if family.kind.as_str() == "over_cubic" { 4 } else { family.legs.len() - 1 };
+            let least = if family.kind.name() == "over_cubic" { 4 } else { family.legs.len() - 1 };
             assert!(list.len() >= least, "{} {list:?}", family.type_name());
             for t in list {
                 let done = within(&m, &found, leg.get(), k, &[t]).unwrap();

@@ -46,7 +46,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Answer, Fa
         let exit = if none { Exit::No } else { Exit::Inconclusive };
         let explanation = second.explanation().unwrap_or_default();
         let record = VerifyAnswer::unaligned(&map, none, explanation, second.record());
-        let text = format!("{} ~ {}: {}\n{}", a.name, b.name, record.verdict.as_str(), second.text());
+        let text = format!("{} ~ {}: {}\n{}", a.name, b.name, record.verdict.name(), second.text());
         return Ok(Answer::new(exit, record, text));
     }
     let plan = sample_plan(&a, args.samples, context.seed());

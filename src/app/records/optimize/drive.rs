@@ -82,7 +82,7 @@ pub enum DriveSearchWord {
 impl DriveSearchWord {
     /// The word.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Met => "met",
             Self::Violated => "violated",

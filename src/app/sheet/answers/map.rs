@@ -33,7 +33,7 @@ fn same_legs(c: &CorrespondenceRecord) -> Option<String> {
 #[must_use]
 pub fn leg_map(r: &MapRecord, from: &str, to: &str) -> Sheet {
     let mut out = Sheet::new();
-    say!(out, "{from} -> {to}: {}\n{}\n", r.relation.unwrap_or(Relation::Undecided).as_str(), r.explanation);
+    say!(out, "{from} -> {to}: {}\n{}\n", r.relation.unwrap_or(Relation::Undecided).name(), r.explanation);
     out.line("s(TO) = A s(FROM) + c");
     let entries = (1..=6).map(|k| right(format!("A{k}"), 9));
     let columns = [left("", 6)].into_iter().chain(entries);

@@ -116,7 +116,7 @@ pub fn move_search(r: &MoveSearchAnswer) -> Sheet {
         let columns = [left("wish", 13).gap(4), right("value", 12), right("required", 12).gap(2)];
         let rows = c.margins.iter().map(|m| {
             let [value, required] = [m.value, m.required].map(|x| format!("{x:.6}"));
-            [m.wish.as_str().to_string(), value, required, format!("{:.5}", m.slack)]
+            [m.wish.name().to_string(), value, required, format!("{:.5}", m.slack)]
         });
         if !c.margins.is_empty() {
             out.table(Table::new(columns.into_iter().chain([right("slack", 9).gap(2)])).with_rows(rows));

@@ -200,7 +200,7 @@ pub fn tried_drives(d: &DriveSearchRecord) -> Sheet {
         let margins = || drive.margins.iter().map(left).collect::<Vec<String>>().join(", ");
         table.row([
             drive.name.clone(),
-            drive.outcome.as_str().to_owned(),
+            drive.outcome.name().to_owned(),
             number(drive.price),
             number(drive.objective),
             drive.reason.clone().unwrap_or_else(margins),
@@ -279,7 +279,7 @@ fn platform(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
         say!(
             out,
             "{} to the design (poses of {} samples differ by at most {:.1e})",
-            v.verdict.as_str(),
+            v.verdict.name(),
             v.sample_count,
             v.worst_distance.0
         );

@@ -64,7 +64,7 @@ pub fn round(r: &RoundAnswer) -> Sheet {
             say!(
                 out,
                 "  equivalent to its own octahedral platform: {proof}; leg map and forward kinematics: {}",
-                e.verdict.as_str()
+                e.verdict.name()
             );
             if r.free_grid {
                 grids(&mut out, &e.grids);
@@ -83,7 +83,7 @@ pub fn round(r: &RoundAnswer) -> Sheet {
                 out,
                 "  with the wanted design: {}; error of the pose by its formula: first order {:.4e} {units}, {:.4e} deg \
                  (every joint on the nearest point: {:.4e}, {:.4e}); solved at {} random poses at most {:.4e}, {:.4e}",
-                n.verdict.as_str(),
+                n.verdict.name(),
                 e.first_order.position.0,
                 e.first_order.rotation_deg.0,
                 e.first_order_nearest_points.position.0,
@@ -101,9 +101,8 @@ pub fn round(r: &RoundAnswer) -> Sheet {
             say!(out, "nearest  none: {}", why.error.message);
         }
     }
-    let chosen = r.chosen.map_or("none meets the requirements", RoundingWay::as_str);
-    let missed =
-        r.least_missed.map_or_else(String::new, |way| format!("; {} misses them least", way.as_str()));
+    let chosen = r.chosen.map_or("none meets the requirements", RoundingWay::name);
+    let missed = r.least_missed.map_or_else(String::new, |way| format!("; {} misses them least", way.name()));
     say!(out, "chosen: {chosen}{missed}");
     if let Some(path) = &r.output {
         say!(out, "wrote {path}");

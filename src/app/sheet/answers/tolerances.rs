@@ -27,7 +27,7 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer) -> Sheet {
             out,
             "to first order every {what} may be off by {:.6e} {units}{any} ({} is the limit)",
             limit.value,
-            limit.kind.as_str()
+            limit.kind.name()
         );
     }
     out.space();

@@ -7,7 +7,7 @@ use records::{SampleRecord, VerifyAnswer};
 #[must_use]
 pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
     let mut out = Sheet::new();
-    say!(out, "{a} ~ {b}: {}\n{}", v.verdict.as_str(), v.explanation);
+    say!(out, "{a} ~ {b}: {}\n{}", v.verdict.name(), v.explanation);
     if let Some(polynomial) = &v.map.det_of_shares {
         say!(
             out,

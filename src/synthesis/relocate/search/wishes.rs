@@ -77,7 +77,7 @@ num::written_as_word!(Wish);
 impl Wish {
     /// The name used in JSON.
     #[must_use]
-    pub fn as_str(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Spacing => "spacing",
             Self::Clearance => "clearance",

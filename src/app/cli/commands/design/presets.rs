@@ -53,7 +53,7 @@ fn list() -> Result<Answer, Failure> {
     let mut text = String::new();
     let presets = PRESETS.iter().map(record).collect::<Result<Vec<_>, _>>()?;
     for p in &presets {
-        let _ = writeln!(text, "{:<24} {:<22} {}", p.preset, p.class.as_str(), p.name);
+        let _ = writeln!(text, "{:<24} {:<22} {}", p.preset, p.class.name(), p.name);
         let _ = writeln!(text, "{:<24} {}", "", p.source.as_deref().unwrap_or_default());
     }
     text.push_str("\n`equipod design presets NAME -o FILE.toml` writes one, with the source of every figure in its comments.\n");

@@ -239,7 +239,7 @@ fn compared(
         (None, None) => return Ok(None),
     };
     let verified = verification(a, b, samples, options, &run.provenance, &mut run.folder)?;
-    let word = VerdictWord::from(&verified.found.verdict).as_str().replace('_', " ");
+    let word = VerdictWord::from(&verified.found.verdict).name().replace('_', " ");
     run.done(StageWord::Verify, format!("{who}: {word}, {}", verified.record.explanation));
     Ok(Some(verified))
 }
@@ -287,7 +287,7 @@ fn markdown(r: &ExploreGeneralAnswer, design: &Design, repeat: &str) -> String {
     let mut out = format!(
         "# {}: {}\n\nEvidence: {}.\n\nDesign: [{3}]({3}), lengths in {4}. It is not octahedral.\n",
         plain(&r.name),
-        r.verdict.as_str().replace('_', " "),
+        r.verdict.name().replace('_', " "),
         plain(&r.explanation),
         folder::ORIGINAL,
         plain(&design.units)

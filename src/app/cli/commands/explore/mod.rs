@@ -645,7 +645,7 @@ fn text(
         if let Some(lead) = lead {
             let _ = writeln!(out, "{lead}");
         }
-        let _ = writeln!(out, "{name}: {}\n{explanation}", verdict.as_str());
+        let _ = writeln!(out, "{name}: {}\n{explanation}", verdict.name());
     }
     for path in paths {
         let _ = writeln!(out, "{path}");

@@ -17,7 +17,7 @@ pub(super) fn markdown(r: &Results, headline: &[String]) -> String {
         out,
         "# {}: {}\n\nEvidence: {}.\n",
         plain(&r.design.name),
-        r.verdict().as_str().replace('_', " "),
+        r.verdict().name().replace('_', " "),
         plain(&r.explanation())
     );
     for line in headline {
@@ -156,7 +156,7 @@ fn verification(out: &mut String, r: &Results, v: &Verified) {
     let _ = writeln!(
         out,
         "## Verdict: {}\n\n{verdict}\nDetails: [{1}]({1}).\n\n## Leg map\n\n{map}",
-        v.record.verdict.as_str().replace('_', " "),
+        v.record.verdict.name().replace('_', " "),
         folder::VERIFY
     );
 }

@@ -79,7 +79,7 @@ fn note(curve: &PlaneCurve) -> String {
     if curve.generic_rank < 3 {
         return "every point carries a replaceable leg".to_string();
     }
-    let parts: Vec<&str> = curve.parts.iter().map(|p| p.kind.as_str()).collect();
+    let parts: Vec<&str> = curve.parts.iter().map(|p| p.kind.name()).collect();
     format!("curve of degree {}: {}", curve.degree, parts.join(", "))
 }
 

@@ -87,9 +87,9 @@ fn curve(text: &mut String, body: &str, c: &PlaneCurve) {
         .iter()
         .map(|p| {
             if p.multiplicity > 1 {
-                format!("{} ({} times)", p.kind.as_str(), p.multiplicity)
+                format!("{} ({} times)", p.kind.name(), p.multiplicity)
             } else {
-                p.kind.as_str().to_string()
+                p.kind.name().to_string()
             }
         })
         .collect();
@@ -103,7 +103,7 @@ fn curve(text: &mut String, body: &str, c: &PlaneCurve) {
     let _ = writeln!(text, "  {body:<9} {what}");
     match &c.exact {
         Ok(e) if e.generic_rank == 3 && e.degree > 0 => {
-            let parts: Vec<&str> = e.parts.iter().map(|p| p.kind.as_str()).collect();
+            let parts: Vec<&str> = e.parts.iter().map(|p| p.kind.name()).collect();
             let _ = writeln!(text, "            as written, over the complex numbers: {}", parts.join(", "));
         }
         Ok(_) => {}
@@ -114,6 +114,6 @@ fn curve(text: &mut String, body: &str, c: &PlaneCurve) {
     for s in &c.singular_points {
         let at = s.point.map_or("infinity".to_string(), |p| format!("[{}, {}, {}]", p.x, p.y, p.z));
         let line = if s.line_of_partners { ", a whole line corresponds" } else { "" };
-        let _ = writeln!(text, "            {} at {at}{line}", s.kind.as_str());
+        let _ = writeln!(text, "            {} at {at}{line}", s.kind.name());
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn picture(
 pub(super) fn csv(answer: &LocusAnswer) -> String {
     let mut out = String::from("step,length,status,re,im,real,certified\n");
     for row in &answer.rows {
-        let (k, length, status) = (row.step, row.length.0, row.status.as_str());
+        let (k, length, status) = (row.step, row.length.0, row.status.name());
         for v in &row.values {
             let real = v.real.map_or_else(|| "undecided".to_string(), |real| real.to_string());
             let _ = writeln!(out, "{k},{length},{status},{},{},{real},{}", v.re.0, v.im.0, v.certified);
@@ -98,13 +98,8 @@ pub(super) fn text(name: &str, r: &LocusAnswer) -> String {
         let (poses, real, status, complete) = key(&group[0]);
         let ends = (group[0].length.0, group[group.len() - 1].length.0);
         let doubt = if complete { "" } else { " (poses may be missing)" };
-        let _ = writeln!(
-            out,
-            "{:>9.5} {:>9.5}  {poses:>5}  {real:>4}  {}{doubt}",
-            ends.0,
-            ends.1,
-            status.as_str()
-        );
+        let _ =
+            writeln!(out, "{:>9.5} {:>9.5}  {poses:>5}  {real:>4}  {}{doubt}", ends.0, ends.1, status.name());
     }
     if !r.meetings.is_empty() {
         out.push_str("\ndouble values on the real axis, about:\n   length      value\n");

@@ -72,7 +72,7 @@ fn text(r: &SelfmotionAnswer) -> String {
             Some(d) => write!(out, ", degree at least {}", d.degree),
             None => Ok(()),
         };
-        let origin = curve.found_by.map_or("", MotionOrigin::as_str);
+        let origin = curve.found_by.map_or("", MotionOrigin::name);
         let _ = writeln!(out, ", found from a {}", origin.replace('_', " "));
     }
     if !r.curves.is_empty() {

@@ -97,7 +97,7 @@ fn text(r: &SingularitiesAnswer, of_the_design: bool) -> String {
     let _ = writeln!(
         out,
         "{} of half widths t x ({:.4}, {:.4}, {:.4}) {} and t x ({:.4}, {:.4}, {:.4}) degrees of the rotation vector about the pose:",
-        b.region.as_str(),
+        b.region.name(),
         widths[0],
         widths[1],
         widths[2],
