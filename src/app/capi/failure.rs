@@ -214,7 +214,7 @@ fn checked_count<T>(count: usize, what: &str) -> Result<(), CallFault> {
 /// Gives a value to the caller, who frees it by the function for its type.
 ///
 /// # Safety
-/// As [`write`].
+/// As [`write()`].
 pub(super) unsafe fn give<T>(value: T, to: *mut *mut T, what: &str) -> Result<(), CallFault> {
     // SAFETY: the caller's promise. The place comes first: without one the value is dropped here.
     let to = unsafe { write(to, what) }?;
