@@ -590,7 +590,7 @@ def interrupted(code, seconds, times=1):
 
 def ended_by_interrupts(call, times=1):
     code = f"print('go', flush=True)\ntry:\n    {call}\nexcept KeyboardInterrupt:\n    print('interrupted', flush=True)\nimport os\nos._exit(0)\n"
-    return interrupted(code, 2.0, times) == "interrupted\n"
+    return interrupted(code, 0.5, times) == "interrupted\n"
 
 
 @pytest.mark.parametrize("call", LONG.values(), ids=LONG.keys())

@@ -224,7 +224,7 @@ mod tests {
         );
         assert_eq!(
             sheet().markdown(),
-            "A \\<b\\> is\n\n- so\n- and so\n\n| name | status | margin | of |\n|---|---|--:|---|\n| a | violated | -1.5 | leg 1 |\n| b\\_c | met | 0 |  |\n\n|  |  |\n|---|---|\n| x | 1 |\n"
+            "A \\<b> is\n\n- so\n- and so\n\n| name | status | margin | of |\n|---|---|--:|---|\n| a | violated | -1.5 | leg 1 |\n| b_c | met | 0 |  |\n\n|  |  |\n|---|---|\n| x | 1 |\n"
         );
         let html = sheet().html().into_string();
         for part in [

@@ -11,6 +11,7 @@ impl Sheet {
         for block in &self.0 {
             let part = match block {
                 Block::Space => continue,
+                Block::Table(table) if table.rows.is_empty() => continue,
                 Block::Line(line) => match line.strip_prefix("  ") {
                     Some(item) => {
                         let item = format!("- {}", escaped(item.trim()));
@@ -43,16 +44,22 @@ fn rows(table: &Table) -> String {
     format!("{titles}|{rules}\n{}", rows.collect::<String>())
 }
 
-/// Text that cannot become markup.
+/// Text that cannot become markup: `>` and `#` mark only the beginning of a line, and `_` means nothing inside a word.
 #[must_use]
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
+    let mut chars = text.chars().peekable();
+    let mut before = None;
+    while let Some(c) = chars.next() {
+        let in_word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
         match c {
+            '_' if in_word(before) && in_word(chars.peek().copied()) => out.push(c),
+            '>' | '#' if before.is_some() => out.push(c),
             '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '#' | '|' => out.extend(['\\', c]),
             c if c.is_control() => out.push(' '),
             c => out.push(c),
         }
+        before = Some(c);
     }
     out
 }
