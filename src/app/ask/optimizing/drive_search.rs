@@ -188,7 +188,7 @@ fn order_of_answers(a: &SearchedDrive, b: &SearchedDrive, ranking: DriveRanking)
 /// ranked.
 ///
 /// # Errors
-/// As [`find_platform`].
+/// As of [`Design::optimize_with`].
 pub fn search_drives(
     design: &Design,
     table: &DriveTable,
