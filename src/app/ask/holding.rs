@@ -52,7 +52,6 @@ impl Design {
 
     /// The home pose, stated or not, where it is singular and the design is not: no equivalent platform holds it.
     /// Architecturally singular designs are left to the decision about these.
-    #[cfg(feature = "optimize")]
     pub fn home_that_no_equivalent_holds(&self) -> Option<SingularHome> {
         let home = self.singular_at(&self.home_or_default())?;
         (Architecture::of(self.manipulator()).is_singular() == Some(false)).then_some(home)
