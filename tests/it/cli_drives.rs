@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::cli_frame::{document, equipod};
 
 /// The bench hexapod with a workspace so small that its proofs are quick.
-fn bench(folder: &Path) -> String {
+pub(super) fn bench(folder: &Path) -> String {
     let mut text = std::fs::read_to_string("designs/presets/bench-l16.toml").unwrap();
     for (from, to) in [
         ("translation = [30.0, 30.0, 25.0]", "translation = [8.0, 8.0, 8.0]"),
@@ -22,7 +22,7 @@ fn bench(folder: &Path) -> String {
     path.to_str().unwrap().to_string()
 }
 
-fn table(folder: &Path, text: &str) -> String {
+pub(super) fn table(folder: &Path, text: &str) -> String {
     let path = folder.join("drives.csv");
     std::fs::write(&path, text).unwrap();
     path.to_str().unwrap().to_string()

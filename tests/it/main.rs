@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a failing test panics")]
 
 mod allocations;
+mod answers;
 mod bench;
 mod certify;
 mod cli_align;

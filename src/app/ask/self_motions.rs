@@ -7,8 +7,8 @@ use fk::{FkError, FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, Solut
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 use synthesis::singularity::{
-    CriticalPoses, CurveDegree, CurveEnd, MotionOptions, SelfMotion, critical_poses, curve_degree,
-    rounds_to_singular, self_motion,
+    CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionOptions, SelfMotion, critical_poses,
+    curve_degree, rounds_to_singular, self_motion,
 };
 
 /// What the curves begin with.
@@ -91,8 +91,6 @@ pub struct SelfMotionReport {
     pub dimension: Option<usize>,
     /// The curves.
     pub motion: SelfMotion,
-    /// Of each curve.
-    pub degrees: Vec<Option<CurveDegree>>,
     /// Of every starting pose.
     pub origins: Vec<MotionOrigin>,
     /// Real poses on surfaces and sets of higher dimension, which are not followed.
@@ -121,6 +119,16 @@ impl SelfMotionReport {
             Some(d) if d > 1 && !self.origins.is_empty() => Some(true),
             _ => None,
         }
+    }
+
+    /// The degree of each curve over the complex numbers, which takes longer than following it.
+    #[must_use]
+    pub fn degrees(&self, design: &Design, seed: u64) -> Vec<Option<CurveDegree>> {
+        let degree = |curve: &MotionCurve| {
+            let best = curve.points.iter().max_by(|x, y| x.gap.total_cmp(&y.gap))?;
+            curve_degree(design.manipulator(), &self.squares, &best.pose, seed)
+        };
+        self.motion.curves.iter().map(degree).collect()
     }
 
     /// The longest curve, counted from 0.
@@ -173,13 +181,8 @@ impl Design {
             let all: Vec<Pose> = starts.iter().map(|s| s.0).collect();
             motion = self_motion(m, &squares, &all, &options.motion);
         }
-        let degree = |curve: &synthesis::singularity::MotionCurve| {
-            let best = curve.points.iter().max_by(|x, y| x.gap.total_cmp(&y.gap))?;
-            curve_degree(m, &squares, &best.pose, seed)
-        };
         let real_poses = starts.iter().filter(|s| s.1 == MotionOrigin::Search).map(|s| s.0).collect();
         let mut report = SelfMotionReport {
-            degrees: motion.curves.iter().map(degree).collect(),
             origins: starts.iter().map(|s| s.1).collect(),
             start,
             squares,

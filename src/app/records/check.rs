@@ -191,7 +191,7 @@ fn explanation(c: &CheckReport) -> String {
         (None, _) => {
             "joints are known between bounds only, and no pose is proved to hold the platform".into()
         }
-        (_, Some(f)) => format!("{} ({})", f.case.sentence(), list(&f.legs)),
+        (_, Some(f)) => format!("{} ({})", f.case.sentence(), legs_in_words(&leg_numbers(&f.legs))),
         (_, None) => "almost every pose holds the platform".into(),
     }
 }
@@ -458,7 +458,9 @@ fn triple(v: &nalgebra::Vector3<f64>) -> String {
     format!("({}, {}, {})", v.x, v.y, v.z)
 }
 
-fn list(legs: &[usize]) -> String {
-    let numbers: Vec<String> = legs.iter().map(|i| (i + 1).to_string()).collect();
+/// Legs by their numbers: `legs 1, 2`.
+#[must_use]
+pub fn legs_in_words(numbers: &[usize]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
     format!("legs {}", numbers.join(", "))
 }

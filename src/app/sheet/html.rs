@@ -28,9 +28,6 @@ impl Sheet {
 }
 
 fn rows(table: &Table) -> Markup {
-    if table.rows.is_empty() {
-        return html! {};
-    }
     if !table.has_titles() {
         return html! { table.facts { (body(table)) } };
     }

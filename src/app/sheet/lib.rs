@@ -58,9 +58,9 @@ impl Sheet {
         self.0.push(Block::Space);
     }
 
-    /// Adds a table.
+    /// Adds a table; one without rows adds nothing.
     pub fn table(&mut self, table: Table) {
-        self.0.push(Block::Table(table));
+        self.0.extend((!table.rows.is_empty()).then_some(Block::Table(table)));
     }
 
     /// Adds all that another sheet has.
@@ -76,7 +76,9 @@ impl Sheet {
 
 impl From<Table> for Sheet {
     fn from(table: Table) -> Self {
-        Self(vec![Block::Table(table)])
+        let mut sheet = Self::new();
+        sheet.table(table);
+        sheet
     }
 }
 

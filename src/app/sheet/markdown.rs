@@ -11,7 +11,6 @@ impl Sheet {
         for block in &self.0 {
             let part = match block {
                 Block::Space => continue,
-                Block::Table(table) if table.rows.is_empty() => continue,
                 Block::Line(line) => match line.strip_prefix("  ") {
                     Some(item) => {
                         let item = format!("- {}", escaped(item.trim()));

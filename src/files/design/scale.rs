@@ -101,9 +101,7 @@ impl LengthRatio {
         WrittenNumber::text(&scaled).map_err(|slip| NotScaled::Construction(slip.message))?;
         Ok(Json::String(scaled))
     }
-}
 
-impl LengthRatio {
     /// A value of a kind.
     fn scale(self, value: &mut Json, kind: &KeyKind) -> Result<(), NotScaled> {
         match (kind.form, value) {

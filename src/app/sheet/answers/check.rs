@@ -1,18 +1,15 @@
 //! Whether a design is architecturally singular, and why.
 
 use std::fmt::Write as _;
-use synthesis::singularity::Assembly;
 
 use crate::{Sheet, Table};
-use records::{CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number};
+use records::{
+    CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number, legs_in_words,
+};
+use synthesis::singularity::Assembly;
 
 /// Joints of a body lie nearly on a line where they are nearer to it than this share of their distance along it.
 const NEARLY: f64 = 0.05;
-
-fn list(legs: &[usize]) -> String {
-    let numbers: Vec<String> = legs.iter().map(ToString::to_string).collect();
-    format!("legs {}", numbers.join(", "))
-}
 
 /// The answer of `check` below its headline; `size` and `units` are those of the design.
 #[must_use]
@@ -28,7 +25,7 @@ pub fn check(c: &CheckAnswer, headline: &str, size: f64, units: &str) -> Sheet {
     out.table(Table::facts(27, ranks.map(|(name, rank)| (name, rank.to_string()))));
     say!(out, "proof: {}", c.proof_explanation);
     for f in c.cases.iter().skip(1) {
-        say!(out, "also: {} ({})", f.explanation, list(&f.legs));
+        say!(out, "also: {} ({})", f.explanation, legs_in_words(&f.legs));
     }
     for d in &c.dependencies {
         dependency(&mut out, d);
@@ -112,7 +109,7 @@ fn sum(coefficients: &[Number; 6], letter: char) -> String {
 }
 
 fn dependency(out: &mut Sheet, d: &DependencyRecord) {
-    say!(out, "\ndependency of {}: {} = 0", list(&d.legs), sum(&d.coefficients, 'v'));
+    say!(out, "\ndependency of {}: {} = 0", legs_in_words(&d.legs), sum(&d.coefficients, 'v'));
     say!(out, "  base ends span dimension {}, platform ends {}", d.base_dimension, d.platform_dimension);
     say!(out, "  squared lengths of every pose: {} = {}", sum(&d.coefficients, 's'), d.constant.0);
     if let Some(defect) = d.lengths_defect {
@@ -122,7 +119,7 @@ fn dependency(out: &mut Sheet, d: &DependencyRecord) {
 
 fn griffis_duffy(out: &mut Sheet, g: &GriffisDuffyRecord) {
     let t: Vec<String> = g.t.iter().map(|t| format!("{:.6}", t.0)).collect();
-    say!(out, "\nGriffis-Duffy type, going round by {}: t = {}", list(&g.order), t.join(", "));
+    say!(out, "\nGriffis-Duffy type, going round by {}: t = {}", legs_in_words(&g.order), t.join(", "));
     let exactly = if g.exactly_singular { " (zero exactly)" } else { "" };
     say!(out, "  det A = prod (1 - t) - prod t = {:.6e}{exactly}; singular where it is zero", g.det.0);
     say!(
@@ -152,7 +149,7 @@ fn nearest(out: &mut Sheet, n: &NearestSingularRecord, size: f64, units: &str) {
         out,
         "\nnearest singular design found ({}, {}): {:.6e} away, {:.1e} of the size (norm of the change of all joints)",
         n.kind,
-        list(&n.legs),
+        legs_in_words(&n.legs),
         n.distance.0,
         n.distance.0 / size
     );

@@ -8,8 +8,8 @@ use crate::{Sheet, Table, left};
 use num::shown::significant;
 use records::{
     AssessAnswer, CompareAnswer, DrivesAnswer, FamilyAnswer, LimitsAnswer, MapAnswer, MotionAnswer,
+    OptimizeAnswer, RoundAnswer, TolerancesAnswer, VerifyAnswer,
 };
-use records::{OptimizeAnswer, RoundAnswer, TolerancesAnswer, VerifyAnswer};
 
 type Fields = Map<String, Value>;
 
@@ -77,7 +77,7 @@ pub fn document(fields: &Fields) -> Sheet {
 }
 
 fn read<T: DeserializeOwned>(fields: &Fields) -> Option<T> {
-    serde_json::from_value(Value::Object(fields.clone())).ok()
+    T::deserialize(fields).ok()
 }
 
 /// Rows of a list that are shown.
@@ -102,10 +102,7 @@ fn facts<'a>(fields: impl Iterator<Item = (&'a String, &'a Value)> + Clone, dept
     let mut sheet = Sheet::new();
     // what does not apply is in the file
     let told = fields.clone().filter(|(_, v)| !v.is_null());
-    let rows: Vec<_> = told.filter_map(|(key, v)| Some((words(key), plain(v)?))).collect();
-    if !rows.is_empty() {
-        sheet.table(Table::facts(24, rows));
-    }
+    sheet.table(Table::facts(24, told.filter_map(|(key, v)| Some((words(key), plain(v)?)))));
     for (key, value) in fields.filter(|(_, v)| plain(v).is_none()) {
         nested(&mut sheet, &words(key), value, depth);
     }

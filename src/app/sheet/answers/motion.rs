@@ -151,9 +151,7 @@ fn cranks(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord, list
         ];
         (crank.leg, cells)
     });
-    if !list.is_empty() {
-        out.table(table("crank", titles, rows));
-    }
+    out.table(table("crank", titles, rows));
     if let Some(time) = motion.unreached_at_s {
         say!(out, "At {} s a rod does not reach from its crank to the platform.", short(time));
     }
@@ -190,9 +188,6 @@ fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
 }
 
 fn requirements(out: &mut Sheet, motion: &MotionRunRecord) {
-    if motion.requirements.is_empty() {
-        return;
-    }
     let reserved = motion.requirements.iter().any(|r| r.margin.reserve.0 > 0.0);
     let less = reserved.then(|| right("less reserve", 14));
     let columns = [left("requirement", 17), right("least margin", 14).gap(2)].into_iter().chain(less);

@@ -118,9 +118,7 @@ pub fn move_search(r: &MoveSearchAnswer) -> Sheet {
             let [value, required] = [m.value, m.required].map(|x| format!("{x:.6}"));
             [m.wish.name().to_string(), value, required, format!("{:.5}", m.slack)]
         });
-        if !c.margins.is_empty() {
-            out.table(Table::new(columns.into_iter().chain([right("slack", 9).gap(2)])).with_rows(rows));
-        }
+        out.table(Table::new(columns.into_iter().chain([right("slack", 9).gap(2)])).with_rows(rows));
         for p in &c.moves {
             let (a, b) = (p.to.base.map(|x| x.0), p.to.platform.map(|x| x.0));
             say!(

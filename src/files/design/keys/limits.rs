@@ -15,6 +15,11 @@ const ALL: &str = "all";
 
 const PERCENT: KeyKind = own(r##"{"$ref": "#/$defs/percent"}"##, unit::NONE);
 
+/// The row of `assess` of this name.
+fn row(name: &str) -> Option<TermKind> {
+    TermKind::ALL.into_iter().find(|kind| kind.code() == name)
+}
+
 /// The names of the rows of `assess`.
 struct ByKind;
 
@@ -25,7 +30,7 @@ impl KeyShape for ByKind {
         if key == ALL {
             return Some(PERCENT);
         }
-        let kind = TermKind::ALL.into_iter().find(|kind| kind.code() == key)?;
+        let kind = row(key)?;
         Some(not_negative(match kind.quantity() {
             Quantity::Length => unit::LENGTH,
             Quantity::Speed => unit::SPEED,
@@ -76,7 +81,7 @@ fn reserve(found: &mut FoundKey<'_, '_>, to: &mut Reserves) {
         if entry.key == ALL {
             to.all = percent(&mut found);
         }
-        let Some(kind) = TermKind::ALL.into_iter().find(|kind| kind.code() == entry.key) else { continue };
+        let Some(kind) = row(&entry.key) else { continue };
         let reserve = if matches!(entry.node.value, Value::Text(_)) {
             percent(&mut found).map(Reserve::Percent)
         } else {

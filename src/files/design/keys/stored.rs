@@ -148,15 +148,8 @@ words! {
     MassUnit: Self::ALL, Self::label;
     Objective: Self::ALL, Self::code;
     PlateMass: Self::ALL, Self::name;
-    Region: [Self::Box, Self::Ellipsoid], region;
+    Region: [Self::Box, Self::Ellipsoid], Self::name;
     VariableKind: Self::ALL, Self::code;
-}
-
-fn region(region: Region) -> &'static str {
-    match region {
-        Region::Box => "box",
-        Region::Ellipsoid => "ellipsoid",
-    }
 }
 
 /// The rows of a matrix.

@@ -62,7 +62,7 @@ pub(crate) fn run(args: &SingularMotionArgs, context: &mut Context) -> Result<An
     if let Some(path) = &args.svg {
         files::write_text(path, &picture(&design, &found)?)?;
     }
-    Ok(render::answer(&design, &found))
+    Ok(render::answer(&design, &found, &found.degrees(&design, context.seed())))
 }
 
 /// The picture alone.

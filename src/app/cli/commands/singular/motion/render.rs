@@ -10,12 +10,13 @@ use records::{
     CompletenessWord, CriticalPointsRecord, IsolatedRecord, MotionCurveRecord, MotionEvidenceWord, Number,
     PoseQuaternionRecord, SelfmotionAnswer,
 };
+use synthesis::singularity::CurveDegree;
 
 /// The answer.
-pub(super) fn answer(design: &Design, found: &SelfMotionReport) -> Answer {
+pub(super) fn answer(design: &Design, found: &SelfMotionReport, degrees: &[Option<CurveDegree>]) -> Answer {
     let motion = &found.motion;
     let critical = found.critical.as_ref();
-    let curves = motion.curves.iter().zip(&found.degrees);
+    let curves = motion.curves.iter().zip(degrees);
     // with lengths alone the first pose is one of several found
     let at = motion.at_pose.as_ref().filter(|_| found.start.is_some());
     let record = SelfmotionAnswer {
