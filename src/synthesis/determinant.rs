@@ -62,14 +62,19 @@ pub enum Factor {
 }
 
 impl Factor {
-    /// The value, with `at` giving the offsets.
-    pub fn value(self, at: impl Fn(Offset) -> f64) -> f64 {
+    /// The value in any numbers, with `at` giving the offsets.
+    pub fn value<T>(self, one: &T, at: impl Fn(Offset) -> T) -> T
+    where
+        T: Clone + Mul<Output = T> + Sub<Output = T>,
+    {
+        let first = |side: usize| at(Offset { side, second: false });
         match self {
-            Self::OneMinus(o) => 1.0 - at(o),
+            Self::OneMinus(o) => one.clone() - at(o),
             Self::Plain(o) => at(o),
-            Self::Difference(side) => at(Offset { side, second: true }) - at(Offset { side, second: false }),
+            Self::Difference(side) => at(Offset { side, second: true }) - first(side),
             Self::Cycle => {
-                offset_determinant(&std::array::from_fn(|side| at(Offset { side, second: false })))
+                let (rest, own) = offset_products(one, (0..6).map(first));
+                rest - own
             }
         }
     }

@@ -13,6 +13,7 @@
 pub mod alignment;
 pub mod components;
 mod correspondence;
+mod derivation;
 mod determinant;
 mod dot;
 mod drawing;
@@ -34,6 +35,7 @@ pub mod relocate;
 pub mod singularity;
 
 pub use correspondence::LegCorrespondence;
+pub use derivation::{Derivation, LegSlide};
 pub use determinant::{Factor, offset_determinant, singular_offset};
 pub use determinant::{determinant_gradient, offset_products};
 pub use enumerate::{Symmetry, enumerate, representative};

@@ -194,7 +194,7 @@ impl Pattern {
     /// A wrong number of offsets or one that is not finite.
     pub fn determinant(&self, offsets: &[f64]) -> Result<f64, InstantiateError> {
         let at = self.lookup(offsets)?;
-        Ok(self.factors.iter().map(|f| f.value(&at)).product())
+        Ok(self.factors.iter().map(|f| f.value(&1.0, &at)).product())
     }
 
     /// The leg map from the octahedral platform, in the leg order of the design `o` was recognised in.

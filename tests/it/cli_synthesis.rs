@@ -107,6 +107,46 @@ fn a_pattern_is_written_as_a_design_that_maps_back() {
     }
 }
 
+/// The paper's example (Rojas, Borras, Thomas, sec. 6): offsets of 12/5 on the base and 6/5 on the platform.
+#[test]
+fn the_derivation_is_exact_and_ends_with_forward_kinematics() {
+    let explain = |pattern: &str, offsets: &str| {
+        let words = ["equivalents", "family", OCTAHEDRAL, "--pattern", pattern, offsets, "--explain"];
+        let (code, doc) = json(&words);
+        (code, doc["derivation"].clone())
+    };
+    let (code, d) = explain("S123456", "--offsets=0.2,0.2,0.2,0.2,0.2,0.2");
+    assert_eq!((code, &d["exact"], &d["sequence"]), (Some(0), &true.into(), &serde_json::Value::Null));
+    let of = |step: &serde_json::Value, key: &str| step[key]["exact"].as_str().unwrap().to_owned();
+    let first = &d["moves"][0];
+    let numbers = ["share", "rest", "square", "constant"].map(|key| of(first, key));
+    assert_eq!(numbers, ["1/5", "4/5", "144", "-576/25"]);
+    assert_eq!(of(&d["products"], "rest"), "4096/15625");
+    assert_eq!(of(&d["factors"][0], "value"), "819/3125");
+    assert_eq!(
+        (&d["verification"]["verdict"], &d["verification"]["proved"]),
+        (&"equivalent".into(), &true.into())
+    );
+    // two legs on one side, one after the other: 3/4 * 7/15 = 7/20
+    let (code, d) = explain("V3456S11", "--offsets=0.25,0.6");
+    let steps: Vec<String> = d["sequence"].as_array().unwrap().iter().map(|s| of(s, "rest")).collect();
+    assert_eq!((code, steps), (Some(0), vec!["3/4".to_owned(), "7/15".to_owned()]));
+    assert_eq!(
+        (of(&d["factors"][0], "value").as_str(), &d["factors"][0]["zero"]),
+        ("7/20", &"u1 = t1".into())
+    );
+    // all midpoints: the determinant is zero, and verification says singular
+    let (code, d) = explain("S123456", "--offsets=0.5,0.5,0.5,0.5,0.5,0.5");
+    assert_eq!((code, of(&d["factors"][0], "value").as_str()), (Some(1), "0"));
+    assert_eq!(d["verification"]["verdict"], "singular");
+    // leg 1 first would lie on leg 2
+    let (code, d) = explain("V3456S11", "--offsets=1,0.5");
+    assert_eq!(
+        (code, &d["sequence"][0]["leg"], of(&d["sequence"][1], "rest").as_str()),
+        (Some(0), &2.into(), "-1")
+    );
+}
+
 #[test]
 fn a_design_made_from_an_octahedral_platform_has_its_class() {
     let made = "designs/rbt-griffis-duffy.toml";

@@ -7,7 +7,7 @@ use files::design::{DesignModel, Origin};
 use platform::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
 use synthesis::singularity::GriffisDuffy;
 use synthesis::{
-    AffineLegMap, Family, HexagonPoint, InstantiateError, JointLabel, LegEnd, LegMapOutcome,
+    AffineLegMap, Derivation, Family, HexagonPoint, InstantiateError, JointLabel, LegEnd, LegMapOutcome,
     LegMapTolerances, NearestOctahedral, NearestOptions, Offset, Pattern, Relation, corner, edge, leg_map,
     nearest_octahedral,
 };
@@ -174,6 +174,13 @@ impl Original {
         built.description = Some(format!("{pattern} of {}, offsets {offsets:?}", own.name));
         built.lengths = own.lengths.and_then(|l| map.apply(&l.squared()).ok()).map(|s| s.lengths());
         Ok((built.into(), map))
+    }
+
+    /// How the leg map to an equivalent platform of this pattern follows from coplanar joints; `None` for an edge
+    /// without length, which no octahedral platform has.
+    #[must_use]
+    pub fn derivation(&self, pattern: &Pattern, built: &Design) -> Option<Derivation> {
+        Derivation::of(&self.octahedral, self.design.manipulator(), pattern, built.manipulator())
     }
 
     /// Where the joints of a pattern come from: corners, and points between two of them.

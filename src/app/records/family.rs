@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::map::matrix;
-use super::{Number, leg_number};
+use super::{DerivationRecord, Number, leg_number};
 use ask::Design;
 use ask::equivalents::Original;
 use platform::manipulator::Body;
@@ -31,6 +31,9 @@ pub struct FamilyAnswer {
     /// The platform of the pattern at the offsets given, with `--offsets`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instance: Option<InstanceRecord>,
+    /// How its map follows from coplanar joints, with `--explain`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub derivation: Option<DerivationRecord>,
 }
 
 impl FamilyAnswer {
@@ -46,6 +49,7 @@ impl FamilyAnswer {
             patterns: members.iter().map(|m| PatternRecord::new(m, original)).collect(),
             topologies: family.topologies().iter().enumerate().map(FamilyTopologyRecord::from).collect(),
             instance: None,
+            derivation: None,
         }
     }
 }

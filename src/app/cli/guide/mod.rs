@@ -88,8 +88,9 @@ const JOBS: [CommandGroup; 10] = [
                 &[
                     "equivalents family designs/rbt-octahedral.toml",
                     "equivalents family designs/rbt-octahedral.toml --pattern S123456 --offsets 0.2,0.3,0.2,0.3,0.2,0.3 -o equivalent.toml",
+                    "equivalents family designs/rbt-octahedral.toml --pattern S123456 --offsets 0.2,0.2,0.2,0.2,0.2,0.2 --explain",
                 ],
-                &["patterns", "class"],
+                &["patterns", "class", "derivation", "Cayley-Menger"],
             ),
             entry(
                 "equivalents components",

@@ -648,6 +648,28 @@ class Design:
         with Workshop() as shop:
             return FamilyAnswer(ask(["equivalents", "family", shop.file("design.toml", self._native)]))
 
+    def derivation(self, offsets: Sequence[float], *, pattern: str = "S123456") -> FamilyAnswer:
+        """How A, c and det A of an equivalent platform follow from coplanar joints, with forward kinematics of both.
+
+        Parameters
+        ----------
+        offsets : sequence of float
+            Shares of the edges, as in `equivalent`.
+        pattern : str
+            A pattern of ``equipod equivalents family``.
+
+        Returns
+        -------
+        FamilyAnswer
+            ``derivation`` has the steps; shown in a notebook, the answer is the text.
+        """
+        from .records import FamilyAnswer
+
+        with Workshop() as shop:
+            shares = ",".join(repr(float(x)) for x in offsets)
+            words = ["equivalents", "family", shop.file("design.toml", self._native), "--explain"]
+            return FamilyAnswer(ask([*words, f"--pattern={pattern}", f"--offsets={shares}"]))
+
     def equivalent(self, offsets: Sequence[float], *, pattern: str | None = None) -> Equivalent:
         """The equivalent platform of an octahedral design with these offsets.
 

@@ -710,9 +710,9 @@ class ComplexRecord(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
-    re: tuple[tuple[Union[float, None], ...], ...]
+    re: PoseRecord
     #: Imaginary parts.
-    im: tuple[tuple[Union[float, None], ...], ...]
+    im: PoseRecord
 
 
 class ComplexRecord2(Record):
@@ -929,6 +929,27 @@ class DependencyRecord(Record):
     platform_dimension: int
     #: By how much the lengths of the design miss the constant, relative; null without lengths.
     lengths_defect: Union[float, None]
+
+
+class DerivationRecord(Record):
+    """How A, c and det A of one platform of the class follow from coplanar joints, and what forward kinematics says."""
+
+    #: The numbers are those of exact joints, and each moved joint lies on its line exactly; otherwise they
+    #: are those of the doubles.
+    exact: bool
+    #: One row of A for each moved leg, all offsets at once, from the legs of the octahedral platform.
+    moves: tuple[LegSlideRecord, ...]
+    #: The same one offset at a time, from the legs that are there before each move; det A is the product
+    #: of their `rest`. null: no order of single moves reaches the platform without two legs on one
+    #: another.
+    sequence: Union[tuple[LegSlideRecord, ...], None]
+    #: The factors of det A.
+    factors: tuple[FactorRecord, ...]
+    #: Products over all six offsets, whose difference det A is; null: some leg is not moved.
+    products: Union[OffsetProductsRecord, None]
+    #: Forward kinematics of the octahedral platform and of this one, solved independently, and the leg map
+    #: from one to the other.
+    verification: VerifyAnswer
 
 
 class Design(Record):
@@ -1375,6 +1396,15 @@ class ErrorMapRecord(Record):
     path: Union[str, None]
 
 
+class ExactNumberRecord(Record):
+    """A number that is known exactly, or as the doubles say it."""
+
+    #: The nearest double.
+    value: Union[float, None]
+    #: The number as an expression, such as 4/5 or 1/2 + sqrt(3)/6; null where it is known as doubles only.
+    exact: Union[str, None]
+
+
 class ExactRoundingOutcome(Record):
     """The exact rounding, or why there is none."""
 
@@ -1550,6 +1580,17 @@ class ExtremeRecord(Record):
     time_s: float
 
 
+class FactorRecord(Record):
+    """A factor of det A."""
+
+    #: In the offsets, such as 1 - t1.
+    formula: str
+    #: The equation of its zeros, where the platform is architecturally singular.
+    zero: str
+    #: Its value at the offsets.
+    value: ExactNumberRecord
+
+
 class FailureRecord(Record):
     """A refusal or a failure."""
 
@@ -1597,6 +1638,8 @@ class FamilyAnswer(Record):
     warnings: tuple[WarningRecord, ...]
     #: The platform of the pattern at the offsets given, with `--offsets`.
     instance: Union[InstanceRecord, None]
+    #: How its map follows from coplanar joints, with `--explain`.
+    derivation: Union[DerivationRecord, None]
 
 
 class FamilySizeRecord(Record):
@@ -2355,6 +2398,31 @@ class LegMotionRecord(Record):
     power_w: Union[ExtremeRecord, None]
 
 
+class LegSlideRecord(Record):
+    """One leg that moves along the line of two legs with a joint in common: X, Y, Q and F are in one plane at every pose."""
+
+    #: The leg that moves, from 1.
+    leg: int
+    #: The legs X F and Y F, from 1.
+    between: tuple[int, ...]
+    #: The names of X and Y.
+    ends: tuple[str, ...]
+    #: The name of Q = X + t (Y - X), the joint that the leg gets.
+    moved: str
+    #: The name of F, the joint that it keeps.
+    fixed: str
+    #: t: s' = (1 - t) s_X + t s_Y - t (1 - t) d^2.
+    share: ExactNumberRecord
+    #: 1 - t.
+    rest: ExactNumberRecord
+    #: d^2 = |XY|^2, design units squared.
+    square: ExactNumberRecord
+    #: |XQ|^2 and |YQ|^2, design units squared.
+    squares_to_ends: tuple[ExactNumberRecord, ...]
+    #: The entry of c: -t (1 - t) d^2, design units squared.
+    constant: ExactNumberRecord
+
+
 class LightestDriveRecord(Record):
     """The lightest drive of the table that a design names with which its requirements are met."""
 
@@ -2919,6 +2987,15 @@ class ObservabilityRecord(Record):
     harmonic_index: Union[float, None]
     #: Changes of the machine that are not identified, each of norm 1 over all unknowns.
     unobservable: tuple[UnobservableRecord, ...]
+
+
+class OffsetProductsRecord(Record):
+    """Products over the six offsets of the platform without shared joints."""
+
+    #: (1 - t1) .. (1 - t6).
+    rest: ExactNumberRecord
+    #: t1 .. t6.
+    own: ExactNumberRecord
 
 
 class OffsetShiftRecord(Record):
@@ -4079,8 +4156,6 @@ class VerifiedRecord(Record):
 class VerifyAnswer(Record):
     """One JSON document: an answer between what all answers have."""
 
-    #: Always 1: the version of these definitions.
-    schema_version: int
     #: The verdict.
     verdict: VerdictWord
     #: One sentence with the numbers that decided.
@@ -4098,6 +4173,8 @@ class VerifyAnswer(Record):
     worst_distance: Union[float, None]
     #: The numerical side.
     samples: tuple[SampleRecord, ...]
+    #: Always 1: the version of these definitions.
+    schema_version: int
     #: What the answer was made from.
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.

@@ -16,6 +16,10 @@ pub fn family(r: &FamilyAnswer, asked: bool) -> Sheet {
     if let Some(r) = &r.instance {
         say!(sheet, "\nat these offsets det A = {}", r.determinant.0);
     }
+    if let Some(d) = &r.derivation {
+        let to = r.instance.as_ref().map_or("the platform", |built| built.pattern.as_str());
+        sheet.add(super::derivation(d, &r.name, to));
+    }
     sheet
 }
 

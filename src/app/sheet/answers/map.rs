@@ -53,7 +53,21 @@ pub fn leg_map(r: &MapRecord, from: &str, to: &str) -> Sheet {
 }
 
 /// Longest number of a row that is written out: the decimals of an optimised offset take a line each.
-const WRITTEN: usize = 24;
+pub(super) const WRITTEN: usize = 24;
+
+/// Numbers times symbols and a constant, with signs and without ones and zeros.
+pub(super) fn combination(terms: impl IntoIterator<Item = (String, String)>, constant: &str) -> String {
+    let term = |(number, symbol): (String, String)| match number.as_str() {
+        "0" => None,
+        "1" => Some(symbol),
+        "-1" => Some(format!("-{symbol}")),
+        sum if sum.contains(' ') && !sum.starts_with('(') => Some(format!("({sum}) {symbol}")),
+        one => Some(format!("{one} {symbol}")),
+    };
+    let constant = (constant != "0").then(|| constant.to_owned());
+    let all: Vec<String> = terms.into_iter().filter_map(term).chain(constant).collect();
+    all.join(" + ").replace("+ -", "- ")
+}
 
 /// The map in exact numbers, a formula a leg.
 fn exact_rows(out: &mut Sheet, r: &MapRecord) {
@@ -66,14 +80,8 @@ fn exact_rows(out: &mut Sheet, r: &MapRecord) {
         return;
     }
     for i in 0..6 {
-        let terms = (0..6).filter(|k| a[i][*k] != "0").map(|k| match a[i][k].as_str() {
-            "1" => format!("s{}", k + 1),
-            "-1" => format!("-s{}", k + 1),
-            number if number.contains(' ') => format!("({number}) s{}", k + 1),
-            number => format!("{number} s{}", k + 1),
-        });
-        let constant = (c[i] != "0").then(|| c[i].clone());
-        let row = terms.chain(constant).collect::<Vec<_>>().join(" + ").replace("+ -", "- ");
+        let terms = (0..6).filter(|k| a[i][*k] != "0").map(|k| (a[i][k].clone(), format!("s{}", k + 1)));
+        let row = combination(terms, &c[i]);
         let singular = shares[i].as_ref().filter(|share| share.len() <= WRITTEN);
         let singular =
             singular.map_or_else(String::new, |t| format!("    (det A = 0 with t = {t} in this row)"));

@@ -3,6 +3,7 @@
 mod assess;
 mod check;
 mod compare;
+mod derivation;
 mod document;
 mod drives;
 mod family;
@@ -22,6 +23,7 @@ pub use assess::{
 };
 pub use check::check;
 pub use compare::compare;
+pub use derivation::derivation;
 pub use document::{document, heading, words};
 pub use drives::drives;
 pub use family::family;

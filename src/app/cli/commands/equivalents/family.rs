@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::app::cli::commands::verify::failure_of;
 use crate::app::cli::commands::{GENERAL, NEAREST};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -10,9 +11,10 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use ask::Design;
 use ask::equivalents::{Original, Origins};
-use ask::leg_map;
+use ask::{SAMPLES, leg_map, sample_plan};
+use fk::FkOptions;
 use platform::manipulator::Octahedral;
-use records::{FamilyAnswer, InstanceRecord};
+use records::{DerivationRecord, FamilyAnswer, FramesRecord, InstanceRecord, VerifyAnswer};
 use sheet::Sheet;
 use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
@@ -40,6 +42,10 @@ pub(crate) struct EquivalentsFamilyArgs {
         requires = "pattern"
     )]
     offsets: Option<Vec<f64>>,
+    /// Show how A, c and det A follow from coplanar joints, step by step, and what forward kinematics of both platforms
+    /// says
+    #[arg(long, requires = "offsets")]
+    explain: bool,
     /// Write the platform of the pattern as a design
     #[arg(short, long, value_name = "FILE", requires = "offsets")]
     output: Option<OutputPath>,
@@ -62,7 +68,10 @@ pub(crate) fn run(args: &EquivalentsFamilyArgs, context: &mut Context) -> Result
     let mut answer = FamilyAnswer::new(&design.name, &original, &family, &members);
     let mut built = None;
     if let (Some(pattern), Some(offsets)) = (&wanted, &args.offsets) {
-        let (record, found) = realise(args, pattern, &design, &original, offsets)?;
+        let (record, platform, found) = realise(args, pattern, &design, &original, offsets)?;
+        if args.explain {
+            answer.derivation = Some(explain(pattern, &original, &platform, context)?);
+        }
         (answer.instance, built) = (Some(record), Some(found));
     }
     let mut sheet = Sheet::new();
@@ -137,7 +146,7 @@ fn realise(
     design: &Design,
     original: &Original,
     offsets: &[f64],
-) -> Result<(InstanceRecord, LegMapOutcome), Failure> {
+) -> Result<(InstanceRecord, Design, LegMapOutcome), Failure> {
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
     let (built, map) = original.equivalent(pattern, offsets).map_err(|e| refused(&e))?;
     let record = InstanceRecord::new(pattern, offsets, &built, &map).map_err(|e| refused(&e))?;
@@ -146,5 +155,22 @@ fn realise(
     if let Some(path) = args.output.as_ref().filter(|_| found.is_regular_within_rounding()) {
         files::write_design(path, &built)?;
     }
-    Ok((record, found))
+    Ok((record, built, found))
+}
+
+/// The steps to the platform, and what forward kinematics says of it and of the octahedral one.
+fn explain(
+    pattern: &Pattern,
+    original: &Original,
+    built: &Design,
+    context: &Context,
+) -> Result<DerivationRecord, Failure> {
+    let steps = original.derivation(pattern, built);
+    let steps = steps.ok_or_else(|| Failure::internal("an edge of the octahedral platform has no length"))?;
+    let plan = sample_plan(&original.design, SAMPLES, context.seed());
+    let options = FkOptions::new().seed(context.seed());
+    let found = verify::verify(original.design.manipulator(), built.manipulator(), &plan, &options)
+        .map_err(|e| failure_of(&e))?;
+    let verification = VerifyAnswer::new(&found, &plan, FramesRecord::default());
+    Ok(DerivationRecord::new(&steps, original, verification))
 }

@@ -1,0 +1,122 @@
+//! The way from coplanar points to the leg map of an equivalent platform.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Number, VerifyAnswer};
+use ask::equivalents::Original;
+use num::algebraic::Algebraic;
+use synthesis::{Derivation, LegSlide};
+
+/// How A, c and det A of one platform of the class follow from coplanar joints, and what forward kinematics says.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DerivationRecord {
+    /// The numbers are those of exact joints, and each moved joint lies on its line exactly; otherwise they are those of
+    /// the doubles.
+    pub exact: bool,
+    /// One row of A for each moved leg, all offsets at once, from the legs of the octahedral platform.
+    pub moves: Vec<LegSlideRecord>,
+    /// The same one offset at a time, from the legs that are there before each move; det A is the product of their
+    /// `rest`. null: no order of single moves reaches
+    /// the platform without two legs on one another.
+    pub sequence: Option<Vec<LegSlideRecord>>,
+    /// The factors of det A.
+    pub factors: Vec<FactorRecord>,
+    /// Products over all six offsets, whose difference det A is; null: some leg is not moved.
+    pub products: Option<OffsetProductsRecord>,
+    /// Forward kinematics of the octahedral platform and of this one, solved independently, and the leg map from one to
+    /// the other.
+    pub verification: VerifyAnswer,
+}
+
+/// One leg that moves along the line of two legs with a joint in common: X, Y, Q and F are in one plane at every pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LegSlideRecord {
+    /// The leg that moves, from 1.
+    pub leg: usize,
+    /// The legs X F and Y F, from 1.
+    pub between: [usize; 2],
+    /// The names of X and Y.
+    pub ends: [String; 2],
+    /// The name of Q = X + t (Y - X), the joint that the leg gets.
+    pub moved: String,
+    /// The name of F, the joint that it keeps.
+    pub fixed: String,
+    /// t: s' = (1 - t) s_X + t s_Y - t (1 - t) d^2.
+    pub share: ExactNumberRecord,
+    /// 1 - t.
+    pub rest: ExactNumberRecord,
+    /// d^2 = |XY|^2, design units squared.
+    pub square: ExactNumberRecord,
+    /// |XQ|^2 and |YQ|^2, design units squared.
+    pub squares_to_ends: [ExactNumberRecord; 2],
+    /// The entry of c: -t (1 - t) d^2, design units squared.
+    pub constant: ExactNumberRecord,
+}
+
+/// A factor of det A.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FactorRecord {
+    /// In the offsets, such as 1 - t1.
+    pub formula: String,
+    /// The equation of its zeros, where the platform is architecturally singular.
+    pub zero: String,
+    /// Its value at the offsets.
+    pub value: ExactNumberRecord,
+}
+
+/// Products over the six offsets of the platform without shared joints.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OffsetProductsRecord {
+    /// (1 - t1) .. (1 - t6).
+    pub rest: ExactNumberRecord,
+    /// t1 .. t6.
+    pub own: ExactNumberRecord,
+}
+
+/// A number that is known exactly, or as the doubles say it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExactNumberRecord {
+    /// The nearest double.
+    pub value: Number,
+    /// The number as an expression, such as 4/5 or 1/2 + sqrt(3)/6; null where it is known as doubles only.
+    pub exact: Option<String>,
+}
+
+impl DerivationRecord {
+    /// The steps, with the names that joints have in the class, and the verification of the platform they make.
+    #[must_use]
+    pub fn new(steps: &Derivation, original: &Original, verification: VerifyAnswer) -> Self {
+        let number = |x: &Algebraic| ExactNumberRecord {
+            value: Number(x.approximate()),
+            exact: steps.exact.then(|| x.to_string()),
+        };
+        let record = |step: &LegSlide| LegSlideRecord {
+            leg: step.leg + 1,
+            between: step.between.map(|leg| leg + 1),
+            ends: step.ends.map(|j| original.joint_name(j)),
+            moved: original.joint_name(step.moved),
+            fixed: original.joint_name(step.fixed),
+            share: number(&step.share),
+            rest: number(&step.rest()),
+            square: number(&step.square),
+            squares_to_ends: step.squares_to_ends().each_ref().map(number),
+            constant: number(&step.constant()),
+        };
+        Self {
+            exact: steps.exact,
+            moves: steps.moves.iter().map(record).collect(),
+            sequence: steps.sequence.as_ref().map(|sequence| sequence.iter().map(record).collect()),
+            factors: (steps.factors.iter())
+                .map(|(f, value)| FactorRecord {
+                    formula: f.to_string(),
+                    zero: f.zero(),
+                    value: number(value),
+                })
+                .collect(),
+            products: (steps.products.as_ref())
+                .map(|[rest, own]| OffsetProductsRecord { rest: number(rest), own: number(own) }),
+            verification,
+        }
+    }
+}
