@@ -7,6 +7,7 @@ use crate::distance::{
     ClosureDegrees, ClosureError, ClosurePolynomial, NoPlan, closure_degrees, closure_polynomial, plans,
 };
 use platform::manipulator::{JointKnowledge, Manipulator, SquaredLegLengths};
+use platform::topology::{JointIndex, Sequence};
 
 /// Sequences tried until one tells the number of real poses.
 const ATTEMPTS: usize = 4;
@@ -41,6 +42,12 @@ pub enum NoClosure {
     /// None of the sequences has a polynomial; this is the error of the first.
     #[error(transparent)]
     Polynomial(#[from] ClosureError),
+    /// A leg joins the two joints.
+    #[error("a leg joins these joints: their distance is given")]
+    Leg,
+    /// No sequence of trilaterations uses their distance.
+    #[error("with the distance of these joints the others cannot be placed one by one")]
+    Between,
 }
 
 /// The closure polynomial for the squared lengths `s` that `found` was computed from, by the first sequence that tells
@@ -52,6 +59,39 @@ pub enum NoClosure {
 /// # Errors
 /// [`NoClosure`].
 pub fn closure(m: &Manipulator, s: &SquaredLegLengths, found: &FkSolutions) -> Result<Closure, NoClosure> {
+    of_sequences(m, s, found, &plans(m, 1)?)
+}
+
+/// The same in the squared distance of a base joint and a platform joint that no leg joins, by their numbers.
+///
+/// # Errors
+/// [`NoClosure`].
+pub fn closure_between(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    found: &FkSolutions,
+    unknown: (usize, usize),
+) -> Result<Closure, NoClosure> {
+    if m.pairs().contains(&unknown) {
+        return Err(NoClosure::Leg);
+    }
+    let pair = [JointIndex::Base(unknown.0), JointIndex::Platform(unknown.1)];
+    let with_it = plans(m, 1)?.into_iter().filter_map(|mut plan| {
+        if plan.virtual_legs.is_empty() {
+            plan.closures = vec![pair];
+        }
+        (plan.virtual_legs.is_empty() || plan.virtual_legs == [unknown]).then_some(plan)
+    });
+    let sequences: Vec<Sequence> = with_it.collect();
+    if sequences.is_empty() { Err(NoClosure::Between) } else { of_sequences(m, s, found, &sequences) }
+}
+
+fn of_sequences(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    found: &FkSolutions,
+    sequences: &[Sequence],
+) -> Result<Closure, NoClosure> {
     // the polynomial is that of the doubles
     let complete = matches!(found.completeness, Completeness::Proved { .. })
         && m.joint_knowledge() == JointKnowledge::Doubles;
@@ -60,7 +100,7 @@ pub fn closure(m: &Manipulator, s: &SquaredLegLengths, found: &FkSolutions) -> R
     let poses = (complete && isolated && simple).then_some(found.roots.len());
     let mut first_error = None;
     let mut fallback = None;
-    for plan in plans(m, 1)?.iter().take(ATTEMPTS) {
+    for plan in sequences.iter().take(ATTEMPTS) {
         let polynomial = match closure_polynomial(m, s, plan) {
             Ok(polynomial) => polynomial,
             Err(e) => {

@@ -44,7 +44,7 @@ pub use batch::in_order;
 pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems};
 pub use bounds::pose_bound;
 pub use choose::{Automatic, solver};
-pub use closure::{Closure, NoClosure, closure};
+pub use closure::{Closure, NoClosure, closure, closure_between};
 pub use closure_poses::closure_candidates;
 pub use completeness::{Completeness, PathsEnded, Reason, Reasons, Theorem, Tried};
 pub use homotopy::Homotopy;

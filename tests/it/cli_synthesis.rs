@@ -53,6 +53,33 @@ fn the_published_designs_carry_lengths_of_one_pose() {
     }
 }
 
+/// The lengths of the paper's platform without shared joints (Rojas, Borras, Thomas, sec. 6).
+#[test]
+fn lengths_of_one_design_are_taken_to_those_of_the_other() {
+    let published = [
+        18.851843411189265,
+        17.839282496782207,
+        17.145261736118233,
+        16.426868234694037,
+        14.762655587664439,
+        18.05879287217172,
+    ];
+    let map = |to: &str, lengths: &str| json(&["equivalents", "map", OCTAHEDRAL, to, "--lengths", lengths]).1;
+    let doc = map("designs/rbt-griffis-duffy.toml", "19.8,18,18,17,14.9,17.8");
+    for (i, length) in published.iter().enumerate() {
+        assert!((doc["lengths"]["to"][i].as_f64().unwrap() - length).abs() < 1e-12);
+    }
+    let none = map("designs/rbt-midline.toml", "19.8,18,18,17,14.9,17.8");
+    assert_eq!(
+        (&none["lengths"]["to"], none["lengths"]["why_not"].as_str()),
+        (&serde_json::Value::Null, Some("the designs have no regular map"))
+    );
+    // too short for the offsets: a squared length would be negative
+    let none = map("designs/rbt-griffis-duffy.toml", "1,1,1,1,1,1");
+    assert!(none["lengths"]["to"].is_null() && none["lengths"]["why_not"].is_string());
+    assert_eq!(map("designs/rbt-griffis-duffy.toml", "1,2")["error"]["code"], "map::bad_lengths");
+}
+
 #[test]
 fn different_units_are_refused() {
     let folder = tempfile::tempdir().unwrap();

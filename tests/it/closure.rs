@@ -115,6 +115,39 @@ fn the_command_shows_the_closure_polynomial() {
     assert!(doc.get("closure").is_none());
 }
 
+/// The octic of the octahedral platform in each of its three distances, that of the paper with its printed roots
+/// (Rojas, Borras, Thomas, eq. 10).
+#[test]
+fn the_unknown_of_the_closure_polynomial_can_be_chosen() {
+    let between = |design: &str, pair: &str| document(&equipod(&["fk", design, "--between", pair, "--json"]));
+    let octahedral = "designs/rbt-octahedral.toml";
+    let printed = [269.2450856, 328.7364309, 359.5275017, 463.5657697, 497.902151, 513.0332445];
+    let c = &between(octahedral, "P1,P5")["closure"];
+    assert_eq!((&c["unknown"], &c["degree"]), (&serde_json::json!(["P1", "P5"]), &8.into()));
+    for (root, printed) in c["real_roots"].as_array().unwrap().iter().zip(printed) {
+        assert!((root[0].as_f64().unwrap() - printed).abs() < 1e-6, "{root} {printed}");
+    }
+    for pair in ["P4,P3", "P2,P6"] {
+        let c = &between(octahedral, pair)["closure"];
+        assert_eq!((&c["degree"], c["real_roots"].as_array().map(Vec::len)), (&8.into(), Some(6)), "{pair}");
+    }
+    // the unknown of the paper's first example; its printed polynomial has another sum of roots
+    let c = &between("designs/porta-thomas-1.toml", "b,g")["closure"];
+    let parts = |k: usize| {
+        let digits = c["coefficients"][k].as_str().unwrap();
+        let (sign, digits) = digits.strip_prefix('-').map_or((1.0, digits), |rest| (-1.0, rest));
+        (sign * format!("0.{digits}").parse::<f64>().unwrap(), digits.len() as i32)
+    };
+    let ((x, of_x), (y, of_y)) = (parts(15), parts(16));
+    let sum = -x / y * 10f64.powi(of_x - of_y);
+    assert!(c["degree"] == 16 && (sum - 1827.466).abs() < 1e-3, "{sum}");
+    // distances that are given, and those that place no joint
+    let why = |design, pair| between(design, pair)["closure"]["error"].as_str().unwrap().to_owned();
+    assert!(why(octahedral, "P1,P4").contains("a leg joins these joints"));
+    assert!(why("designs/innocenti-6-4.toml", "k,d").contains("cannot be placed one by one"));
+    assert_eq!(between(octahedral, "P1,P2")["error"]["code"], "fk::bad_joints");
+}
+
 fn joint(names: &[String], name: &str) -> usize {
     names.iter().position(|n| n == name).unwrap()
 }

@@ -51,7 +51,8 @@ pub(super) fn leg_map<'py>(
         (a.into_pyarray(py), c.into_pyarray(py))
     });
     let correspondence = (&LegCorrespondence::between(a.manipulator(), b.manipulator())).into();
-    let answer = MapAnswer { map: (&found).into(), correspondence, frames: FramesRecord::default() };
+    let answer =
+        MapAnswer { map: (&found).into(), correspondence, lengths: None, frames: FramesRecord::default() };
     Ok((map, document(answer, &[a, b], None)?))
 }
 

@@ -17,9 +17,23 @@ pub struct MapAnswer {
     pub map: MapRecord,
     /// Which leg is which.
     pub correspondence: CorrespondenceRecord,
+    /// Leg lengths taken from one design to the other, with `--lengths`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lengths: Option<MappedLengthsRecord>,
     /// What was done with the frames of the second design.
     #[serde(flatten)]
     pub frames: FramesRecord,
+}
+
+/// Lengths of the legs of both designs at the same poses, as the legs show them, design units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MappedLengthsRecord {
+    /// Of FROM, as given.
+    pub from: [Number; 6],
+    /// Of TO; null: there are none.
+    pub to: Option<[Number; 6]>,
+    /// Why there are none: no regular map, or a squared length that is not positive.
+    pub why_not: Option<String>,
 }
 
 /// The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs.

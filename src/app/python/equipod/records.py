@@ -2557,6 +2557,8 @@ class MapAnswer(Record):
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
+    #: Leg lengths taken from one design to the other, with `--lengths`.
+    lengths: Union[MappedLengthsRecord, None]
     #: Base and platform of the second design were exchanged first.
     exchanged: Union[bool, None]
     #: The rigid motions that make the second design equivalent to the first, with `--align`.
@@ -2620,6 +2622,17 @@ class MapTolerancesRecord(Record):
     rank: float
     #: Of `inverse_condition`.
     inverse_condition: float
+
+
+class MappedLengthsRecord(Record):
+    """Lengths of the legs of both designs at the same poses, as the legs show them, design units."""
+
+    #: Of FROM, as given.
+    from_: tuple[Union[float, None], ...]
+    #: Of TO; null: there are none.
+    to: Union[tuple[Union[float, None], ...], None]
+    #: Why there are none: no regular map, or a squared length that is not positive.
+    why_not: Union[str, None]
 
 
 class MarginRecord(Record):

@@ -2,7 +2,7 @@
 
 use crate::{Cell, Sheet, Table, left, right};
 use num::shown::fixed;
-use records::{CorrespondenceRecord, MapAnswer, MapRecord};
+use records::{CorrespondenceRecord, MapAnswer, MapRecord, MappedLengthsRecord};
 use synthesis::Relation;
 
 /// The answer of `equivalents map`, between designs of these names.
@@ -12,7 +12,23 @@ pub fn map(answer: &MapAnswer, from: &str, to: &str) -> Sheet {
     if let Some(line) = same_legs(&answer.correspondence) {
         sheet.line(line);
     }
+    if let Some(lengths) = &answer.lengths {
+        mapped(&mut sheet, lengths);
+    }
     sheet
+}
+
+fn mapped(out: &mut Sheet, lengths: &MappedLengthsRecord) {
+    out.space();
+    let Some(to) = &lengths.to else {
+        say!(out, "no lengths of TO: {}", lengths.why_not.as_deref().unwrap_or_default());
+        return;
+    };
+    let mut table = Table::new([left("", 6), right("FROM", 12), right("TO", 12).gap(2)]);
+    for (k, (from, to)) in lengths.from.iter().zip(to).enumerate() {
+        table.row([format!("leg {}", k + 1), fixed(from.0, 6), fixed(to.0, 6)]);
+    }
+    out.table(table);
 }
 
 fn same_legs(c: &CorrespondenceRecord) -> Option<String> {

@@ -3,12 +3,15 @@
 use std::path::PathBuf;
 
 use crate::app::cli::alignment::{FrameArgs, same_units};
+use crate::app::cli::commands::fk::lengths::six;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
-use records::MapAnswer;
-use synthesis::{LegCorrespondence, Relation};
+use ask::Design;
+use num::Number;
+use records::{MapAnswer, MappedLengthsRecord};
+use synthesis::{LegCorrespondence, LegMapOutcome, Relation};
 
 /// Arguments of `equivalents map`.
 #[derive(Debug, clap::Args)]
@@ -17,6 +20,9 @@ pub(crate) struct EquivalentsMapArgs {
     from: PathBuf,
     /// Design file whose squared lengths are wanted, in the same units and, without --align, in the same two frames
     to: PathBuf,
+    /// Six leg lengths of FROM, for which those of TO at the same poses are wanted
+    #[arg(long, value_name = "L1,..,L6")]
+    lengths: Option<String>,
     #[command(flatten)]
     frames: FrameArgs,
 }
@@ -35,8 +41,30 @@ pub(crate) fn run(args: &EquivalentsMapArgs, context: &mut Context) -> Result<An
         _ => Exit::No,
     };
     let legs = LegCorrespondence::between(from.manipulator(), &second.manipulator);
-    let record =
-        MapAnswer { map: (&outcome).into(), correspondence: (&legs).into(), frames: second.record() };
+    let lengths = match args.lengths.as_deref() {
+        Some(text) => Some(mapped(text, [&from, &to], &outcome)?),
+        None => None,
+    };
+    let (map, correspondence) = ((&outcome).into(), (&legs).into());
+    let record = MapAnswer { map, correspondence, lengths, frames: second.record() };
     let text = format!("{}{}", second.text(), sheet::answers::map(&record, &from.name, &to.name));
     Ok(Answer::new(exit, record, text))
+}
+
+/// The lengths that the legs of the second design show where those of the first show these.
+fn mapped(text: &str, designs: [&Design; 2], map: &LegMapOutcome) -> Result<MappedLengthsRecord, Failure> {
+    let [shown, offsets] = designs.map(|d| d.leg_offsets());
+    let given = six(text, &shown)
+        .map_err(|message| Failure::refused("map::bad_lengths", format!("--lengths: {message}")))?;
+    let taken = if map.is_regular_within_rounding() {
+        let squares = map.closest.apply(&given.distances.squared()).map_err(|why| why.to_string());
+        squares.and_then(|s| s.lengths().shown_with(&offsets).map_err(|why| why.to_string()))
+    } else {
+        Err("the designs have no regular map".to_owned())
+    };
+    let (to, why_not) = match taken {
+        Ok(lengths) => (Some(lengths.get().map(Number)), None),
+        Err(why) => (None, Some(why)),
+    };
+    Ok(MappedLengthsRecord { from: given.shown.map(Number), to, why_not })
 }

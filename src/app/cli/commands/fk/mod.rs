@@ -17,6 +17,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
+use ask::Design;
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use platform::geom::Pose;
 use platform::manipulator::{LegLengths, Manipulator};
@@ -43,6 +44,9 @@ pub(crate) struct FkArgs {
     /// Method of solution; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
+    /// Show the closure polynomial in the squared distance of these two joints, one of the base and one of the platform
+    #[arg(long, value_name = "JOINT,JOINT", conflicts_with_all = ["near", "csv", "angles"])]
+    between: Option<String>,
     /// Worker threads for the rows of a CSV file, one for each processor when absent; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -105,6 +109,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
         return Ok(near::run(&design, &given, start, context.seed(), &table));
     }
     let (m, home) = (design.manipulator(), poses::home(&design));
+    let between = args.between.as_deref().map(|text| pair(text, &design)).transpose()?;
     let options = FkOptions::new().seed(context.seed());
     match given {
         GivenLengths::One(l) => {
@@ -116,8 +121,14 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             let exit = exit_of(&solutions);
             let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &home));
             let mut text = render::text(&design.name, &answer.solved);
-            if args.method == MethodArg::Trilateration {
-                let found = ClosureRecord::new(&design, &fk::closure(m, &l.distances.squared(), &solutions));
+            let squares = l.distances.squared();
+            let closure = match between {
+                Some(pair) => Some(fk::closure_between(m, &squares, &solutions, pair)),
+                None if args.method == MethodArg::Trilateration => Some(fk::closure(m, &squares, &solutions)),
+                None => None,
+            };
+            if let Some(closure) = closure {
+                let found = ClosureRecord::new(&design, &closure);
                 text.push_str(&render::closure(&found));
                 answer.closure = Some(found);
             }
@@ -126,6 +137,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             Ok(Answer::new(exit, answer, text))
         }
         GivenLengths::Rows(series) => {
+            context.no_effect("between", "a polynomial belongs to one set of lengths")?;
             let table = PoseTable { time_name: series.time_name, ..table };
             let (exit, answer, text) =
                 many(method, (m, &home), &series.rows, &options, threads(args.threads));
@@ -133,6 +145,21 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             Ok(Answer::new(exit, answer, text))
         }
     }
+}
+
+/// A joint of the base and one of the platform, in any order.
+fn pair(text: &str, design: &Design) -> Result<(usize, usize), Failure> {
+    let find = |names: &[String], name: &str| names.iter().position(|own| own == name.trim());
+    let pair = text.split_once(',').and_then(|(x, y)| {
+        let both = |a, b| Some((find(design.base_names(), a)?, find(design.platform_names(), b)?));
+        both(x, y).or_else(|| both(y, x))
+    });
+    pair.ok_or_else(|| {
+        let names = [design.base_names(), design.platform_names()].map(|list| list.join(", "));
+        let message = format!("--between: `{text}` is not a joint of the base and one of the platform");
+        let help = format!("base: {}; platform: {}", names[0], names[1]);
+        Failure::refused("fk::bad_joints", message).with_help(help)
+    })
 }
 
 fn threads(asked: Option<u16>) -> Threads {

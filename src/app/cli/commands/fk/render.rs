@@ -154,6 +154,11 @@ pub(super) fn closure(closure: &ClosureRecord) -> String {
         p.distinct_roots,
         p.real_roots.len()
     );
+    let roots: Vec<String> =
+        p.real_roots.iter().map(|[low, high]| format!("{:.9}", 0.5 * (low.0 + high.0))).collect();
+    if !roots.is_empty() {
+        let _ = writeln!(out, "its real roots: {}", roots.join(", "));
+    }
     let _ = match p.poses_real_proved {
         Some(n) => writeln!(out, "real poses: {n}, proved by its real roots"),
         None => writeln!(out, "real poses: not decided by its real roots alone"),
