@@ -49,7 +49,7 @@ pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
 pub use joint_angles::JointAngles;
 pub use keep_out::{KeepOut, KeepOutShape};
 pub use limit::{Limit, Limits, PoseLimit};
-pub use load::{LegsWeight, Load, leg_forces};
+pub use load::{HeldLines, LegsWeight, Load, leg_forces};
 pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload, PlateMass};
 pub use plate::{
     BoltPattern, BoltsFrom, MATERIALS, Outline, OutlinePart, PlateDesign, PlateSeat, PlateSolid, Plates,
@@ -69,6 +69,8 @@ pub use vibration::{
 };
 pub use vibration::{mass_of, scaled_mass};
 
+use num::smooth::SmoothNumber;
+
 /// Greatest speed of the platform: every direction of motion up to these rates, together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlatformSpeed {
@@ -76,6 +78,15 @@ pub struct PlatformSpeed {
     pub linear: f64,
     /// Angular speed, degrees per second.
     pub angular_deg: f64,
+}
+
+impl PlatformSpeed {
+    /// The greatest rate of a drive over all motions up to these speeds: `|f| linear + |m| angular` for a drive whose
+    /// rate is `f . v + m . w`.
+    #[must_use]
+    pub fn fastest<N: SmoothNumber>(&self, force: N, moment: N) -> N {
+        force.times(N::Factor::from(self.linear)) + moment.times(N::radians(self.angular_deg))
+    }
 }
 
 /// Everything a design has to satisfy. What is absent limits nothing.

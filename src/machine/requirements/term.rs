@@ -7,7 +7,7 @@ use super::coupled::{CoupledLegs, DriveState, NoDriveLength};
 use super::envelope::{ball, room};
 use super::hardware::{Housing, JointAxes, LegBody};
 use super::keep_out::KeepOut;
-use super::load::forces_along;
+use super::load::HeldLines;
 use super::plate::PlateSolid;
 use super::universal::{Hinge, HingeAngle};
 use super::vibration::{lowest_of, mass_matrix, softest_of};
@@ -690,8 +690,9 @@ impl<'a> Terms<'a> {
         let (hardware, m) = (&self.required.hardware, self.manipulator);
         if let Some(greatest) = hardware.max_leg_force {
             let rows = self.drive_rows(pose, m.size());
+            let lines = rows.map(|rows| HeldLines::new(&rows, m.size()));
             for (k, load) in self.required.loads.iter().enumerate() {
-                let forces = rows.and_then(|rows| forces_along(&rows, &load.wrench(m, pose), m.size()));
+                let forces = lines.as_ref().and_then(|lines| lines.forces(&load.wrench(m, pose)));
                 for i in 0..6 {
                     let margin = forces.map_or(f64::NEG_INFINITY, |f| greatest - f[i].abs());
                     out.push((Term { kind: TermKind::LegForce, first: i, second: k }, margin));
@@ -707,7 +708,7 @@ impl<'a> Terms<'a> {
                     let moment = rows.fixed_view::<1, 3>(i, 3).norm();
                     // lines of legs are unit vectors, screws that turn with them are more
                     let line = if self.are_coupled() { rows.fixed_view::<1, 3>(i, 0).norm() } else { 1.0 };
-                    speed.linear * line + moment * speed.angular_deg.to_radians()
+                    speed.fastest(line, moment)
                 });
                 let own = Term { kind: TermKind::LegSpeed, first: i, second: i };
                 out.push((own, greatest - fastest));
