@@ -47,7 +47,7 @@ pub use hardware::{
 };
 pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
 pub use joint_angles::JointAngles;
-pub use keep_out::{KeepOut, KeepOutShape};
+pub use keep_out::{KeepOut, KeepOutShape, NearestOnSegment};
 pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{HeldLines, LegsWeight, Load, leg_forces};
 pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload, PlateMass};

@@ -6,7 +6,7 @@ use super::Requirements;
 use super::coupled::{CoupledLegs, DriveState, NoDriveLength};
 use super::envelope::{ball, room};
 use super::hardware::{Housing, JointAxes, LegBody};
-use super::keep_out::KeepOut;
+use super::keep_out::KeepOutShape;
 use super::load::HeldLines;
 use super::plate::PlateSolid;
 use super::universal::{Hinge, HingeAngle};
@@ -648,8 +648,7 @@ impl<'a> Terms<'a> {
                 out.push((Term { kind: TermKind::LegClearance, first: i, second: j }, least - clearance));
             }
             for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
-                let least =
-                    legs[i].iter().map(|p| keep_out_gap(keep_out, p, pose)).fold(f64::INFINITY, f64::min);
+                let least = shape_gap(&keep_out.shape, keep_out.fixed_to, &legs[i], pose);
                 out.push((Term { kind: TermKind::KeepOut, first: i, second: k }, least - clearance));
             }
             self.plate_clearances((i, &legs[i]), pose, clearance, out);
@@ -679,8 +678,7 @@ impl<'a> Terms<'a> {
             out.push((Term { kind, first: i, second: body.index() }, least - clearance));
         }
         if let Some(shape) = &self.required.payload_shape {
-            let gap = |(p, q, radius): &Part| shape.distance(&back(p), &back(q)) - radius;
-            let least = leg.iter().map(gap).fold(f64::INFINITY, f64::min);
+            let least = shape_gap(shape, Body::Platform, leg, pose);
             let kind = TermKind::PayloadClearance;
             out.push((Term { kind, first: i, second: i }, least - clearance));
         }
@@ -717,13 +715,12 @@ impl<'a> Terms<'a> {
     }
 }
 
-fn keep_out_gap(keep_out: &KeepOut, (a, b, radius): &Part, pose: &Pose) -> f64 {
-    let distance = match keep_out.fixed_to {
-        Body::Base => keep_out.shape.distance(a, b),
-        Body::Platform => {
-            let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
-            keep_out.shape.distance(&back(a), &back(b))
-        }
+/// The least gap of the parts of a leg and a shape that moves with a body.
+fn shape_gap(shape: &KeepOutShape, fixed_to: Body, leg: &[Part], pose: &Pose) -> f64 {
+    let local = |q: &Point3<f64>| match fixed_to {
+        Body::Base => *q,
+        Body::Platform => pose.rotation.inverse() * (q - pose.position),
     };
-    distance - radius
+    let gap = |(p, q, radius): &Part| shape.distance(&local(p), &local(q)) - radius;
+    leg.iter().map(gap).fold(f64::INFINITY, f64::min)
 }

@@ -15,7 +15,7 @@ use super::shape::{JointEnds, LegJoints, Shape};
 use super::stiffness::{self, RayleighQuotient};
 use crate::climb::TermId;
 use machine::requirements;
-use machine::requirements::{HingeAngle, Housing, JointAxes, KeepOut, Requirements, Swing, TermKind};
+use machine::requirements::{HingeAngle, Housing, JointAxes, KeepOutShape, Requirements, Swing, TermKind};
 use num::ordered::{OrderedNumber, Sloped};
 use platform::geom::Pose;
 use platform::manipulator::Body;
@@ -339,16 +339,15 @@ impl<'a> RequirementTerms<'a> {
     fn keep_outs<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
             for i in 0..6 {
-                self.shape_clearance(l, (TermKind::KeepOut, i, k), keep_out, see);
+                self.shape_clearance(l, (TermKind::KeepOut, i, k), (&keep_out.shape, keep_out.fixed_to), see);
             }
         }
     }
 
     fn payload_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
-        let Some(shape) = self.required.payload_shape else { return };
-        let payload = KeepOut { name: String::new(), fixed_to: Body::Platform, shape };
+        let Some(shape) = &self.required.payload_shape else { return };
         for i in 0..6 {
-            self.shape_clearance(l, (TermKind::PayloadClearance, i, i), &payload, see);
+            self.shape_clearance(l, (TermKind::PayloadClearance, i, i), (shape, Body::Platform), see);
         }
     }
 
@@ -356,7 +355,7 @@ impl<'a> RequirementTerms<'a> {
         &self,
         l: &LegLines,
         (kind, i, k): (TermKind, usize, usize),
-        shape: &KeepOut,
+        shape: (&KeepOutShape, Body),
         see: &mut impl FnMut(PoseTerm<P>),
     ) {
         let h = &self.required.hardware;
