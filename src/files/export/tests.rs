@@ -55,7 +55,7 @@ fn outlines_of_a_point_a_line_and_a_square() {
     ];
     for (points, parts, area) in cases {
         let outline = Outline::around(&points, 1.0, 1e-9);
-        assert_eq!(outline.parts.len(), parts);
+        assert_eq!(outline.parts().len(), parts);
         assert!((outline.area() - area).abs() < 1e-12, "{}", outline.area());
         // the polygon is another way to the area
         let polygon = polygon_area(&outline.polygon(720));

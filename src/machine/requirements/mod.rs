@@ -52,8 +52,8 @@ pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{HeldLines, LegsWeight, Load, leg_forces};
 pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload, PlateMass};
 pub use plate::{
-    BoltPattern, BoltsFrom, MATERIALS, Outline, OutlinePart, PlateDesign, PlateSeat, PlateSolid, Plates,
-    seat_height,
+    BoltPattern, BoltsFrom, HoleGap, HolePair, MATERIALS, Outline, OutlinePart, OutlineSide, PlateDesign,
+    PlateHole, PlateSeat, PlateSolid, Plates, seat_height,
 };
 pub use plate::{PlateBody, on_circle};
 pub use plate::{frame_of, plate_normal};

@@ -5,7 +5,7 @@ use nalgebra::{Matrix6, Point3, Unit, Vector3};
 use super::Requirements;
 use super::coupled::{CoupledLegs, DriveState, NoDriveLength};
 use super::envelope::{ball, room};
-use super::hardware::{Housing, JointAxes, LegBody};
+use super::hardware::{Housing, JointAxes, LegBody, LegSegment};
 use super::keep_out::KeepOutShape;
 use super::load::HeldLines;
 use super::plate::PlateSolid;
@@ -308,37 +308,12 @@ struct LegsAt {
 /// A part of a leg: a segment and its radius.
 type Part = (Point3<f64>, Point3<f64>, f64);
 
-/// Cylinder and rod of a leg from `a` to `b`.
-fn parts(body: &LegBody, a: Point3<f64>, b: Point3<f64>) -> Vec<Part> {
+/// Parts of a leg from `a` to `b`.
+fn parts(all: impl Iterator<Item = LegSegment>, (a, b): (Point3<f64>, Point3<f64>)) -> Vec<Part> {
     let line = b - a;
     // the end of the line is the joint itself
     let at = |share: f64| if share < 1.0 { a + line * share } else { b };
-    body.parts(line.norm()).map(|part| (at(part.from), at(part.to), part.radius)).collect()
-}
-
-/// What of the parts of a leg is farther than `cut` from its base joint, or from its platform joint; one point where
-/// nothing is.
-fn without_end(parts: Vec<Part>, end: Body, cut: f64) -> Vec<Part> {
-    let flip = |(p, q, radius): Part| if end == Body::Base { (p, q, radius) } else { (q, p, radius) };
-    let mut rest: Vec<Part> = parts.into_iter().map(flip).collect();
-    if end == Body::Platform {
-        rest.reverse();
-    }
-    let (mut out, mut cut) = (Vec::new(), cut);
-    let last = rest.last().copied();
-    for (p, q, radius) in rest {
-        let length = (q - p).norm();
-        if cut < length {
-            out.push((p + (q - p) * (cut / length), q, radius));
-            cut = 0.0;
-        } else {
-            cut -= length;
-        }
-    }
-    if out.is_empty() {
-        out.extend(last.map(|(_, q, radius)| (q, q, radius)));
-    }
-    out
+    all.map(|part| (at(part.from), at(part.to), part.radius)).collect()
 }
 
 /// Angle between two vectors, degrees, accurate for small angles too.
@@ -637,7 +612,7 @@ impl<'a> Terms<'a> {
         let hardware = &self.required.hardware;
         let Some(body) = hardware.leg_body else { return };
         let clearance = hardware.leg_clearance.unwrap_or(0.0);
-        let legs = ends.map(|(a, b)| parts(&body, a, b));
+        let legs = ends.map(|(a, b)| parts(body.parts((b - a).norm()), (a, b)));
         let pairs = self.manipulator.pairs();
         for i in 0..6 {
             // legs at a shared joint meet there by design
@@ -651,16 +626,22 @@ impl<'a> Terms<'a> {
                 let least = shape_gap(&keep_out.shape, keep_out.fixed_to, &legs[i], pose);
                 out.push((Term { kind: TermKind::KeepOut, first: i, second: k }, least - clearance));
             }
-            self.plate_clearances((i, &legs[i]), pose, clearance, out);
+            self.plate_clearances(i, (&body, &ends[i]), pose, clearance, out);
+            if let Some(shape) = &self.required.payload_shape {
+                let least = shape_gap(shape, Body::Platform, &legs[i], pose);
+                let kind = TermKind::PayloadClearance;
+                out.push((Term { kind, first: i, second: i }, least - clearance));
+            }
         }
     }
 
-    /// Gaps between a leg and the plates, and the payload.
+    /// Gaps between a leg and the plates.
     ///
     /// Each leg stands on both plates: at the plate of an end it counts from the housing of its joint on.
     fn plate_clearances(
         &self,
-        (i, leg): (usize, &[Part]),
+        i: usize,
+        (leg, (a, b)): (&LegBody, &(Point3<f64>, Point3<f64>)),
         pose: &Pose,
         clearance: f64,
         out: &mut Vec<(Term, f64)>,
@@ -668,7 +649,9 @@ impl<'a> Terms<'a> {
         let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
         for body in Body::BOTH {
             let Some(plate) = self.plate(body) else { continue };
-            let free = without_end(leg.to_vec(), body, self.required.hardware.joint_reach(body, i));
+            let reach = self.required.hardware.joint_reach(body, i);
+            let free = leg.parts_beyond((b - a).norm(), body, reach).map(|(_, part)| part);
+            let free = parts(free, (*a, *b));
             let gap = |(p, q, radius): &Part| match body {
                 Body::Base => plate.distance(p, q) - radius,
                 Body::Platform => plate.distance(&back(p), &back(q)) - radius,
@@ -676,11 +659,6 @@ impl<'a> Terms<'a> {
             let least = free.iter().map(gap).fold(f64::INFINITY, f64::min);
             let kind = TermKind::PlateClearance;
             out.push((Term { kind, first: i, second: body.index() }, least - clearance));
-        }
-        if let Some(shape) = &self.required.payload_shape {
-            let least = shape_gap(shape, Body::Platform, leg, pose);
-            let kind = TermKind::PayloadClearance;
-            out.push((Term { kind, first: i, second: i }, least - clearance));
         }
     }
 
