@@ -86,7 +86,7 @@ impl Load {
         legs: &[(Vector3<f64>, Vector3<f64>); 6],
     ) -> Vector6<f64> {
         let (fixed, turned) = (|v: &Vector3<f64>| (*v).into(), |v: &Vector3<f64>| (rotation * v).into());
-        let wrench = self.wrench_of((&fixed, &turned), |i| (legs[i].0.into(), legs[i].1.into()));
+        let wrench = self.wrench_of(fixed, turned, |i| (legs[i].0.into(), legs[i].1.into()));
         wrench.map_or(Vector6::repeat(f64::NAN), Vector6::from)
     }
 
@@ -94,12 +94,13 @@ impl Load {
     /// leg that weighs may have no length.
     pub(super) fn wrench_of<N: SmoothNumber>(
         &self,
-        (fixed, turned): (&dyn Fn(&Vector3<f64>) -> [N; 3], &dyn Fn(&Vector3<f64>) -> [N; 3]),
+        fixed: impl Fn(&Vector3<f64>) -> [N; 3],
+        turned: impl Fn(&Vector3<f64>) -> [N; 3],
         leg: impl Fn(usize) -> ([N; 3], [N; 3]),
     ) -> Option<[N; 6]> {
-        let own = match self.fixed_to {
-            Body::Base => fixed,
-            Body::Platform => turned,
+        let own = |v: &Vector3<f64>| match self.fixed_to {
+            Body::Base => fixed(v),
+            Body::Platform => turned(v),
         };
         let sum = |a: [N; 3], b: [N; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
         let mut force = own(&self.force);

@@ -94,11 +94,14 @@ impl System {
             Self::of_legs(frame, m)?
         };
         let coordinates = |v: &nalgebra::Vector3<f64>| -> IntervalVector { [0, 1, 2].map(|k| v[k].into()) };
-        let wrench =
-            load.wrench_of((&|v| frame.fixed(&coordinates(v)), &|v| frame.turned(&coordinates(v))), |i| {
+        let wrench = load.wrench_of(
+            |v| frame.fixed(&coordinates(v)),
+            |v| frame.turned(&coordinates(v)),
+            |i| {
                 let leg = frame.bare_leg(m, i);
                 (leg.arm, leg.line)
-            })?;
+            },
+        )?;
         let right = std::array::from_fn(|r| if r < 3 { -wrench[r] } else { -wrench[r].times(unit) });
         Some(Self { right, ..lines })
     }
