@@ -1,9 +1,9 @@
 //! Says what a platform has to satisfy besides being regular, and by how much it does: room, lengths, swing, loads and
 //! speed over a set of poses.
 //!
-//! The types say what a design file asks for. [`assess()`] evaluates them directly, pose by pose, from the definitions;
-//! an optimiser has formulas of its own, so that its answers can be checked here. `docs/theory/requirements.md` has the
-//! definition and the unit of every term.
+//! The types say what a design file asks for. [`assess()`] evaluates them directly, pose by pose, from the definitions.
+//! Forces, speeds and gaps are one function each, which the proof and an optimiser call in numbers of their own
+//! ([`num::smooth`], [`num::ordered`]). `docs/theory/requirements.md` has the definition and the unit of every term.
 
 mod assess;
 mod bodies;

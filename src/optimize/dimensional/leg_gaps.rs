@@ -1,4 +1,4 @@
-//! Gaps between the bodies of legs, and between a leg and a keep-out, with gradients.
+//! Gaps between the bodies of legs, and between a leg and a shape, with gradients.
 
 use nalgebra::Vector3;
 

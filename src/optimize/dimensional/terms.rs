@@ -3,7 +3,7 @@
 //! Lengths are in sizes of the design, forces and speeds in their limits.
 //! A joint angle is `(d . c - cos(limit) |d|) / size`, which is smooth.
 //! For a given axis and a limit below 90 degrees it is concave in `d`.
-//! Gaps of housings, room in envelopes, parts of legs and loads are the formulas of `machine::requirements`.
+//! Gaps, room in envelopes, plates, parts of legs, loads, forces and speeds are those of `machine::requirements`.
 
 use nalgebra::{Vector3, Vector6};
 

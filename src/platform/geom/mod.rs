@@ -32,6 +32,6 @@ pub use pose_set::{ListedFrom, PoseSpace, Region};
 pub use pose_written::{PoseQuaternionRecord, PoseRecord};
 pub use quaternion::rotation_from_quaternion;
 pub use rotation_vector::{rotation_vector, turn_between};
-pub use segment::{LinePair, segment_box_distance, segment_box_nearest, segment_distance};
+pub use segment::{LinePair, segment_box_nearest, segment_distance};
 pub use trilateration::trilaterate;
 pub use turn::{TurnCoefficients, arc_cosine, cosine, degrees, sine, turn, turn_slope};

@@ -60,12 +60,6 @@ pub fn segment_distance([p0, p1]: [Point3<f64>; 2], [q0, q1]: [Point3<f64>; 2]) 
     (w + e * s - f * t).norm()
 }
 
-/// Distance of a segment from the box `|x_k - center_k| <= half_k`, 0 when they meet.
-#[must_use]
-pub fn segment_box_distance(segment: [Point3<f64>; 2], center: &Point3<f64>, half: &Vector3<f64>) -> f64 {
-    segment_box_nearest(segment, center, half).1.norm()
-}
-
 /// The share of a segment at which it is nearest to the box `|x_k - center_k| <= half_k`, and the way there from the
 /// box, which is zero when they meet.
 ///
@@ -105,6 +99,10 @@ pub fn segment_box_nearest(
 mod tests {
     use super::*;
     use num::Rng;
+
+    fn segment_box_distance(segment: [Point3<f64>; 2], center: &Point3<f64>, half: &Vector3<f64>) -> f64 {
+        segment_box_nearest(segment, center, half).1.norm()
+    }
 
     fn point(rng: &mut Rng) -> Point3<f64> {
         Point3::new(rng.normal(), rng.normal(), rng.normal())
