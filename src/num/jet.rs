@@ -6,6 +6,7 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::interval::Interval;
+pub use super::smooth::{cross, dot, norm_squared};
 
 /// Places of the second derivatives of six variables.
 const PAIRS: usize = 21;
@@ -251,21 +252,6 @@ impl Mul for Jet {
 
 /// Three coordinates.
 pub type JetVector = [Jet; 3];
-
-/// `a . b`.
-pub fn dot(a: &JetVector, b: &JetVector) -> Jet {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// `a . a`.
-pub fn norm_squared(a: &JetVector) -> Jet {
-    a[0].square() + a[1].square() + a[2].square()
-}
-
-/// `a x b`.
-pub fn cross(a: &JetVector, b: &JetVector) -> JetVector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
 
 #[cfg(test)]
 mod tests {

@@ -40,6 +40,7 @@ pub mod rounding;
 mod seed;
 pub mod shown;
 pub mod small;
+pub mod smooth;
 pub mod split;
 pub mod stream;
 pub mod surd;

@@ -1,6 +1,6 @@
 //! Numbers in which a margin is written once: plain ones, plain ones with a gradient, enclosures.
 
-use std::ops::{Add, Neg, Sub};
+use std::ops::{Add, Mul, Neg, Sub};
 
 use nalgebra::Vector3;
 
@@ -107,6 +107,15 @@ impl Sub for Sloped {
 
     fn sub(self, other: Self) -> Self {
         self + -other
+    }
+}
+
+impl Mul for Sloped {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let slope = self.slope * other.value + other.slope * self.value;
+        Self { value: self.value * other.value, slope }
     }
 }
 

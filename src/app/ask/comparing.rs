@@ -266,8 +266,7 @@ impl Design {
     fn greatest_speed(&self, pose: &Pose) -> Option<f64> {
         let speed = self.speed?;
         let rows = jacobian(self.manipulator(), pose, 1.0);
-        let of =
-            |i: usize| speed.linear + rows.fixed_view::<1, 3>(i, 3).norm() * speed.angular_deg.to_radians();
+        let of = |i: usize| speed.fastest(1.0, rows.fixed_view::<1, 3>(i, 3).norm());
         (0..6).map(of).reduce(f64::max)
     }
 

@@ -55,15 +55,15 @@ fn outlines_of_a_point_a_line_and_a_square() {
     ];
     for (points, parts, area) in cases {
         let outline = Outline::around(&points, 1.0, 1e-9);
-        assert_eq!(outline.parts.len(), parts);
+        assert_eq!(outline.parts().len(), parts);
         assert!((outline.area() - area).abs() < 1e-12, "{}", outline.area());
         // the polygon is another way to the area
         let polygon = polygon_area(&outline.polygon(720));
         assert!(polygon < area && polygon > area * (1.0 - 1e-4), "{polygon} {area}");
         let turned: f64 = outline
-            .parts
-            .iter()
-            .map(|part| if let OutlinePart::Arc { turn, .. } = part { *turn } else { 0.0 })
+            .parts()
+            .into_iter()
+            .map(|part| if let OutlinePart::Arc { turn, .. } = part { turn } else { 0.0 })
             .sum();
         assert!((turned - 2.0 * PI).abs() < 1e-12);
     }

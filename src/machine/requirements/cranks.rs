@@ -14,7 +14,7 @@
 
 use nalgebra::{Matrix6, Point3, Vector3};
 
-use super::load::forces_along;
+use super::load::HeldLines;
 use super::term::{Term, TermKind, Terms, angle_deg};
 use super::{LeastConditioning, Requirements};
 use platform::geom::{Pose, PoseSpace};
@@ -192,9 +192,10 @@ impl Terms<'_> {
         let size = self.manipulator.size();
         if let Some(greatest) = cranks.max_torque {
             let rows = self.rod_rows(cranks, pose, size);
+            let lines = rows.map(|rows| HeldLines::new(&rows, size));
             for (k, load) in self.required.loads.iter().enumerate() {
-                let forces =
-                    rows.and_then(|rows| forces_along(&rows, &load.wrench(self.manipulator, pose), size));
+                let wrench = load.wrench(self.manipulator, pose);
+                let forces = lines.as_ref().and_then(|lines| lines.forces(&wrench));
                 for (i, (crank, here)) in cranks.legs.iter().zip(&at).enumerate() {
                     let arm = crank.length * here.left.max(0.0).sqrt() / crank.rod;
                     let margin = forces.map_or(f64::NEG_INFINITY, |f| greatest - f[i].abs() * arm);
@@ -207,9 +208,8 @@ impl Terms<'_> {
                 let arm = pose.rotation * legs[i].platform.coords;
                 let rod = here.d - (here.tip - legs[i].base);
                 // over all |v| <= linear, |w| <= angular
-                let ahead =
-                    speed.linear * crank.rod + arm.cross(&rod).norm() * speed.angular_deg.to_radians();
-                let fastest = ahead / (crank.length * here.left.max(0.0).sqrt());
+                let fastest = speed.fastest(crank.rod, arm.cross(&rod).norm())
+                    / (crank.length * here.left.max(0.0).sqrt());
                 let own = Term { kind: TermKind::CrankSpeed, first: i, second: i };
                 out.push((own, greatest - fastest.to_degrees()));
             }

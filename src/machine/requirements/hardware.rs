@@ -99,6 +99,27 @@ impl LegBody {
         };
         std::iter::once(first).chain(second)
     }
+
+    /// The parts of a leg of this length without what is nearer than `cut` to its joint at an end, with their numbers;
+    /// one point at the other end where nothing is left.
+    pub fn parts_beyond(
+        &self,
+        length: f64,
+        end: Body,
+        cut: f64,
+    ) -> impl Iterator<Item = (usize, LegSegment)> {
+        let cut = (cut / length).min(1.0);
+        let all = self.parts(length);
+        let last = all.clone().count() - 1;
+        all.enumerate().filter_map(move |(number, part)| {
+            let (from, to, far, is_far) = match end {
+                Body::Base => (part.from.max(cut), part.to, part.to, number == last),
+                Body::Platform => (part.from, part.to.min(1.0 - cut), part.from, number == 0),
+            };
+            let (from, to) = if from < to { (from, to) } else { (far, far) };
+            (from < to || is_far).then_some((number, LegSegment { from, to, ..part }))
+        })
+    }
 }
 
 /// Which lengths a leg can have.

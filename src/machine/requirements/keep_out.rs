@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use platform::geom::{segment_box_distance, segment_distance};
+use platform::geom::{LinePair, segment_box_nearest};
 use platform::manipulator::Body;
 
 /// The shape of a keep-out, design units.
@@ -44,15 +44,83 @@ pub struct KeepOut {
     pub shape: KeepOutShape,
 }
 
+/// The point of a segment that is nearest to a shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearestOnSegment {
+    /// Share of the segment before it.
+    pub share: f64,
+    /// Distance from the shape, negative inside.
+    pub distance: f64,
+    /// Unit vector away from the shape: the gradient of the distance.
+    pub away: Vector3<f64>,
+}
+
 impl KeepOutShape {
     /// Distance of the segment `x y` from the shape, 0 when they meet. (How deep they overlap is not measured
     /// for boxes; for balls and capsules it is: the value is then negative.)
     #[must_use]
     pub fn distance(&self, x: &Point3<f64>, y: &Point3<f64>) -> f64 {
+        self.nearest_outside(x, y).distance
+    }
+
+    /// The point of the segment `x y` that is nearest, or deepest inside, also in boxes.
+    #[must_use]
+    pub fn nearest(&self, x: &Point3<f64>, y: &Point3<f64>) -> NearestOnSegment {
+        let found = self.nearest_outside(x, y);
         match self {
-            Self::Box { center, size } => segment_box_distance([*x, *y], center, &(size / 2.0)),
-            Self::Sphere { center, diameter } => segment_distance([*x, *y], [*center; 2]) - diameter / 2.0,
-            Self::Capsule { from, to, diameter } => segment_distance([*x, *y], [*from, *to]) - diameter / 2.0,
+            Self::Box { center, size } if found.distance <= TOUCHING * size.norm() => {
+                deepest_in_box(&(x - center), &(y - x), &(size / 2.0))
+            }
+            _ => found,
         }
     }
+
+    fn nearest_outside(&self, x: &Point3<f64>, y: &Point3<f64>) -> NearestOnSegment {
+        let round = |from: &Point3<f64>, to: &Point3<f64>, diameter: f64| {
+            let (e, f, apart) = (y - x, to - from, x - from);
+            let (share, other) = LinePair::new(apart, &e, &f).closest((0.0, 1.0), (0.0, 1.0));
+            (share, apart + e * share - f * other, diameter / 2.0)
+        };
+        let (share, way, radius) = match self {
+            Self::Box { center, size } => {
+                let (share, way) = segment_box_nearest([*x, *y], center, &(size / 2.0));
+                (share, way, 0.0)
+            }
+            Self::Sphere { center, diameter } => round(center, center, *diameter),
+            Self::Capsule { from, to, diameter } => round(from, to, *diameter),
+        };
+        let away = way.try_normalize(0.0).unwrap_or_else(Vector3::z);
+        NearestOnSegment { share, distance: way.norm() - radius, away }
+    }
+}
+
+/// A segment nearer to a box than this share of its size runs into it.
+const TOUCHING: f64 = 5e-13;
+/// Sections that enclose the deepest point.
+const SECTIONS: usize = 80;
+
+/// The deepest point of the segment `a + t e` in a box around the origin: the depth is concave along it.
+fn deepest_in_box(a: &Vector3<f64>, e: &Vector3<f64>, half: &Vector3<f64>) -> NearestOnSegment {
+    let face = |t: f64| {
+        let q = a + e * t;
+        let outside = q.abs() - half;
+        let k = outside.imax();
+        (outside[k], Vector3::ith(k, q[k].signum()))
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..SECTIONS {
+        let (x, y) = (low + (high - low) * 0.4, low + (high - low) * 0.6);
+        if face(x).0 < face(y).0 { high = y } else { low = x }
+    }
+    let share = f64::midpoint(low, high);
+    let (distance, normal) = face(share);
+    // two faces may be as near, one before and one behind: their mean that does not change along the segment
+    let (before, behind) = (face((share - 1e-7).max(0.0)).1, face((share + 1e-7).min(1.0)).1);
+    let (falls, rises) = (before.dot(e), behind.dot(e));
+    let away = if falls < 0.0 && rises > 0.0 {
+        before * (rises / (rises - falls)) - behind * (falls / (rises - falls))
+    } else {
+        normal
+    };
+    NearestOnSegment { share, distance, away }
 }

@@ -1,9 +1,10 @@
 //! Loads on the platform and the leg forces that hold them.
 
-use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
+use nalgebra::{LU, Matrix6, Point3, Rotation3, U6, Vector3, Vector6};
 
 use super::hardware::LegMasses;
 use super::payload::{ForceUnit, MassUnit};
+use num::smooth::{SmoothNumber, cross, dot, norm_squared};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, jacobian};
 
@@ -54,12 +55,14 @@ impl LegsWeight {
             .then(|| Self { rod: in_unit * rod.mass, moment: in_unit * moment })
     }
 
-    /// The force `w` on the platform joint of a leg, by the line from its base joint to its platform joint.
-    #[must_use]
-    pub fn at_joint(&self, line: &Vector3<f64>) -> Vector3<f64> {
-        let length = line.norm();
-        let along = line / length;
-        self.rod + (self.moment - along * along.dot(&self.moment)) / length
+    /// The force `w` on the platform joint of a leg, by the line from its base joint to its platform joint; `None`
+    /// where the leg may have no length.
+    pub fn at_joint<N: SmoothNumber>(&self, line: &[N; 3]) -> Option<[N; 3]> {
+        let over = norm_squared(line).inverse_root()?;
+        let fixed = |v: &Vector3<f64>| [0, 1, 2].map(|k| over.alike(v[k]));
+        let (rod, moment, along) = (fixed(&self.rod), fixed(&self.moment), line.map(|x| x * over));
+        let lengthwise = dot(&along, &moment);
+        Some(std::array::from_fn(|k| rod[k] + (moment[k] - along[k] * lengthwise) * over))
     }
 }
 
@@ -67,32 +70,50 @@ impl Load {
     /// Force and torque about the platform origin, both in the base frame; a manipulator has the legs that weigh.
     #[must_use]
     pub fn wrench(&self, m: &Manipulator, pose: &Pose) -> Vector6<f64> {
-        let arms = m.legs().map(|leg| pose.rotation * leg.platform.coords);
-        let bases = m.legs().map(|leg| leg.base.coords);
-        self.wrench_on(&pose.rotation, (0..6).map(|i| (arms[i], arms[i] + pose.position - bases[i])))
+        let legs = m.legs().map(|leg| {
+            let arm = pose.rotation * leg.platform.coords;
+            (arm, arm + pose.position - leg.base.coords)
+        });
+        self.wrench_on(&pose.rotation, &legs)
     }
 
-    /// The same for legs given by their arms `R b` and their lines `R b + p - a`.
-    #[inline]
+    /// The same for legs given by their arms `R b` and their lines `R b + p - a`; not a number where a leg that weighs
+    /// has no length.
+    #[must_use]
     pub fn wrench_on(
         &self,
         rotation: &Rotation3<f64>,
-        legs: impl Iterator<Item = (Vector3<f64>, Vector3<f64>)>,
+        legs: &[(Vector3<f64>, Vector3<f64>); 6],
     ) -> Vector6<f64> {
-        let turn = |v: &Vector3<f64>| match self.fixed_to {
-            Body::Base => *v,
-            Body::Platform => rotation * v,
+        let (fixed, turned) = (|v: &Vector3<f64>| (*v).into(), |v: &Vector3<f64>| (rotation * v).into());
+        let wrench = self.wrench_of(fixed, turned, |i| (legs[i].0.into(), legs[i].1.into()));
+        wrench.map_or(Vector6::repeat(f64::NAN), Vector6::from)
+    }
+
+    /// The same in other numbers, by vectors of the base frame, vectors of the platform frame, and legs; `None` where a
+    /// leg that weighs may have no length.
+    pub(super) fn wrench_of<N: SmoothNumber>(
+        &self,
+        fixed: impl Fn(&Vector3<f64>) -> [N; 3],
+        turned: impl Fn(&Vector3<f64>) -> [N; 3],
+        leg: impl Fn(usize) -> ([N; 3], [N; 3]),
+    ) -> Option<[N; 6]> {
+        let own = |v: &Vector3<f64>| match self.fixed_to {
+            Body::Base => fixed(v),
+            Body::Platform => turned(v),
         };
-        let mut force = turn(&self.force);
-        let mut torque = turn(&self.torque) + (rotation * self.at.coords).cross(&force);
+        let sum = |a: [N; 3], b: [N; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+        let mut force = own(&self.force);
+        let mut torque = sum(own(&self.torque), cross(&turned(&self.at.coords), &force));
         if let Some(weight) = &self.legs {
-            for (arm, line) in legs {
-                let own = weight.at_joint(&line);
-                force += own;
-                torque += arm.cross(&own);
+            for (arm, line) in (0..6).map(leg) {
+                let at_joint = weight.at_joint(&line)?;
+                torque = sum(torque, cross(&arm, &at_joint));
+                force = sum(force, at_joint);
             }
         }
-        Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+        let ([a, b, c], [d, e, f]) = (force, torque);
+        Some([a, b, c, d, e, f])
     }
 }
 
@@ -104,15 +125,37 @@ impl Load {
 /// `None` at a singular pose, where no forces or many hold the load.
 #[must_use]
 pub fn leg_forces(m: &Manipulator, pose: &Pose, wrench: &Vector6<f64>, scale: f64) -> Option<Vector6<f64>> {
-    forces_along(&jacobian(m, pose, scale), wrench, scale)
+    HeldLines::new(&jacobian(m, pose, scale), scale).forces(wrench)
 }
 
-/// As [`leg_forces`], for lines given by rows with their moments over `scale`.
-pub(super) fn forces_along(rows: &Matrix6<f64>, wrench: &Vector6<f64>, scale: f64) -> Option<Vector6<f64>> {
-    let mut right = -wrench;
-    right.fixed_rows_mut::<3>(3).scale_mut(1.0 / scale);
-    let forces = rows.transpose().lu().solve(&right)?;
-    forces.iter().all(|x| x.is_finite()).then_some(forces)
+/// Lines of legs at a pose, ready to hold loads.
+#[derive(Debug, Clone)]
+pub struct HeldLines {
+    columns: LU<f64, U6, U6>,
+    scale: f64,
+}
+
+impl HeldLines {
+    /// For lines given by rows, with their moments over a length.
+    #[must_use]
+    pub fn new(rows: &Matrix6<f64>, scale: f64) -> Self {
+        Self { columns: rows.transpose().lu(), scale }
+    }
+
+    /// Forces that hold a wrench, as [`leg_forces`] gives them.
+    #[must_use]
+    pub fn forces(&self, wrench: &Vector6<f64>) -> Option<Vector6<f64>> {
+        let mut right = -wrench;
+        right.fixed_rows_mut::<3>(3).scale_mut(1.0 / self.scale);
+        let forces = self.columns.solve(&right)?;
+        forces.iter().all(|x| x.is_finite()).then_some(forces)
+    }
+
+    /// What makes forces of minus a wrench with its torque over the length; `None` at a singular pose.
+    #[must_use]
+    pub fn inverse(&self) -> Option<Matrix6<f64>> {
+        self.columns.try_inverse()
+    }
 }
 
 #[cfg(test)]

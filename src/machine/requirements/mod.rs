@@ -1,9 +1,9 @@
 //! Says what a platform has to satisfy besides being regular, and by how much it does: room, lengths, swing, loads and
 //! speed over a set of poses.
 //!
-//! The types say what a design file asks for. [`assess()`] evaluates them directly, pose by pose, from the definitions;
-//! an optimiser has formulas of its own, so that its answers can be checked here. `docs/theory/requirements.md` has the
-//! definition and the unit of every term.
+//! The types say what a design file asks for. [`assess()`] evaluates them directly, pose by pose, from the definitions.
+//! Forces, speeds and gaps are one function each, which the proof and an optimiser call in numbers of their own
+//! ([`num::smooth`], [`num::ordered`]). `docs/theory/requirements.md` has the definition and the unit of every term.
 
 mod assess;
 mod bodies;
@@ -47,13 +47,13 @@ pub use hardware::{
 };
 pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
 pub use joint_angles::JointAngles;
-pub use keep_out::{KeepOut, KeepOutShape};
+pub use keep_out::{KeepOut, KeepOutShape, NearestOnSegment};
 pub use limit::{Limit, Limits, PoseLimit};
-pub use load::{LegsWeight, Load, leg_forces};
+pub use load::{HeldLines, LegsWeight, Load, leg_forces};
 pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload, PlateMass};
 pub use plate::{
-    BoltPattern, BoltsFrom, MATERIALS, Outline, OutlinePart, PlateDesign, PlateSeat, PlateSolid, Plates,
-    seat_height,
+    BoltPattern, BoltsFrom, HoleGap, HolePair, MATERIALS, Outline, OutlinePart, OutlineSide, PlateDesign,
+    PlateHole, PlateSeat, PlateSolid, Plates, seat_height,
 };
 pub use plate::{PlateBody, on_circle};
 pub use plate::{frame_of, plate_normal};
@@ -69,6 +69,8 @@ pub use vibration::{
 };
 pub use vibration::{mass_of, scaled_mass};
 
+use num::smooth::SmoothNumber;
+
 /// Greatest speed of the platform: every direction of motion up to these rates, together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlatformSpeed {
@@ -76,6 +78,15 @@ pub struct PlatformSpeed {
     pub linear: f64,
     /// Angular speed, degrees per second.
     pub angular_deg: f64,
+}
+
+impl PlatformSpeed {
+    /// The greatest rate of a drive over all motions up to these speeds: `|f| linear + |m| angular` for a drive whose
+    /// rate is `f . v + m . w`.
+    #[must_use]
+    pub fn fastest<N: SmoothNumber>(&self, force: N, moment: N) -> N {
+        force.times(N::Factor::from(self.linear)) + moment.times(N::radians(self.angular_deg))
+    }
 }
 
 /// Everything a design has to satisfy. What is absent limits nothing.

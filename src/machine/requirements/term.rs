@@ -5,9 +5,9 @@ use nalgebra::{Matrix6, Point3, Unit, Vector3};
 use super::Requirements;
 use super::coupled::{CoupledLegs, DriveState, NoDriveLength};
 use super::envelope::{ball, room};
-use super::hardware::{Housing, JointAxes, LegBody};
-use super::keep_out::KeepOut;
-use super::load::forces_along;
+use super::hardware::{Housing, JointAxes, LegBody, LegSegment};
+use super::keep_out::KeepOutShape;
+use super::load::HeldLines;
 use super::plate::PlateSolid;
 use super::universal::{Hinge, HingeAngle};
 use super::vibration::{lowest_of, mass_matrix, softest_of};
@@ -308,37 +308,12 @@ struct LegsAt {
 /// A part of a leg: a segment and its radius.
 type Part = (Point3<f64>, Point3<f64>, f64);
 
-/// Cylinder and rod of a leg from `a` to `b`.
-fn parts(body: &LegBody, a: Point3<f64>, b: Point3<f64>) -> Vec<Part> {
+/// Parts of a leg from `a` to `b`.
+fn parts(all: impl Iterator<Item = LegSegment>, (a, b): (Point3<f64>, Point3<f64>)) -> Vec<Part> {
     let line = b - a;
     // the end of the line is the joint itself
     let at = |share: f64| if share < 1.0 { a + line * share } else { b };
-    body.parts(line.norm()).map(|part| (at(part.from), at(part.to), part.radius)).collect()
-}
-
-/// What of the parts of a leg is farther than `cut` from its base joint, or from its platform joint; one point where
-/// nothing is.
-fn without_end(parts: Vec<Part>, end: Body, cut: f64) -> Vec<Part> {
-    let flip = |(p, q, radius): Part| if end == Body::Base { (p, q, radius) } else { (q, p, radius) };
-    let mut rest: Vec<Part> = parts.into_iter().map(flip).collect();
-    if end == Body::Platform {
-        rest.reverse();
-    }
-    let (mut out, mut cut) = (Vec::new(), cut);
-    let last = rest.last().copied();
-    for (p, q, radius) in rest {
-        let length = (q - p).norm();
-        if cut < length {
-            out.push((p + (q - p) * (cut / length), q, radius));
-            cut = 0.0;
-        } else {
-            cut -= length;
-        }
-    }
-    if out.is_empty() {
-        out.extend(last.map(|(_, q, radius)| (q, q, radius)));
-    }
-    out
+    all.map(|part| (at(part.from), at(part.to), part.radius)).collect()
 }
 
 /// Angle between two vectors, degrees, accurate for small angles too.
@@ -637,7 +612,7 @@ impl<'a> Terms<'a> {
         let hardware = &self.required.hardware;
         let Some(body) = hardware.leg_body else { return };
         let clearance = hardware.leg_clearance.unwrap_or(0.0);
-        let legs = ends.map(|(a, b)| parts(&body, a, b));
+        let legs = ends.map(|(a, b)| parts(body.parts((b - a).norm()), (a, b)));
         let pairs = self.manipulator.pairs();
         for i in 0..6 {
             // legs at a shared joint meet there by design
@@ -648,20 +623,25 @@ impl<'a> Terms<'a> {
                 out.push((Term { kind: TermKind::LegClearance, first: i, second: j }, least - clearance));
             }
             for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
-                let least =
-                    legs[i].iter().map(|p| keep_out_gap(keep_out, p, pose)).fold(f64::INFINITY, f64::min);
+                let least = shape_gap(&keep_out.shape, keep_out.fixed_to, &legs[i], pose);
                 out.push((Term { kind: TermKind::KeepOut, first: i, second: k }, least - clearance));
             }
-            self.plate_clearances((i, &legs[i]), pose, clearance, out);
+            self.plate_clearances(i, (&body, &ends[i]), pose, clearance, out);
+            if let Some(shape) = &self.required.payload_shape {
+                let least = shape_gap(shape, Body::Platform, &legs[i], pose);
+                let kind = TermKind::PayloadClearance;
+                out.push((Term { kind, first: i, second: i }, least - clearance));
+            }
         }
     }
 
-    /// Gaps between a leg and the plates, and the payload.
+    /// Gaps between a leg and the plates.
     ///
     /// Each leg stands on both plates: at the plate of an end it counts from the housing of its joint on.
     fn plate_clearances(
         &self,
-        (i, leg): (usize, &[Part]),
+        i: usize,
+        (leg, (a, b)): (&LegBody, &(Point3<f64>, Point3<f64>)),
         pose: &Pose,
         clearance: f64,
         out: &mut Vec<(Term, f64)>,
@@ -669,7 +649,9 @@ impl<'a> Terms<'a> {
         let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
         for body in Body::BOTH {
             let Some(plate) = self.plate(body) else { continue };
-            let free = without_end(leg.to_vec(), body, self.required.hardware.joint_reach(body, i));
+            let reach = self.required.hardware.joint_reach(body, i);
+            let free = leg.parts_beyond((b - a).norm(), body, reach).map(|(_, part)| part);
+            let free = parts(free, (*a, *b));
             let gap = |(p, q, radius): &Part| match body {
                 Body::Base => plate.distance(p, q) - radius,
                 Body::Platform => plate.distance(&back(p), &back(q)) - radius,
@@ -678,20 +660,15 @@ impl<'a> Terms<'a> {
             let kind = TermKind::PlateClearance;
             out.push((Term { kind, first: i, second: body.index() }, least - clearance));
         }
-        if let Some(shape) = &self.required.payload_shape {
-            let gap = |(p, q, radius): &Part| shape.distance(&back(p), &back(q)) - radius;
-            let least = leg.iter().map(gap).fold(f64::INFINITY, f64::min);
-            let kind = TermKind::PayloadClearance;
-            out.push((Term { kind, first: i, second: i }, least - clearance));
-        }
     }
 
     fn drives(&self, legs: &LegsAt, pose: &Pose, out: &mut Vec<(Term, f64)>) {
         let (hardware, m) = (&self.required.hardware, self.manipulator);
         if let Some(greatest) = hardware.max_leg_force {
             let rows = self.drive_rows(pose, m.size());
+            let lines = rows.map(|rows| HeldLines::new(&rows, m.size()));
             for (k, load) in self.required.loads.iter().enumerate() {
-                let forces = rows.and_then(|rows| forces_along(&rows, &load.wrench(m, pose), m.size()));
+                let forces = lines.as_ref().and_then(|lines| lines.forces(&load.wrench(m, pose)));
                 for i in 0..6 {
                     let margin = forces.map_or(f64::NEG_INFINITY, |f| greatest - f[i].abs());
                     out.push((Term { kind: TermKind::LegForce, first: i, second: k }, margin));
@@ -707,7 +684,7 @@ impl<'a> Terms<'a> {
                     let moment = rows.fixed_view::<1, 3>(i, 3).norm();
                     // lines of legs are unit vectors, screws that turn with them are more
                     let line = if self.are_coupled() { rows.fixed_view::<1, 3>(i, 0).norm() } else { 1.0 };
-                    speed.linear * line + moment * speed.angular_deg.to_radians()
+                    speed.fastest(line, moment)
                 });
                 let own = Term { kind: TermKind::LegSpeed, first: i, second: i };
                 out.push((own, greatest - fastest));
@@ -716,13 +693,12 @@ impl<'a> Terms<'a> {
     }
 }
 
-fn keep_out_gap(keep_out: &KeepOut, (a, b, radius): &Part, pose: &Pose) -> f64 {
-    let distance = match keep_out.fixed_to {
-        Body::Base => keep_out.shape.distance(a, b),
-        Body::Platform => {
-            let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
-            keep_out.shape.distance(&back(a), &back(b))
-        }
+/// The least gap of the parts of a leg and a shape that moves with a body.
+fn shape_gap(shape: &KeepOutShape, fixed_to: Body, leg: &[Part], pose: &Pose) -> f64 {
+    let local = |q: &Point3<f64>| match fixed_to {
+        Body::Base => *q,
+        Body::Platform => pose.rotation.inverse() * (q - pose.position),
     };
-    distance - radius
+    let gap = |(p, q, radius): &Part| shape.distance(&local(p), &local(q)) - radius;
+    leg.iter().map(gap).fold(f64::INFINITY, f64::min)
 }

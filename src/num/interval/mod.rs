@@ -260,6 +260,13 @@ impl Mul for Interval {
     }
 }
 
+/// An angle in radians.
+pub fn radians(degrees: f64) -> Interval {
+    // pi lies between these neighbours
+    let pi = Interval::new(std::f64::consts::PI, std::f64::consts::PI.next_up()).unwrap_or(Interval::WHOLE);
+    (Interval::from(degrees) * pi).checked_div(Interval::from(180.0)).unwrap_or(Interval::WHOLE)
+}
+
 /// The largest double below a finite one that is not zero.
 #[inline]
 fn below(x: f64) -> f64 {

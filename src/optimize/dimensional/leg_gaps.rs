@@ -1,11 +1,10 @@
-//! Gaps between the bodies of legs, and between a leg and a keep-out, with gradients.
+//! Gaps between the bodies of legs, and between a leg and a shape, with gradients.
 
 use nalgebra::Vector3;
 
 use super::leg_lines::LegLines;
 use super::pull::Gradient;
-use machine::requirements;
-use machine::requirements::{KeepOut, LegBody, LegSegment};
+use machine::requirements::{KeepOutShape, LegBody, LegSegment};
 use platform::geom::LinePair;
 use platform::manipulator::Body;
 
@@ -70,92 +69,28 @@ impl LegLines {
         }
     }
 
-    /// Gaps between the parts of a leg and a keep-out; negative inside, also in boxes.
+    /// Gaps between the parts of a leg and a shape; negative inside, also in boxes.
     pub(super) fn keep_out_gaps<P: Gradient>(
         &self,
         body: &LegBody,
         i: usize,
-        keep_out: &KeepOut,
+        (shape, fixed_to): (&KeepOutShape, Body),
         see: &mut impl FnMut(Gap<P>),
     ) {
-        let moving = keep_out.fixed_to == Body::Platform;
+        let moving = fixed_to == Body::Platform;
         let local = |v: Vector3<f64>| if moving { self.rotation.inverse() * (v - self.position) } else { v };
         for (part, p) in body.parts(self.length[i]).enumerate() {
-            let (a, b) = (local(self.at(i, p.from)), local(self.at(i, p.to)));
-            let (x, value, normal) = nearest(&keep_out.shape, &a, &(b - a));
-            let s = p.from + x * (p.to - p.from);
+            let [a, b] = [p.from, p.to].map(|s| local(self.at(i, s)).into());
+            let near = shape.nearest(&a, &b);
+            let s = p.from + near.share * (p.to - p.from);
             let sliding = p.joint.is_some_and(|j| (s - j).abs() < 1e-12);
             let mut pull = P::none();
-            let n = if moving { self.rotation * normal } else { normal };
+            let n = if moving { self.rotation * near.away } else { near.away };
             self.pull_point(&mut pull, i, (s, sliding), &n);
             if moving {
                 pull.at_position(&-n);
             }
-            see(Gap { value: value - p.radius, pull, part });
+            see(Gap { value: near.distance - p.radius, pull, part });
         }
     }
-}
-
-/// Share of the segment `a + x e` closest to a shape, signed distance there, and the direction away from it.
-fn nearest(
-    shape: &requirements::KeepOutShape,
-    a: &Vector3<f64>,
-    e: &Vector3<f64>,
-) -> (f64, f64, Vector3<f64>) {
-    let round = |from: Vector3<f64>, f: Vector3<f64>, radius: f64| {
-        let (x, y) = LinePair::new(a - from, e, &f).closest((0.0, 1.0), (0.0, 1.0));
-        let apart = a + e * x - from - f * y;
-        (x, apart.norm() - radius, apart.try_normalize(0.0).unwrap_or_else(Vector3::z))
-    };
-    match shape {
-        requirements::KeepOutShape::Sphere { center, diameter } => {
-            round(center.coords, Vector3::zeros(), diameter / 2.0)
-        }
-        requirements::KeepOutShape::Capsule { from, to, diameter } => {
-            round(from.coords, to - from, diameter / 2.0)
-        }
-        requirements::KeepOutShape::Box { center, size } => {
-            nearest_box(&(a - center.coords), e, &(size / 2.0))
-        }
-    }
-}
-
-/// As [`nearest`] for a box around the origin: the distance is convex along the segment, and so is the depth inside.
-fn nearest_box(a: &Vector3<f64>, e: &Vector3<f64>, half: &Vector3<f64>) -> (f64, f64, Vector3<f64>) {
-    let outside = |x: f64| {
-        let q = a + e * x;
-        Vector3::from_fn(|k, _| q[k] - q[k].clamp(-half[k], half[k]))
-    };
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let x = f64::midpoint(low, high);
-        if outside(x).dot(e) > 0.0 { high = x } else { low = x }
-    }
-    let x = f64::midpoint(low, high);
-    let o = outside(x);
-    if o.norm() > 1e-12 * half.norm() {
-        return (x, o.norm(), o.normalize());
-    }
-    let depth = |x: f64| {
-        let q = a + e * x;
-        let k =
-            (0..3).max_by(|&i, &j| (q[i].abs() - half[i]).total_cmp(&(q[j].abs() - half[j]))).unwrap_or(0);
-        (q[k].abs() - half[k], Vector3::ith(k, q[k].signum()))
-    };
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..80 {
-        let (x, y) = (low + (high - low) * 0.4, low + (high - low) * 0.6);
-        if depth(x).0 < depth(y).0 { high = y } else { low = x }
-    }
-    let x = f64::midpoint(low, high);
-    // the least depth is where two faces are as far, one before and one behind: their mean that does not change along
-    // the segment
-    let (before, behind) = (depth((x - 1e-7).max(0.0)).1, depth((x + 1e-7).min(1.0)).1);
-    let (falls, rises) = (before.dot(e), behind.dot(e));
-    let normal = if falls < 0.0 && rises > 0.0 {
-        before * (rises / (rises - falls)) - behind * (falls / (rises - falls))
-    } else {
-        depth(x).1
-    };
-    (x, depth(x).0, normal)
 }

@@ -4,7 +4,8 @@ use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
 use super::pull::Gradient;
 use super::shape::JointEnds;
-use machine::requirements::{LegsWeight, Load};
+use machine::requirements::{HeldLines, LegsWeight, Load};
+use num::ordered::Sloped;
 use platform::geom::Pose;
 
 /// A pose at which the requirements are held.
@@ -75,65 +76,65 @@ impl LegLines {
     }
 }
 
+/// The legs at a pose, ready to hold loads.
+pub(super) struct HeldLegs<'a> {
+    legs: &'a LegLines,
+    length: f64,
+    lines: HeldLines,
+    /// What gradients need; `None` where they are not wanted, and at a singular pose.
+    inverse: Option<Matrix6<f64>>,
+}
+
 /// Leg forces that hold a load, and what their derivatives need.
-#[derive(Debug, Clone)]
 pub(super) struct Forces<'a> {
     pub values: Vector6<f64>,
-    inverse: &'a Matrix6<f64>,
+    held: &'a HeldLegs<'a>,
     weight: Option<&'a LegsWeight>,
 }
 
-/// Inverse of the matrix with the columns `[u, (R b x u) / L]`, which the forces under all loads share; `None` at a
-/// singular pose.
-pub(crate) fn inverse_of_columns(l: &LegLines, length: f64) -> Option<Matrix6<f64>> {
-    l.jacobian(length).transpose().try_inverse()
-}
+impl<'a> HeldLegs<'a> {
+    pub(super) fn new<P: Gradient>(legs: &'a LegLines, length: f64) -> Self {
+        let lines = HeldLines::new(&legs.jacobian(length), length);
+        let inverse = if P::KEPT { lines.inverse() } else { None };
+        Self { legs, length, lines, inverse }
+    }
 
-/// `sum F_i (u_i, R b_i x u_i) = -(f, t)`; `None` at a singular pose.
-pub(super) fn leg_forces<'a>(
-    l: &LegLines,
-    inverse: Option<&'a Matrix6<f64>>,
-    load: &'a Load,
-    length: f64,
-) -> Option<Forces<'a>> {
-    let inverse = inverse?;
-    let mut wrench = load.wrench_on(&l.rotation, l.arm.into_iter().zip(l.line));
-    wrench.fixed_rows_mut::<3>(3).scale_mut(1.0 / length);
-    let forces = -(inverse * wrench);
-    let weight = load.legs.as_ref();
-    forces.iter().all(|x| x.is_finite()).then_some(Forces { values: forces, inverse, weight })
-}
+    /// `sum F_i (u_i, R b_i x u_i) = -(f, t)`; `None` at a singular pose.
+    pub(super) fn hold(&'a self, load: &'a Load) -> Option<Forces<'a>> {
+        let legs = std::array::from_fn(|i| (self.legs.arm[i], self.legs.line[i]));
+        let values = self.lines.forces(&load.wrench_on(&self.legs.rotation, &legs))?;
+        Some(Forces { values, held: self, weight: load.legs.as_ref() })
+    }
 
-/// Adds the gradient of `-g . (w, R b x w / L)`, `w` the weight of a leg on its platform joint.
-fn pull_weight<P: Gradient>(
-    pull: &mut P,
-    weight: &LegsWeight,
-    l: &LegLines,
-    leg: usize,
-    (g, length): (&Vector6<f64>, f64),
-) {
-    let (force, moment): (Vector3<f64>, Vector3<f64>) =
-        (g.fixed_rows::<3>(0).into(), g.fixed_rows::<3>(3) / length);
-    let (u, arm) = (&l.direction[leg], &l.arm[leg]);
-    pull.at_arm(leg, &-weight.at_joint(&l.line[leg]).cross(&moment));
-    // e . w with w = c + (k - u (u . k)) / q changes with the line by
-    // (3 (e . u) (u . k) u - (e . k) u - e (u . k) - k (e . u)) / q^2
-    let (e, k) = (force + moment.cross(arm), &weight.moment);
-    let (on_e, on_k) = (u.dot(&e), u.dot(k));
-    let by_line = (u * (3.0 * on_e * on_k - e.dot(k)) - e * on_k - k * on_e) / l.length[leg].powi(2);
-    pull.line(leg, -by_line);
+    /// Adds the gradient of `-g . (w, R b x w / L)`, `w` the weight of a leg on its platform joint.
+    fn pull_weight<P: Gradient>(
+        &self,
+        pull: &mut P,
+        weight: &LegsWeight,
+        leg: usize,
+        g: &Vector6<f64>,
+    ) -> Option<()> {
+        let (force, moment): (Vector3<f64>, Vector3<f64>) =
+            (g.fixed_rows::<3>(0).into(), g.fixed_rows::<3>(3) / self.length);
+        let arm = &self.legs.arm[leg];
+        let w = weight.at_joint(&Sloped::point(&self.legs.line[leg]))?;
+        pull.at_arm(leg, &moment.cross(&Vector3::from(w.map(|x| x.value))));
+        let on = force + moment.cross(arm);
+        pull.line(leg, -(0..3).map(|k| w[k].slope * on[k]).sum::<Vector3<f64>>());
+        Some(())
+    }
 }
 
 impl Forces<'_> {
     /// Force of a leg and its gradient: `dF_i = - sum_j y . (F_j d(column j) + d(weight of leg j))`, `y` row `i` of the
     /// inverse.
-    pub(super) fn of<P: Gradient>(&self, l: &LegLines, leg: usize, length: f64) -> (f64, P) {
-        let y: Vector6<f64> = self.inverse.row(leg).transpose();
-        let mut pull = P::none();
-        for j in (0..6).filter(|_| P::KEPT) {
-            l.pull_row(&mut pull, j, length, &(y * -self.values[j]));
-            if let Some(weight) = self.weight {
-                pull_weight(&mut pull, weight, l, j, (&y, length));
+    pub(super) fn of<P: Gradient>(&self, leg: usize) -> (f64, P) {
+        let (mut pull, held) = (P::none(), self.held);
+        if let Some(inverse) = &held.inverse {
+            let y: Vector6<f64> = inverse.row(leg).transpose();
+            for j in 0..6 {
+                held.legs.pull_row(&mut pull, j, held.length, &(y * -self.values[j]));
+                let _ = self.weight.and_then(|weight| held.pull_weight(&mut pull, weight, j, &y));
             }
         }
         (self.values[leg], pull)

@@ -6,7 +6,7 @@
 use nalgebra::{Matrix6, Vector3, Vector4, Vector6};
 
 use super::leg_gaps::Gap;
-use super::leg_lines::{HeldPose, LegLines, inverse_of_columns, leg_forces};
+use super::leg_lines::{HeldLegs, HeldPose, LegLines};
 use super::problem::DimensionalProblem;
 use super::pull::{Gradient, PoseGradient};
 use super::shape::JointEnds;
@@ -137,8 +137,8 @@ impl<'a> Merit<'a> {
                 square.max(0.0).sqrt() / self.omega()
             }
             Objective::LegForce => {
-                let inverse = inverse_of_columns(l, self.size);
-                let worst = |load| match leg_forces(l, inverse.as_ref(), load, self.size) {
+                let lines = HeldLegs::new::<()>(l, self.size);
+                let worst = |load| match lines.hold(load) {
                     Some(f) => -f.values.amax() / self.force_unit,
                     None => SINGULAR_GAIN,
                 };
@@ -178,12 +178,12 @@ impl<'a> Merit<'a> {
                 }
             }
             Objective::LegForce => {
-                let inverse = inverse_of_columns(l, self.size);
-                for forces in self.loads.iter().map(|load| leg_forces(l, inverse.as_ref(), load, self.size)) {
+                let lines = HeldLegs::new::<PoseGradient>(l, self.size);
+                for forces in self.loads.iter().map(|load| lines.hold(load)) {
                     for i in 0..6 {
                         let piece = match &forces {
                             Some(f) => {
-                                let (value, pull): (f64, PoseGradient) = f.of(l, i, self.size);
+                                let (value, pull): (f64, PoseGradient) = f.of(i);
                                 let factor = -value.signum() / self.force_unit;
                                 MeritPiece::Linear(value * factor, pull.scaled(factor))
                             }

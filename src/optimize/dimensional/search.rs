@@ -552,7 +552,7 @@ impl TaskSearch<'_, '_> {
 ///
 /// `given` are further starts, in the variables of [`super::DimensionalSolution::point`]. The answer is a local
 /// optimum, the best of all starts. Requirements hold at the held poses, to which the worst ones found between them
-/// were added until none was worse; [`machine::requirements::assess`] checks that with formulas of its own.
+/// were added until none was worse; [`machine::requirements::assess`] checks that at poses of its own.
 ///
 /// # Errors
 /// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.

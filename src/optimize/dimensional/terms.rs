@@ -3,19 +3,19 @@
 //! Lengths are in sizes of the design, forces and speeds in their limits.
 //! A joint angle is `(d . c - cos(limit) |d|) / size`, which is smooth.
 //! For a given axis and a limit below 90 degrees it is concave in `d`.
-//! Gaps of housings, room in envelopes, parts of legs and loads are the formulas of `machine::requirements`.
+//! Gaps, room in envelopes, plates, parts of legs, loads, forces and speeds are those of `machine::requirements`.
 
 use nalgebra::{Vector3, Vector6};
 
 use super::leg_gaps::Gap;
-use super::leg_lines::{LegLines, inverse_of_columns, leg_forces};
+use super::leg_lines::{HeldLegs, LegLines};
 use super::plates::{PlacedPlate, PlateModel};
 use super::pull::Gradient;
 use super::shape::{JointEnds, LegJoints, Shape};
 use super::stiffness::{self, RayleighQuotient};
 use crate::climb::TermId;
 use machine::requirements;
-use machine::requirements::{HingeAngle, Housing, JointAxes, KeepOut, Requirements, Swing, TermKind};
+use machine::requirements::{HingeAngle, Housing, JointAxes, KeepOutShape, Requirements, Swing, TermKind};
 use num::ordered::{OrderedNumber, Sloped};
 use platform::geom::Pose;
 use platform::manipulator::Body;
@@ -339,16 +339,15 @@ impl<'a> RequirementTerms<'a> {
     fn keep_outs<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
             for i in 0..6 {
-                self.shape_clearance(l, (TermKind::KeepOut, i, k), keep_out, see);
+                self.shape_clearance(l, (TermKind::KeepOut, i, k), (&keep_out.shape, keep_out.fixed_to), see);
             }
         }
     }
 
     fn payload_clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
-        let Some(shape) = self.required.payload_shape else { return };
-        let payload = KeepOut { name: String::new(), fixed_to: Body::Platform, shape };
+        let Some(shape) = &self.required.payload_shape else { return };
         for i in 0..6 {
-            self.shape_clearance(l, (TermKind::PayloadClearance, i, i), &payload, see);
+            self.shape_clearance(l, (TermKind::PayloadClearance, i, i), (shape, Body::Platform), see);
         }
     }
 
@@ -356,7 +355,7 @@ impl<'a> RequirementTerms<'a> {
         &self,
         l: &LegLines,
         (kind, i, k): (TermKind, usize, usize),
-        shape: &KeepOut,
+        shape: (&KeepOutShape, Body),
         see: &mut impl FnMut(PoseTerm<P>),
     ) {
         let h = &self.required.hardware;
@@ -409,14 +408,14 @@ impl<'a> RequirementTerms<'a> {
     fn forces<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(greatest) = self.required.hardware.max_leg_force else { return };
         let kept = 1.0 - self.required.reserve(TermKind::LegForce) / greatest;
-        let inverse = inverse_of_columns(l, self.size);
+        let lines = HeldLegs::new::<P>(l, self.size);
         for (k, load) in self.required.loads.iter().enumerate() {
-            let forces = leg_forces(l, inverse.as_ref(), load, self.size);
+            let forces = lines.hold(load);
             for i in 0..6 {
                 let id = (TermKind::LegForce, i, k, 0);
                 let item = match &forces {
                     Some(f) => {
-                        let (value, pull): (f64, P) = f.of(l, i, self.size);
+                        let (value, pull): (f64, P) = f.of(i);
                         let factor = -value.signum() / greatest;
                         PoseTerm {
                             id,
@@ -438,16 +437,14 @@ impl<'a> RequirementTerms<'a> {
         else {
             return;
         };
-        let rate = speed.angular_deg.to_radians();
         let kept = 1.0 - self.required.reserve(TermKind::LegSpeed) / greatest;
         for i in 0..6 {
-            let moment = l.arm[i].cross(&l.direction[i]);
+            let moment = Sloped::norm(Sloped::point(&l.arm[i].cross(&l.direction[i])));
+            let fastest = speed.fastest(Sloped::from(1.0), moment);
             let mut pull = P::none();
-            if let Some(n) = moment.try_normalize(0.0) {
-                let g = Vector6::from_fn(|k, _| if k < 3 { 0.0 } else { -rate / greatest * n[k - 3] });
-                l.pull_row(&mut pull, i, 1.0, &g);
-            }
-            let value = kept - (speed.linear + rate * moment.norm()) / greatest;
+            let g = Vector6::from_fn(|k, _| if k < 3 { 0.0 } else { -fastest.slope[k - 3] / greatest });
+            l.pull_row(&mut pull, i, 1.0, &g);
+            let value = kept - fastest.value / greatest;
             see(PoseTerm { id: (TermKind::LegSpeed, i, i, 0), value, pull, exact: None });
         }
     }

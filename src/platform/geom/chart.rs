@@ -4,9 +4,9 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::enclosed::{IntervalVector, Rotation, exact_rotation};
 use super::rotation_vector::turn_between;
-use super::turn::radians;
 use super::{Pose, PoseSpace, Region};
 use num::interval::Interval;
+use num::interval::radians;
 
 /// A part of a pose space: `R = exp([w]x) R_0`, `p = p_0 + d` with `(d, w) = sum_k x_k column_k`, for all `x` of a cell
 /// that lie in the unit balls of some groups of coordinates.

@@ -60,12 +60,17 @@ pub fn segment_distance([p0, p1]: [Point3<f64>; 2], [q0, q1]: [Point3<f64>; 2]) 
     (w + e * s - f * t).norm()
 }
 
-/// Distance of a segment from the box `|x_k - center_k| <= half_k`, 0 when they meet.
+/// The share of a segment at which it is nearest to the box `|x_k - center_k| <= half_k`, and the way there from the
+/// box, which is zero when they meet.
 ///
 /// The squared distance of the point `x + t (y - x)` from the box is convex in `t` and a quadratic between the
 /// parameters where a coordinate crosses a face: the least value of each piece is taken in closed form.
 #[must_use]
-pub fn segment_box_distance([x, y]: [Point3<f64>; 2], center: &Point3<f64>, half: &Vector3<f64>) -> f64 {
+pub fn segment_box_nearest(
+    [x, y]: [Point3<f64>; 2],
+    center: &Point3<f64>,
+    half: &Vector3<f64>,
+) -> (f64, Vector3<f64>) {
     let (start, d) = (x - center, y - x);
     let mut cuts = vec![0.0, 1.0];
     for k in 0..3 {
@@ -83,15 +88,21 @@ pub fn segment_box_distance([x, y]: [Point3<f64>; 2], center: &Point3<f64>, half
         let moving = Vector3::from_fn(|k, _| if middle[k] == 0.0 { 0.0 } else { d[k] });
         let (rate, square) = (middle.dot(&moving), moving.norm_squared());
         let t = if square > 0.0 { f64::midpoint(w[0], w[1]) - rate / square } else { w[0] };
-        outside(t.clamp(w[0], w[1])).norm()
+        let t = t.clamp(w[0], w[1]);
+        (t, outside(t))
     };
-    cuts.windows(2).map(piece).fold(f64::INFINITY, f64::min)
+    let nearest = cuts.windows(2).map(piece).min_by(|a, b| a.1.norm_squared().total_cmp(&b.1.norm_squared()));
+    nearest.unwrap_or_else(|| (0.0, outside(0.0)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use num::Rng;
+
+    fn segment_box_distance(segment: [Point3<f64>; 2], center: &Point3<f64>, half: &Vector3<f64>) -> f64 {
+        segment_box_nearest(segment, center, half).1.norm()
+    }
 
     fn point(rng: &mut Rng) -> Point3<f64> {
         Point3::new(rng.normal(), rng.normal(), rng.normal())

@@ -91,13 +91,6 @@ fn series(k: usize, n: usize, s: Interval) -> Interval {
     sum + Interval::new(-rest, rest).unwrap_or(Interval::WHOLE)
 }
 
-/// An angle in radians.
-pub fn radians(degrees: f64) -> Interval {
-    // pi lies between these neighbours
-    let pi = Interval::new(std::f64::consts::PI, std::f64::consts::PI.next_up()).unwrap_or(Interval::WHOLE);
-    (Interval::from(degrees) * pi).checked_div(Interval::from(180.0)).unwrap_or(Interval::WHOLE)
-}
-
 /// Cosine of angles of at most a turn; of all numbers, else.
 pub fn cosine(angle: Interval) -> Interval {
     let square = angle.square();
@@ -178,6 +171,7 @@ mod tests {
     use super::*;
     use nalgebra::{Rotation3, Vector3};
     use num::Rng;
+    use num::interval::radians;
 
     /// `C_k^(n)` from sines and cosines, away from 0.
     fn plain(k: usize, n: usize, s: f64) -> f64 {

@@ -78,8 +78,8 @@ fn plan(export: &Export, body: &ExportBody, plate: &Plate) -> String {
 }
 
 fn outline(page: &mut Page, plate: &Plate, mm: f64) {
-    for part in &plate.outline.parts {
-        match *part {
+    for part in plate.outline.parts() {
+        match part {
             OutlinePart::Line { from, to } => page.entities.line("OUTLINE", from * mm, to * mm),
             OutlinePart::Arc { centre, radius, start, turn } => {
                 page.entities.pairs(&[(0, "ARC"), (8, "OUTLINE")]);

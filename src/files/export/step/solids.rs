@@ -50,7 +50,7 @@ impl Tube {
 pub(super) fn plate(b: &mut Builder, name: &str, plate: &Plate, mm: f64) -> Id {
     let height = plate.thickness * mm;
     let scaled = |p: &Point2<f64>| Point2::from(p.coords * mm);
-    let parts = &plate.outline.parts;
+    let parts = plate.outline.parts();
     let n = parts.len();
     let start = |part: &OutlinePart| match *part {
         OutlinePart::Line { from, .. } => scaled(&from),

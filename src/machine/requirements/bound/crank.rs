@@ -185,11 +185,12 @@ impl<'a> CrankFrames<'a> {
             TermKind::TipSwing => Some(-crank.along.square()),
             TermKind::PlatformSwing => crank.rod(frame)?.cosine(&frame.turned(axis), *length),
             TermKind::CrankSpeed => {
-                let mut ahead = frame.constant(Interval::from(speed.linear) * l);
-                if speed.angular_deg != 0.0 {
-                    let moment = norm_squared(&crank.rod(frame)?.moment()).root()?;
-                    ahead = ahead + moment.times(radians(speed.angular_deg));
-                }
+                let turn = if speed.angular_deg == 0.0 {
+                    frame.constant(Interval::ZERO)
+                } else {
+                    norm_squared(&crank.rod(frame)?.moment()).root()?
+                };
+                let ahead = speed.fastest(frame.constant(l), turn);
                 let over = Interval::from(1.0).checked_div(r)?;
                 Some(-(ahead * crank.left.inverse_root()?).times(over))
             }

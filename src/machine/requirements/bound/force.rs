@@ -14,14 +14,14 @@
 use nalgebra::Matrix6;
 
 use super::crank::CrankFrames;
-use super::frame::{CellFrame, LegOverCell, enclosed};
+use super::frame::{CellFrame, LegOverCell};
 use super::local::{self, Bounded};
-use crate::requirements::load::{LegsWeight, Load};
+use crate::requirements::load::Load;
 use num::interval::Interval;
-use num::jet::{Jet, JetVector, cross, dot};
+use num::jet::{Jet, JetVector};
 use platform::geom::enclosed::{IntervalMatrix, IntervalVector, contraction, times};
 use platform::geom::{Chart, ChartCell};
-use platform::manipulator::{Body, Manipulator};
+use platform::manipulator::Manipulator;
 
 type Column = [Jet; 6];
 
@@ -93,25 +93,16 @@ impl System {
         } else {
             Self::of_legs(frame, m)?
         };
-        let turned = |v: &nalgebra::Vector3<f64>| {
-            let v: IntervalVector = std::array::from_fn(|k| Interval::from(v[k]));
-            match load.fixed_to {
-                Body::Base => frame.fixed(&v),
-                Body::Platform => frame.turned(&v),
-            }
-        };
-        let (mut force, mut torque) = (turned(&load.force), turned(&load.torque));
-        let lever = cross(&frame.turned(&enclosed(&load.at)), &force);
-        torque = sum(&torque, &lever);
-        if let Some(weight) = &load.legs {
-            for i in 0..6 {
+        let coordinates = |v: &nalgebra::Vector3<f64>| -> IntervalVector { [0, 1, 2].map(|k| v[k].into()) };
+        let wrench = load.wrench_of(
+            |v| frame.fixed(&coordinates(v)),
+            |v| frame.turned(&coordinates(v)),
+            |i| {
                 let leg = frame.bare_leg(m, i);
-                let at_joint = weight_at_joint(weight, frame, &leg)?;
-                force = sum(&force, &at_joint);
-                torque = sum(&torque, &cross(&leg.arm, &at_joint));
-            }
-        }
-        let right = std::array::from_fn(|r| if r < 3 { -force[r] } else { -torque[r - 3].times(unit) });
+                (leg.arm, leg.line)
+            },
+        )?;
+        let right = std::array::from_fn(|r| if r < 3 { -wrench[r] } else { -wrench[r].times(unit) });
         Some(Self { right, ..lines })
     }
 
@@ -126,20 +117,6 @@ impl System {
     fn is_second_order(&self) -> bool {
         self.right[0].is_second_order()
     }
-}
-
-fn sum(a: &JetVector, b: &JetVector) -> JetVector {
-    std::array::from_fn(|k| a[k] + b[k])
-}
-
-/// [`LegsWeight::at_joint`] over a cell; `None` where the leg may have no length.
-fn weight_at_joint(weight: &LegsWeight, frame: &CellFrame<'_>, leg: &LegOverCell) -> Option<JetVector> {
-    let fixed = |v: &nalgebra::Vector3<f64>| frame.fixed(&std::array::from_fn(|k| Interval::from(v[k])));
-    let (rod, moment) = (fixed(&weight.rod), fixed(&weight.moment));
-    let over = leg.square.inverse_root()?;
-    let along = leg.line.map(|x| x * over);
-    let lengthwise = dot(&along, &moment);
-    Some(std::array::from_fn(|k| rod[k] + (moment[k] - along[k] * lengthwise) * over))
 }
 
 /// A bound of `|I - K A|` with what solves systems by it.

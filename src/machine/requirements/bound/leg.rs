@@ -8,11 +8,11 @@ use super::function::{BoundedFunction, Side};
 use super::hinge::{HingeFrame, HingeLimit};
 use super::joint_offsets::JointOffsets;
 use crate::requirements::envelope::{self, Envelope};
-use crate::requirements::{LengthLimits, Swing, TermKind};
+use crate::requirements::{LengthLimits, PlatformSpeed, Swing, TermKind};
 use num::interval::Interval;
-use num::jet::{Jet, norm_squared};
+use num::jet::{Jet, JetVector, norm_squared};
 use platform::geom::enclosed::IntervalVector;
-use platform::geom::{Chart, arc_cosine, degrees, radians};
+use platform::geom::{Chart, arc_cosine, degrees};
 use platform::manipulator::Body;
 
 impl CellJudge<'_> {
@@ -128,15 +128,7 @@ impl CellJudge<'_> {
     fn screw_speed(&self, joints: &JointOffsets, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
         let speed = self.required.platform_speed.unwrap_or_default();
         let [x, y, z, a, b, c] = joints.rates(frame, self.m, i)?;
-        let mut fastest = frame.constant(Interval::ZERO);
-        for (row, greatest) in
-            [([x, y, z], Interval::from(speed.linear)), ([a, b, c], radians(speed.angular_deg))]
-        {
-            if greatest != Interval::ZERO {
-                fastest = fastest + norm_squared(&row).root()?.times(greatest);
-            }
-        }
-        Some(-fastest)
+        Some(-fastest(&speed, &[x, y, z], &[a, b, c])?)
     }
 
     /// The margin for a value of the function of a leg, which it increases with.
@@ -177,9 +169,17 @@ impl CellJudge<'_> {
             TermKind::LegSpeed => {
                 let speed = self.required.platform_speed.unwrap_or_default();
                 let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));
-                greatest - Interval::from(speed.linear) - root(-value) * radians(speed.angular_deg)
+                greatest - speed.fastest(Interval::from(1.0), root(-value))
             }
             _ => Interval::WHOLE,
         }
     }
+}
+
+/// [`PlatformSpeed::fastest`] for a drive with the rate `f . v + m . w`; a speed that is 0 makes no root.
+pub(super) fn fastest(speed: &PlatformSpeed, force: &JetVector, moment: &JetVector) -> Option<Jet> {
+    let length = |v: &JetVector, greatest: f64| {
+        if greatest == 0.0 { Some(v[0].alike(Interval::ZERO)) } else { norm_squared(v).root() }
+    };
+    Some(speed.fastest(length(force, speed.linear)?, length(moment, speed.angular_deg)?))
 }

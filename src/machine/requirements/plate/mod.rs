@@ -13,8 +13,8 @@ use platform::manipulator::Body;
 
 pub use moments::PlateBody;
 pub use outline::on_circle;
-pub use outline::{Outline, OutlinePart};
-pub use solid::{PlateSeat, PlateSolid};
+pub use outline::{Outline, OutlinePart, OutlineSide};
+pub use solid::{HoleGap, HolePair, PlateHole, PlateSeat, PlateSolid};
 pub use solid::{frame_of, plate_normal};
 
 /// Materials that are known by name, with their densities in kg/m^3: rounded values of tables of engineering materials

@@ -70,8 +70,8 @@ impl AreaMoments {
         let mut out = if outline.hull.len() > 2 { Self::polygon(&outline.hull) } else { Self::default() };
         let n = outline.hull.len();
         let mut edge = 0;
-        for part in &outline.parts {
-            match *part {
+        for part in outline.parts() {
+            match part {
                 OutlinePart::Arc { centre, radius, start, turn } => {
                     out.add(&Self::sector(radius, start, turn).about(&centre));
                 }

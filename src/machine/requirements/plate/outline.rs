@@ -37,8 +37,19 @@ pub struct Outline {
     pub hull: Vec<Point2<f64>>,
     /// Distance of the outline from the hull.
     pub margin: f64,
-    /// The pieces in order.
-    pub parts: Vec<OutlinePart>,
+}
+
+/// An edge of the hull, or its nearest point, and how far a point is inside the outline by it.
+#[derive(Debug, Clone, Copy)]
+pub struct OutlineSide {
+    /// Corners of the hull by number, with the shares that the side moves with: they add up to 1.
+    pub corners: [(usize, f64); 2],
+    /// The gradient of the depth by the point; that by a corner is minus its share of it.
+    pub inwards: Vector2<f64>,
+    /// The margin and the depth in the hull, or the margin less the distance from the hull.
+    pub depth: f64,
+    /// Whether it is the line of an edge, for a point in the hull.
+    pub is_edge: bool,
 }
 
 impl Outline {
@@ -46,11 +57,17 @@ impl Outline {
     /// one.
     #[must_use]
     pub fn around(points: &[Point2<f64>], margin: f64, tolerance: f64) -> Self {
-        let hull = convex_hull(points, tolerance);
+        Self { hull: convex_hull(points, tolerance), margin }
+    }
+
+    /// The pieces in order.
+    #[must_use]
+    pub fn parts(&self) -> Vec<OutlinePart> {
+        let Self { hull, margin } = self;
         let n = hull.len();
         let mut parts = Vec::new();
         if let [centre] = hull[..] {
-            let half = |start| OutlinePart::Arc { centre, radius: margin, start, turn: PI };
+            let half = |start| OutlinePart::Arc { centre, radius: *margin, start, turn: PI };
             parts.extend([half(0.0), half(PI)]);
         } else {
             // to the right of the direction of travel is outside
@@ -65,17 +82,17 @@ impl Outline {
                 let turn = if n == 2 { PI } else { turn };
                 parts.push(OutlinePart::Arc {
                     centre: hull[i],
-                    radius: margin,
+                    radius: *margin,
                     start: before.y.atan2(before.x),
                     turn,
                 });
                 parts.push(OutlinePart::Line {
-                    from: hull[i] + after * margin,
-                    to: hull[(i + 1) % n] + after * margin,
+                    from: hull[i] + after * *margin,
+                    to: hull[(i + 1) % n] + after * *margin,
                 });
             }
         }
-        Self { hull, margin, parts }
+        parts
     }
 
     /// Enclosed area: that of the hull, a strip along it, and a full circle.
@@ -88,50 +105,68 @@ impl Outline {
         0.5 * twice + around * self.margin + PI * self.margin * self.margin
     }
 
-    /// The point of the hull nearest to `p`, which is `p` itself inside.
-    fn nearest_of_hull(&self, p: &Point2<f64>) -> Point2<f64> {
+    /// The point of the border of the hull nearest to `p`, by corners with their shares.
+    #[must_use]
+    pub fn nearest_of_border(&self, p: &Point2<f64>) -> (Point2<f64>, [(usize, f64); 2]) {
         let n = self.hull.len();
-        if n > 2 && self.depth_in_hull(p) >= 0.0 {
-            return *p;
-        }
         let on_edge = |i: usize| {
             let (a, d) = (self.hull[i], self.hull[(i + 1) % n] - self.hull[i]);
             let square = d.norm_squared();
             let t = if square > 0.0 { ((p - a).dot(&d) / square).clamp(0.0, 1.0) } else { 0.0 };
-            a + d * t
+            (a + d * t, [(i, 1.0 - t), ((i + 1) % n, t)])
         };
-        let near = (0..n).map(on_edge).min_by(|x, y| (x - p).norm().total_cmp(&(y - p).norm()));
-        near.unwrap_or(*p)
+        let near = (0..n).map(on_edge).min_by(|x, y| (x.0 - p).norm().total_cmp(&(y.0 - p).norm()));
+        near.unwrap_or((*p, [(0, 0.0); 2]))
     }
 
-    /// Least distance from the lines of the edges, positive on the left of all of them; minus infinity for hulls
-    /// without an inside.
-    fn depth_in_hull(&self, p: &Point2<f64>) -> f64 {
+    /// The line of the edge after a corner.
+    #[must_use]
+    pub fn edge(&self, i: usize, p: &Point2<f64>) -> OutlineSide {
         let n = self.hull.len();
-        if n < 3 {
-            return f64::NEG_INFINITY;
-        }
-        let from_line = |i: usize| {
-            let (a, d) = (self.hull[i], self.hull[(i + 1) % n] - self.hull[i]);
-            d.perp(&(p - a)) / d.norm()
-        };
-        (0..n).map(from_line).fold(f64::INFINITY, f64::min)
+        let (a, d) = (self.hull[i], self.hull[(i + 1) % n] - self.hull[i]);
+        let t = (p - a).dot(&d) / d.norm_squared();
+        let inwards = Vector2::new(-d.y, d.x) / d.norm();
+        let depth = self.margin + inwards.dot(&(p - a));
+        OutlineSide { corners: [(i, 1.0 - t), ((i + 1) % n, t)], inwards, depth, is_edge: true }
     }
 
-    /// How far inside the outline a point is, negative outside: the margin and the depth in the hull, or the margin
-    /// less the distance from the hull.
+    /// Whether a point is in the hull, or outside by no more than `tolerance`.
+    #[must_use]
+    pub fn is_in_hull(&self, p: &Point2<f64>, tolerance: f64) -> bool {
+        let n = self.hull.len();
+        n > 2 && (0..n).all(|i| self.edge(i, p).depth - self.margin >= -tolerance)
+    }
+
+    /// The sides that say how far inside the outline a point is: all edges for a point in the hull, or outside by no
+    /// more than `tolerance`, the nearest point of the hull for others.
     ///
     /// A point at depth `d` of a convex region is `d + m` deep in all points within `m` of the region.
+    pub fn sides(&self, p: &Point2<f64>, tolerance: f64, see: &mut impl FnMut(OutlineSide)) {
+        if self.is_in_hull(p, tolerance) {
+            (0..self.hull.len()).for_each(|i| see(self.edge(i, p)));
+            return;
+        }
+        let (near, corners) = self.nearest_of_border(p);
+        let away = p - near;
+        let inwards = -away.try_normalize(1e-3 * tolerance).unwrap_or_default();
+        see(OutlineSide { corners, inwards, depth: self.margin - away.norm(), is_edge: false });
+    }
+
+    /// How far inside the outline a point is, negative outside: the least depth by its [`sides`](Self::sides).
     #[must_use]
     pub fn depth(&self, p: &Point2<f64>) -> f64 {
-        let inside = self.depth_in_hull(p);
-        if inside >= 0.0 { self.margin + inside } else { self.margin - (p - self.nearest_of_hull(p)).norm() }
+        let mut least = f64::INFINITY;
+        self.sides(p, 0.0, &mut |side| least = least.min(side.depth));
+        least
     }
 
     /// The point within the outline nearest to `p`, which is `p` itself inside.
     #[must_use]
     pub fn nearest(&self, p: &Point2<f64>) -> Point2<f64> {
-        let hull = self.nearest_of_hull(p);
+        if self.is_in_hull(p, 0.0) {
+            return *p;
+        }
+        let (hull, _) = self.nearest_of_border(p);
         let away = p - hull;
         let distance = away.norm();
         if distance <= self.margin { *p } else { hull + away * (self.margin / distance) }
@@ -148,8 +183,8 @@ impl Outline {
     #[must_use]
     pub fn polygon(&self, steps: usize) -> Vec<Point2<f64>> {
         let mut out = Vec::new();
-        for part in &self.parts {
-            if let OutlinePart::Arc { centre, radius, start, turn } = *part {
+        for part in self.parts() {
+            if let OutlinePart::Arc { centre, radius, start, turn } = part {
                 let needed = |n: &usize| *n as f64 * TAU >= steps as f64 * turn;
                 let chords = (1..steps).find(needed).unwrap_or(steps);
                 // without lines the end of an arc is the beginning of the next

@@ -81,6 +81,49 @@ pub struct PlateSolid {
 /// Two holes, or one and the outline, that stand nearest: the joints, and the margin.
 pub(crate) type HoleMargin = ([usize; 2], f64);
 
+/// A hole of a plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateHole {
+    /// The seat that it belongs to, by number.
+    pub seat: usize,
+    /// 0 for the hole under the joint, from 1 on for bolts.
+    pub number: usize,
+    /// Its middle, plate coordinates.
+    pub at: Point2<f64>,
+    /// Its radius.
+    pub radius: f64,
+}
+
+/// Two things that stand apart on a plate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HolePair {
+    /// Two holes.
+    Holes,
+    /// The feet around two holes under joints.
+    Feet,
+    /// A bolt and the foot of another joint, with the number of the hole under the foot: the first or the second one.
+    BoltAndFoot(usize),
+}
+
+/// By how much two holes, or feet, are farther apart than they have to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HoleGap {
+    /// The holes, or those in the middles of feet.
+    pub holes: [PlateHole; 2],
+    /// What stands apart.
+    pub pair: HolePair,
+    /// The margin.
+    pub margin: f64,
+}
+
+impl HoleGap {
+    /// The seats of both.
+    #[must_use]
+    pub fn seats(&self) -> [usize; 2] {
+        self.holes.map(|hole| hole.seat)
+    }
+}
+
 impl PlateSolid {
     /// The plate of a body; `home` says on which side the legs are.
     #[must_use]
@@ -88,27 +131,43 @@ impl PlateSolid {
         let towards: Vector3<f64> = m.legs().iter().map(|l| home.transform(&l.platform) - l.base).sum();
         let towards = if body == Body::Base { towards } else { -(home.rotation.inverse() * towards) };
         let (joints, size) = (m.joints(body), m.size());
-        let normal = plate_normal(joints, &towards, size);
-        let axes = frame_of(&normal);
-        let legs_above = normal.dot(&towards) >= 0.0;
-        let side = if legs_above { 1.0 } else { -1.0 };
-        let lowest = joints.iter().map(|p| side * normal.dot(&p.coords)).fold(f64::INFINITY, f64::min);
+        let mut out = Self::under((plate, plate.joint_height(hardware, body)), joints, &towards, size);
         let mut seats: Vec<PlateSeat> = Vec::new();
-        for (k, joint) in joints.iter().enumerate() {
-            let local = axes.transpose() * joint.coords;
-            let at = Point2::new(local.x, local.y);
-            if let Some(seat) = seats.iter_mut().find(|s| (s.at - at).norm() <= SAME * size) {
-                seat.joints.push(k);
-            } else {
-                let bolts = plate.bolts.map_or_else(Vec::new, |b| b.places(&at));
-                seats.push(PlateSeat { joints: vec![k], at, bolts });
+        for mut seat in std::mem::take(&mut out.seats) {
+            match seats.iter_mut().find(|s| (s.at - seat.at).norm() <= SAME * size) {
+                Some(same) => same.joints.append(&mut seat.joints),
+                None => seats.push(seat),
             }
         }
+        Self { seats, ..out }
+    }
+
+    /// The plate under joints, the lowest of which is so high above it, with a seat for each of them; `towards` leads
+    /// to the legs.
+    #[must_use]
+    pub fn under(
+        (plate, height): (&PlateDesign, f64),
+        joints: &[Point3<f64>],
+        towards: &Vector3<f64>,
+        size: f64,
+    ) -> Self {
+        let normal = plate_normal(joints, towards, size);
+        let axes = frame_of(&normal);
+        let legs_above = normal.dot(towards) >= 0.0;
+        let side = if legs_above { 1.0 } else { -1.0 };
+        let lowest = joints.iter().map(|p| side * normal.dot(&p.coords)).fold(f64::INFINITY, f64::min);
+        let seat = |(k, joint): (usize, &Point3<f64>)| {
+            let local = axes.transpose() * joint.coords;
+            let at = Point2::new(local.x, local.y);
+            let bolts = plate.bolts.map_or_else(Vec::new, |b| b.places(&at));
+            PlateSeat { joints: vec![k], at, bolts }
+        };
+        let seats: Vec<PlateSeat> = joints.iter().enumerate().map(seat).collect();
         let centres: Vec<Point2<f64>> = seats.iter().map(|s| s.at).collect();
         Self {
             axes,
             legs_above,
-            face: side * (lowest - plate.joint_height(hardware, body)),
+            face: side * (lowest - height),
             thickness: plate.thickness,
             outline: Outline::around(&centres, plate.margin, SAME * size),
             seats,
@@ -121,13 +180,11 @@ impl PlateSolid {
         if self.legs_above { self.face - self.thickness } else { self.face }
     }
 
-    /// The point of the plate, its holes filled, nearest to a point of the frame of the body; that point itself inside.
-    #[must_use]
-    pub fn nearest(&self, p: &Point3<f64>) -> Point3<f64> {
-        let local = self.axes.transpose() * p.coords;
-        let at = self.outline.nearest(&Point2::new(local.x, local.y));
-        let w = local.z.clamp(self.lower(), self.lower() + self.thickness);
-        p + self.axes * Vector3::new(at.x - local.x, at.y - local.y, w - local.z)
+    /// The point of the plate, its holes filled, nearest to a point, both in plate coordinates; that point itself
+    /// inside.
+    fn nearest(&self, p: &Vector3<f64>) -> Vector3<f64> {
+        let at = self.outline.nearest(&Point2::new(p.x, p.y));
+        Vector3::new(at.x, at.y, p.z.clamp(self.lower(), self.lower() + self.thickness))
     }
 
     /// The share of the segment `x y` at which it is nearest to the plate, its holes filled, and the nearest point
@@ -136,90 +193,105 @@ impl PlateSolid {
     /// The distance from a convex body is convex along the segment: where it falls neither at the beginning nor at the
     /// end, the zero of its slope is enclosed by halving.
     #[must_use]
-    pub fn nearest_to_segment(&self, [x, y]: [&Point3<f64>; 2]) -> (f64, Point3<f64>) {
+    pub fn nearest_to_segment(&self, ends: [&Point3<f64>; 2]) -> (f64, Point3<f64>) {
+        let [x, y] = ends.map(|p| self.axes.transpose() * p.coords);
+        let (t, way) = self.nearest_to_local([&x, &y]);
+        (t, ends[0] + (ends[1] - ends[0]) * t - self.axes * way)
+    }
+
+    /// The same in plate coordinates, with the way from the nearest point to that of the segment.
+    #[must_use]
+    pub fn nearest_to_local(&self, [x, y]: [&Vector3<f64>; 2]) -> (f64, Vector3<f64>) {
         let d = y - x;
-        let at = |t: f64| {
+        let way = |t: f64| {
             let p = x + d * t;
-            let near = self.nearest(&p);
-            ((p - near).dot(&d), near)
+            p - self.nearest(&p)
         };
-        let (start, end) = (at(0.0), at(1.0));
-        if start.0 >= 0.0 {
-            return (0.0, start.1);
+        let (start, end) = (way(0.0), way(1.0));
+        if start.dot(&d) >= 0.0 {
+            return (0.0, start);
         }
-        if end.0 <= 0.0 {
-            return (1.0, end.1);
+        if end.dot(&d) <= 0.0 {
+            return (1.0, end);
         }
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..60 {
             let t = f64::midpoint(low, high);
-            let (slope, near) = at(t);
+            let slope = way(t).dot(&d);
             if slope == 0.0 {
-                return (t, near);
+                return (t, way(t));
             }
             if slope < 0.0 { low = t } else { high = t }
         }
         let t = f64::midpoint(low, high);
-        (t, at(t).1)
+        (t, way(t))
     }
 
     /// Distance of the segment `x y` from the plate, its holes filled; 0 where they meet.
     #[must_use]
     pub fn distance(&self, x: &Point3<f64>, y: &Point3<f64>) -> f64 {
-        let (t, near) = self.nearest_to_segment([x, y]);
-        (x + (y - x) * t - near).norm()
+        let [x, y] = [x, y].map(|p| self.axes.transpose() * p.coords);
+        self.nearest_to_local([&x, &y]).1.norm()
     }
 
-    /// Middles and radii of the holes of a seat.
-    fn holes_of<'a>(
-        plate: &'a PlateDesign,
-        seat: &'a PlateSeat,
-    ) -> impl Iterator<Item = (Point2<f64>, f64)> + 'a {
+    /// The holes of a seat.
+    #[must_use]
+    pub fn holes_of(&self, plate: &PlateDesign, seat: usize) -> Vec<PlateHole> {
+        let PlateSeat { at, bolts, .. } = &self.seats[seat];
         let bolt = plate.bolts.map_or(0.0, |b| 0.5 * b.hole);
-        [(seat.at, 0.5 * plate.hole)].into_iter().chain(seat.bolts.iter().map(move |p| (*p, bolt)))
+        let all = std::iter::once((*at, 0.5 * plate.hole)).chain(bolts.iter().map(|p| (*p, bolt)));
+        all.enumerate().map(|(number, (at, radius))| PlateHole { seat, number, at, radius }).collect()
     }
 
     /// For each seat by how much its holes are farther from the outline than they have to be:
     /// `depth - radius - edge_distance`, the least over the holes.
     pub(crate) fn edge_margins(&self, plate: &PlateDesign) -> Vec<HoleMargin> {
-        let of = |seat: &PlateSeat| {
-            let margins = Self::holes_of(plate, seat).map(|(p, r)| self.outline.depth(&p) - r);
+        let of = |(k, seat): (usize, &PlateSeat)| {
+            let holes = self.holes_of(plate, k);
+            let margins = holes.iter().map(|hole| self.outline.depth(&hole.at) - hole.radius);
             let least = margins.fold(f64::INFINITY, f64::min) - plate.edge_distance;
             ([seat.joints[0]; 2], least)
         };
-        self.seats.iter().map(of).collect()
+        self.seats.iter().enumerate().map(of).collect()
     }
 
     /// For each two seats by how much their holes and feet are farther apart than they have to be, the bolts of one
     /// from the foot of the other too, and for each seat alone the same of its own holes.
     pub(crate) fn gap_margins(&self, plate: &PlateDesign) -> Vec<HoleMargin> {
-        let gap = |(p, r): &(Point2<f64>, f64), (q, s): &(Point2<f64>, f64)| {
-            (p - q).norm() - r - s - plate.hole_distance
+        let least = |gaps: &[HoleGap]| {
+            let joints = gaps[0].seats().map(|seat| self.seats[seat].joints[0]);
+            (joints, gaps.iter().map(|gap| gap.margin).fold(f64::INFINITY, f64::min))
         };
-        let holes: Vec<Vec<_>> = self.seats.iter().map(|s| Self::holes_of(plate, s).collect()).collect();
+        self.gaps(plate).chunk_by(|a, b| a.seats() == b.seats()).map(least).collect()
+    }
+
+    /// All gaps of holes and feet: those of a seat, then those of this seat and each later one.
+    #[must_use]
+    pub fn gaps(&self, plate: &PlateDesign) -> Vec<HoleGap> {
+        let apart = |p: &PlateHole, q: &PlateHole| (p.at - q.at).norm();
+        let between = |p: &PlateHole, q: &PlateHole| {
+            let margin = apart(p, q) - p.radius - q.radius - plate.hole_distance;
+            HoleGap { holes: [*p, *q], pair: HolePair::Holes, margin }
+        };
+        let holes: Vec<Vec<PlateHole>> = (0..self.seats.len()).map(|k| self.holes_of(plate, k)).collect();
         let mut out = Vec::new();
-        for (i, (a, own)) in self.seats.iter().zip(&holes).enumerate() {
+        for (i, own) in holes.iter().enumerate() {
             let pairs = own.iter().enumerate();
-            let among = pairs.flat_map(|(k, p)| own[k + 1..].iter().map(move |q| (p, q)));
-            if let Some(least) = among.map(|(p, q)| gap(p, q)).reduce(f64::min) {
-                out.push(([a.joints[0]; 2], least));
-            }
-            for (b, others) in self.seats.iter().zip(&holes).skip(i + 1) {
-                let all = own.iter().flat_map(|p| others.iter().map(move |q| gap(p, q)));
-                let feet = plate.foot.map_or(f64::INFINITY, |foot| (a.at - b.at).norm() - foot);
-                let feet =
-                    feet.min(Self::bolts_from_foot(plate, a, b)).min(Self::bolts_from_foot(plate, b, a));
-                out.push(([a.joints[0], b.joints[0]], all.fold(feet, f64::min)));
+            out.extend(pairs.flat_map(|(k, p)| own[k + 1..].iter().map(move |q| between(p, q))));
+            for others in &holes[i + 1..] {
+                out.extend(own.iter().flat_map(|p| others.iter().map(move |q| between(p, q))));
+                let Some(foot) = plate.foot else { continue };
+                let [a, b] = [own[0], others[0]];
+                out.push(HoleGap { holes: [a, b], pair: HolePair::Feet, margin: apart(&a, &b) - foot });
+                let of_foot = |p: &PlateHole, q: &PlateHole, bolt: f64, side| {
+                    let margin = apart(p, q) - bolt - 0.5 * foot;
+                    HoleGap { holes: [*p, *q], pair: HolePair::BoltAndFoot(side), margin }
+                };
+                out.extend(own[1..].iter().map(|bolt| of_foot(bolt, &b, bolt.radius, 1)));
+                out.extend(others[1..].iter().map(|bolt| of_foot(&a, bolt, bolt.radius, 0)));
             }
         }
         out
-    }
-
-    /// How far the bolt holes of one seat are from the foot of another; infinite without bolts or feet.
-    fn bolts_from_foot(plate: &PlateDesign, bolted: &PlateSeat, standing: &PlateSeat) -> f64 {
-        let (Some(foot), Some(bolts)) = (plate.foot, plate.bolts) else { return f64::INFINITY };
-        let away = |p: &Point2<f64>| (p - standing.at).norm() - 0.5 * (foot + bolts.hole);
-        bolted.bolts.iter().map(away).fold(f64::INFINITY, f64::min)
     }
 
     /// The greatest length that coordinates of its points are computed from.
