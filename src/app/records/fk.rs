@@ -13,7 +13,7 @@ pub use self::closure::{ClosurePolynomialRecord, ClosureRecord, TrilaterationSte
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
 use super::{ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number};
 use fk::solve::pose_count::{CountedLengths, PoseSet};
-use fk::{Completeness, FkRoot, FkSolutions, Method, PathReport, Reality, Rejected, SolutionSet};
+use fk::{CompletenessWord, FkRoot, FkSolutions, Method, PathReport, Reality, Rejected, SolutionSet};
 use machine::rotary::RotaryPlatform;
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, height_above_base};
@@ -169,33 +169,11 @@ pub struct SolvedRecord {
     pub notes: Vec<String>,
 }
 
-/// Whether all poses are known to be listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CompletenessWord {
-    /// By a theorem.
-    Proved,
-    /// Counted modulo random primes, with a bound on the probability of error.
-    Modular,
-    /// Not known.
-    Unproved,
-}
-
-impl From<&Completeness> for CompletenessWord {
-    fn from(c: &Completeness) -> Self {
-        match c {
-            Completeness::Proved { .. } => Self::Proved,
-            Completeness::Modular { .. } => Self::Modular,
-            Completeness::Unproved { .. } => Self::Unproved,
-        }
-    }
-}
-
 impl From<&FkSolutions> for SolvedRecord {
     fn from(s: &FkSolutions) -> Self {
         let mut record = Self {
             method: s.method,
-            completeness: (&s.completeness).into(),
+            completeness: s.completeness.word(),
             completeness_reason: s.completeness.to_string(),
             all_paths_accounted: s.all_accounted(),
             finite_count: s.roots.len(),

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, PoseUncertaintyRecord};
-use fk::NearOutcome;
+use fk::{NearOutcome, NearWord};
 use platform::geom::Pose;
 
 /// The way from the start to the pose reached, with the numbers that prove it free of singularities.
@@ -40,33 +40,19 @@ pub struct NearRecord {
     pub uncertainty: Option<PoseUncertaintyRecord>,
 }
 
-/// What came of following a pose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum NearWord {
-    /// The pose for the lengths asked for.
-    Tracked,
-    /// A singularity lies on the way or at its end.
-    NearSingularity,
-    /// Given up.
-    Lost,
-}
-
 impl NearRecord {
     /// The record of an outcome that began at `start` and reached a pose with this inverse condition number of the
     /// Jacobian.
     #[must_use]
     pub fn new(start: &Pose, outcome: &NearOutcome, inverse_condition: f64) -> Self {
         let e = outcome.evidence();
-        let (word, fraction, reason) = match outcome {
-            NearOutcome::Tracked { .. } => (NearWord::Tracked, 1.0, None),
-            NearOutcome::NearSingularity { fraction, .. } => (NearWord::NearSingularity, *fraction, None),
-            NearOutcome::Lost { fraction, reason, .. } => {
-                (NearWord::Lost, *fraction, Some(reason.to_string()))
-            }
+        let (fraction, reason) = match outcome {
+            NearOutcome::Tracked { .. } => (1.0, None),
+            NearOutcome::NearSingularity { fraction, .. } => (*fraction, None),
+            NearOutcome::Lost { fraction, reason, .. } => (*fraction, Some(reason.to_string())),
         };
         Self {
-            outcome: word,
+            outcome: outcome.word(),
             reason,
             start: start.into(),
             reached: outcome.pose().into(),

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CompletenessWord, Number, PoseQuaternionRecord};
+use super::{Number, PoseQuaternionRecord};
 use ask::MotionOrigin;
+use fk::CompletenessWord;
 use synthesis::singularity::{
     CriticalPoses, CurveDegree, MotionCurve, MotionEvidence, MotionPoint, PoseVerdict,
 };
