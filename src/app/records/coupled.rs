@@ -1,13 +1,13 @@
 //! What joints that are not ideal add to answers: the lengths that drives have in place of distances of joints.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::Number;
 use machine::coupled::{CoupledOutcome, DriveSolutionWord, DriveState};
 
 /// The drives at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DriveLengthsRecord {
     /// The lengths that a controller has to command, in leg order, design units.
     pub lengths: [f64; 6],
@@ -28,7 +28,7 @@ impl DriveLengthsRecord {
 }
 
 /// How the pose for lengths of drives was found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DriveSolutionRecord {
     /// What is known of it.
     pub status: DriveSolutionWord,

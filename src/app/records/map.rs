@@ -151,10 +151,10 @@ pub struct FramesRecord {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exchanged: bool,
     /// The rigid motions that make the second design equivalent to the first, with `--align`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub alignment: Option<AlignmentRecord>,
     /// The file written.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,
 }
 

@@ -1,14 +1,14 @@
 //! How one pose was followed from a known one.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{Number, PoseRecord, PoseUncertaintyRecord};
 use fk::{NearOutcome, NearWord};
 use platform::geom::Pose;
 
 /// The way from the start to the pose reached, with the numbers that prove it free of singularities.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearRecord {
     /// What came of it.
     pub outcome: NearWord,
@@ -36,7 +36,7 @@ pub struct NearRecord {
     pub angle_deg: Number,
     /// How uncertain the pose reached is, where the design has standard deviations of a calibration and joints are
     /// ideal.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
 }
 

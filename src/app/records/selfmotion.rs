@@ -1,7 +1,7 @@
 //! Answers about the curves of poses with constant leg lengths.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{Number, PoseQuaternionRecord};
 use ask::MotionOrigin;
@@ -11,7 +11,7 @@ use synthesis::singularity::{
 };
 
 /// The answer of `singular motion`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SelfmotionAnswer {
     /// The name of the design.
     pub name: String,
@@ -52,7 +52,7 @@ pub struct SelfmotionAnswer {
 }
 
 /// What shows the dimension of a self-motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionEvidenceWord {
     /// Proved: the leg lines are independent at the pose.
@@ -83,7 +83,7 @@ impl From<PoseVerdict> for MotionEvidenceWord {
 
 /// The surroundings of an isolated pose, in displacements `(t / size, c)`: translation over the size, axis times
 /// tangent of half the angle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct IsolatedRecord {
     /// Every pose with these lengths within this distance lies within `within`.
     pub radius: Number,
@@ -105,7 +105,7 @@ impl IsolatedRecord {
 }
 
 /// What became of the paths to critical points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CriticalPointsRecord {
     /// Paths followed.
     pub paths: usize,
@@ -138,7 +138,7 @@ impl From<&CriticalPoses> for CriticalPointsRecord {
 }
 
 /// A curve of poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MotionCurveRecord {
     /// How it ends: closed, joined, unfinished or stuck.
     #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]
@@ -154,7 +154,7 @@ pub struct MotionCurveRecord {
 }
 
 /// Where a curve crosses others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CurveCrossingRecord {
     /// After this point of the curve, from 0.
     pub after_point: usize,

@@ -29,15 +29,15 @@ pub struct VerifyAnswer {
     pub worst_distance: Option<Number>,
     /// Poses without partner that were set aside: the rounding of the joints decides whether they exist. Absent where
     /// no motion was found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_precision: Option<BeyondPrecisionRecord>,
     /// The numerical side.
     pub samples: Vec<SampleRecord>,
     /// A pose that tells the designs apart.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub counterexample: Option<CounterexampleRecord>,
     /// The box of random poses; absent where no motion was found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sampling: Option<SamplingRecord>,
     /// What was done with the frames of the second design.
     #[serde(flatten)]

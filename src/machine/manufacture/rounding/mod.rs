@@ -350,14 +350,7 @@ pub struct Judgement {
     /// The worst inverse condition number over the poses.
     pub objective: f64,
     /// Where it is.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            serialize_with = "platform::geom::PoseQuaternionRecord::write",
-            deserialize_with = "platform::geom::PoseQuaternionRecord::read"
-        ),
-        schemars(with = "platform::geom::PoseQuaternionRecord")
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "platform::geom::ByQuaternion"))]
     pub worst_pose: Pose,
     /// Least distances of two joints, base and platform.
     // design units

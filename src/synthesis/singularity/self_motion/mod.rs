@@ -73,18 +73,10 @@ impl CurveEnd {
 
 /// A pose on a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "MotionPointRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "MotionPointRecord", transform = num::nullable))]
 pub struct MotionPoint {
     /// The pose.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            flatten,
-            serialize_with = "platform::geom::PoseQuaternionRecord::write",
-            deserialize_with = "platform::geom::PoseQuaternionRecord::read"
-        ),
-        schemars(with = "platform::geom::PoseQuaternionRecord")
-    )]
+    #[cfg_attr(feature = "serde", serde(flatten, with = "platform::geom::ByQuaternion"))]
     pub pose: Pose,
     /// Length of the curve up to here, in (e, g / size).
     pub arc: f64,
