@@ -7,7 +7,7 @@ use super::{Number, PoseQuaternionRecord};
 use ask::MotionOrigin;
 use fk::CompletenessWord;
 use synthesis::singularity::{
-    CriticalPoses, CurveDegree, MotionCurve, MotionEvidence, MotionPoint, PoseVerdict,
+    CriticalPoses, CurveCrossing, CurveDegree, MotionCurve, MotionEvidence, MotionPoint, PoseVerdict,
 };
 
 /// The answer of `singular motion`.
@@ -144,7 +144,7 @@ pub struct MotionCurveRecord {
     #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]
     pub end: String,
     /// Where it crosses others.
-    pub crossings: Vec<CurveCrossingRecord>,
+    pub crossings: Vec<CurveCrossing>,
     /// Its degree, where that was computed.
     pub degree: Option<CurveDegree>,
     /// How its first pose was found.
@@ -153,26 +153,13 @@ pub struct MotionCurveRecord {
     pub points: Vec<MotionPoint>,
 }
 
-/// Where a curve crosses others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct CurveCrossingRecord {
-    /// After this point of the curve, from 0.
-    pub after_point: usize,
-    /// Index into `crossings` of the answer, from 0.
-    pub crossing: usize,
-}
-
 impl MotionCurveRecord {
     /// The record of a curve.
     #[must_use]
     pub fn new(curve: &MotionCurve, degree: Option<&CurveDegree>, found_by: Option<MotionOrigin>) -> Self {
-        let crossing = |(after_point, crossing): &(usize, usize)| CurveCrossingRecord {
-            after_point: *after_point,
-            crossing: *crossing,
-        };
         Self {
             end: curve.end.name().to_owned(),
-            crossings: curve.crossings.iter().map(crossing).collect(),
+            crossings: curve.crossings.clone(),
             degree: degree.copied(),
             found_by,
             points: curve.points.clone(),

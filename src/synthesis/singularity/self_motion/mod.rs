@@ -87,6 +87,20 @@ pub struct MotionPoint {
     pub gap: f64,
 }
 
+/// Where a curve crosses others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "CurveCrossingRecord")
+)]
+pub struct CurveCrossing {
+    /// After this point of the curve, from 0.
+    pub after_point: usize,
+    /// Index into `crossings` of the answer, from 0.
+    pub crossing: usize,
+}
+
 /// A curve of poses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionCurve {
@@ -94,8 +108,8 @@ pub struct MotionCurve {
     pub points: Vec<MotionPoint>,
     /// How it ends.
     pub end: CurveEnd,
-    /// Crossings passed: index of the point before, and of the crossing in [`SelfMotion::crossings`].
-    pub crossings: Vec<(usize, usize)>,
+    /// Crossings passed.
+    pub crossings: Vec<CurveCrossing>,
     /// Index of the pose given from which it was reached, directly or through crossings.
     pub start: usize,
 }
