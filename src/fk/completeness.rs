@@ -48,6 +48,46 @@ pub enum Completeness {
     },
 }
 
+impl Completeness {
+    /// The word for it.
+    #[must_use]
+    pub fn word(&self) -> CompletenessWord {
+        match self {
+            Self::Proved { .. } => CompletenessWord::Proved,
+            Self::Modular { .. } => CompletenessWord::Modular,
+            Self::Unproved { .. } => CompletenessWord::Unproved,
+        }
+    }
+}
+
+/// Whether all poses are known to be listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum CompletenessWord {
+    /// By a theorem.
+    Proved,
+    /// Counted modulo random primes, with a bound on the probability of error.
+    Modular,
+    /// Not known.
+    Unproved,
+}
+
+impl CompletenessWord {
+    /// The word in JSON and tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Proved => "proved",
+            Self::Modular => "modular",
+            Self::Unproved => "unproved",
+        }
+    }
+}
+
 /// A proved upper bound on the number of finite poses, counted with multiplicity, that certified poses reach.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]

@@ -46,11 +46,11 @@ pub use bounds::pose_bound;
 pub use choose::{Automatic, solver};
 pub use closure::{Closure, NoClosure, closure, closure_between};
 pub use closure_poses::closure_candidates;
-pub use completeness::{Completeness, PathsEnded, Reason, Reasons, Theorem, Tried};
+pub use completeness::{Completeness, CompletenessWord, PathsEnded, Reason, Reasons, Theorem, Tried};
 pub use homotopy::Homotopy;
 pub use near::NearNumbers;
 use near::NeedsStart;
-pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, WhyLost};
+pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, NearWord, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
 pub use solutions::{
     FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason, SolutionSet,

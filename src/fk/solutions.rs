@@ -186,7 +186,7 @@ impl FkRoot {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    derive(serde::Serialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
 pub enum PathEnd {
@@ -216,7 +216,7 @@ impl PathEnd {
 
 /// What a path of the homotopy did.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
 pub struct PathReport {
     /// Index of the start point.
     pub start: usize,
@@ -245,7 +245,7 @@ pub struct PathReport {
 #[non_exhaustive]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    derive(serde::Serialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
 pub enum RejectionReason {
@@ -261,7 +261,7 @@ pub enum RejectionReason {
 
 /// A candidate that is no root.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "RejectedRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "RejectedRecord", transform = num::nullable))]
 pub struct Rejected {
     /// Why.
     pub reason: RejectionReason,

@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn an_answer_with_doubles_has_the_schema_of_one_with_numbers() {
-        #[derive(Serialize, Deserialize, JsonSchema)]
+        #[derive(Serialize, JsonSchema)]
         #[schemars(rename = "Answer", transform = nullable)]
         struct Doubles {
             /// What it is.
@@ -108,7 +108,7 @@ mod tests {
             other: Option<f64>,
             count: usize,
         }
-        #[derive(Serialize, Deserialize, JsonSchema)]
+        #[derive(Serialize, JsonSchema)]
         #[schemars(rename = "Answer")]
         struct Numbers {
             /// What it is.

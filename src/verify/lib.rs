@@ -21,6 +21,6 @@ pub use judgement::judge;
 pub use matching::{PoseMatching, match_poses};
 pub use sample::Sample;
 pub use verdict::{
-    Counterexample, InconclusiveReason, SAME_POSE, Verdict, Verification, VerifyError, VerifyRun, verify,
-    verify_each, verify_mapped,
+    Counterexample, InconclusiveReason, SAME_POSE, Verdict, VerdictWord, Verification, VerifyError,
+    VerifyRun, verify, verify_each, verify_mapped,
 };

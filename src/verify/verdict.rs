@@ -167,14 +167,51 @@ impl std::fmt::Display for Verdict {
 }
 
 impl Verdict {
+    /// The word for it.
+    #[must_use]
+    pub fn word(&self) -> VerdictWord {
+        match self {
+            Self::Equivalent => VerdictWord::Equivalent,
+            Self::NotEquivalent(_) => VerdictWord::NotEquivalent,
+            Self::Singular => VerdictWord::Singular,
+            Self::Inconclusive(_) => VerdictWord::Inconclusive,
+        }
+    }
+
     /// The word of the command line.
     #[must_use]
     pub fn name(&self) -> &'static str {
+        self.word().name()
+    }
+}
+
+/// Whether two designs are kinematically equivalent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum VerdictWord {
+    /// They are.
+    Equivalent,
+    /// They are not.
+    NotEquivalent,
+    /// One of them is architecturally singular.
+    Singular,
+    /// Not decided.
+    Inconclusive,
+}
+
+impl VerdictWord {
+    /// The word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
         match self {
             Self::Equivalent => "equivalent",
-            Self::NotEquivalent(_) => "not_equivalent",
+            Self::NotEquivalent => "not_equivalent",
             Self::Singular => "singular",
-            Self::Inconclusive(_) => "inconclusive",
+            Self::Inconclusive => "inconclusive",
         }
     }
 }

@@ -68,7 +68,7 @@ pub use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, Ti
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub use optimizing::{
     Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, EasedDemand,
-    FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, OpenedFreedom, OptimizeEvidence,
+    FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, FreedomWord, OpenedFreedom, OptimizeEvidence,
     OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, SearchedDrive,
 };
 #[cfg(feature = "files")]

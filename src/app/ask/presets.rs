@@ -4,7 +4,7 @@ use crate::design::parse_with_cranks;
 use files::design::Format;
 
 /// What a machine is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PresetClass {
     /// Small machines with drives from a catalogue.

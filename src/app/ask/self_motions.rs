@@ -33,7 +33,7 @@ pub struct SelfMotionOptions {
 }
 
 /// How the first pose of a curve was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "OriginWord")]
 pub enum MotionOrigin {

@@ -241,13 +241,13 @@ pub struct BenchFailureRecord {
     /// What the solver said of its own answer.
     pub solver: String,
     /// Base ends of the legs, in their order.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub base: Option<[[Number; 3]; 6]>,
     /// Platform ends of the legs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub platform: Option<[[Number; 3]; 6]>,
     /// Their squared lengths.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub squared_lengths: Option<[Number; 6]>,
 }
 

@@ -1,7 +1,7 @@
 //! Answers about a machine calibrated from measurements.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{Number, PoseQuaternionRecord};
 use ask::Design;
@@ -16,7 +16,7 @@ use platform::geom::Pose;
 use platform::manipulator::Body;
 
 /// The answer of `calibrate`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CalibrateAnswer {
     /// The name of the design.
     pub name: String,
@@ -35,7 +35,7 @@ pub struct CalibrateAnswer {
 }
 
 /// How a calibration ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CalibrateOutcome {
     /// All unknowns are identified, and nothing speaks against the model.
@@ -62,7 +62,7 @@ impl From<CalibrationStatus> for CalibrateOutcome {
 }
 
 /// What was found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CalibrationRecord {
     /// Poses measured.
     pub poses: usize,
@@ -114,7 +114,7 @@ pub struct CalibrationRecord {
 }
 
 /// The frames of calibrated joints.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CalibrationFrames {
     /// Those of the measured poses.
@@ -124,7 +124,7 @@ pub enum CalibrationFrames {
 }
 
 /// Standard deviations of measurements.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseRecord {
     /// Where they come from.
     pub source: NoiseSource,
@@ -148,7 +148,7 @@ impl NoiseRecord {
 }
 
 /// How much far measurements cost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct LossRecord {
     /// The loss.
     pub loss: Loss,
@@ -157,7 +157,7 @@ pub struct LossRecord {
 }
 
 /// A joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CalibratedJointRecord {
     /// Its body.
     pub body: Body,
@@ -172,7 +172,7 @@ pub struct CalibratedJointRecord {
 }
 
 /// The offset of a leg.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct CalibratedOffsetRecord {
     /// From 1.
     pub leg: usize,
@@ -183,7 +183,7 @@ pub struct CalibratedOffsetRecord {
 }
 
 /// A covariance matrix.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CovarianceRecord {
     /// Names of rows and columns: `base.A1.x`, `offset.3`.
     pub unknowns: Vec<String>,
@@ -193,7 +193,7 @@ pub struct CovarianceRecord {
 
 /// Standard deviations of poses computed from lengths, by what the calibration does not know, with all correlations;
 /// the noise of these lengths comes on top.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ComputedPosesRecord {
     /// Poses looked at: those of the workspace at which the requirements of the design are met.
     pub poses: usize,
@@ -236,7 +236,7 @@ impl ComputedPosesRecord {
 }
 
 /// Which changes of the machine the measurements see, and how well.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ObservabilityRecord {
     /// Directions identified.
     pub rank: usize,
@@ -257,7 +257,7 @@ pub struct ObservabilityRecord {
 }
 
 /// A change of joints and offsets that changes no measured length, or hardly.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct UnobservableRecord {
     /// Joints that move, the farthest first.
     pub joints: Vec<JointShiftRecord>,
@@ -266,7 +266,7 @@ pub struct UnobservableRecord {
 }
 
 /// How a joint moves.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointShiftRecord {
     /// Its body.
     pub body: Body,
@@ -277,7 +277,7 @@ pub struct JointShiftRecord {
 }
 
 /// How an offset changes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OffsetShiftRecord {
     /// From 1.
     pub leg: usize,
@@ -313,7 +313,7 @@ impl UnobservableRecord {
 }
 
 /// Sizes of residuals, design units.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResidualsRecord {
     /// Root mean square.
     pub rms: Number,
@@ -326,7 +326,7 @@ pub struct ResidualsRecord {
 }
 
 /// The largest residual.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct GreatestResidualRecord {
     /// Line of the table of measurements.
     pub line: usize,
@@ -359,7 +359,7 @@ fn line(lines: &[usize], measurement: usize) -> usize {
 }
 
 /// A measurement that does not belong to the others.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OutlierRecord {
     /// Line of the table of measurements.
     pub line: usize,
@@ -386,7 +386,7 @@ impl OutlierRecord {
 }
 
 /// A pose to measure next.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NextPoseRecord {
     /// The pose, in the frames of the design where joints are carried to them, else in those of the measurements.
     pub pose: PoseQuaternionRecord,

@@ -14,8 +14,8 @@ use fk::solve::pose_count::CommonPoints;
 use platform::geom::BestLine;
 use platform::manipulator::{Body, LegLengths, Level};
 use synthesis::singularity::{
-    Architecture, Assembly, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound, RationalPose,
-    SingularEvidence,
+    Architecture, Assembly, Conditioning, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound,
+    RationalPose, SingularEvidence,
 };
 
 /// The answer of `check`.
@@ -73,7 +73,7 @@ pub struct CheckAnswer {
     /// Singular values of the normalised leg vectors.
     pub singular_values: [Number; 6],
     /// How well conditioned the Jacobian is at random poses.
-    pub jacobian_inverse_condition: ConditioningRecord,
+    pub jacobian_inverse_condition: Conditioning,
 }
 
 /// A line that joints of a body lie nearly on, in the frame of the body, design units.
@@ -103,7 +103,7 @@ impl BestLineRecord {
 
 impl From<&CheckReport> for CheckAnswer {
     fn from(c: &CheckReport) -> Self {
-        let (a, f) = (&c.verdict.architecture, &c.conditioning);
+        let a = &c.verdict.architecture;
         let lengths = c.design.lengths.as_ref();
         let dependencies: Vec<_> = a.dependencies.iter().map(|d| DependencyRecord::new(d, lengths)).collect();
         Self {
@@ -136,13 +136,8 @@ impl From<&CheckReport> for CheckAnswer {
             common_points: c.common_points,
             pose_bound: c.pose_bound.into(),
             best_lines: Body::BOTH.into_iter().zip(c.best_lines).filter_map(BestLineRecord::of).collect(),
-            singular_values: f.leg_vectors.map(Number),
-            jacobian_inverse_condition: ConditioningRecord {
-                poses: f.poses,
-                best: Number(f.best),
-                median: Number(f.median),
-                worst: Number(f.worst),
-            },
+            singular_values: c.conditioning.leg_vectors.map(Number),
+            jacobian_inverse_condition: c.conditioning,
         }
     }
 }
@@ -439,19 +434,6 @@ impl NearestSingularRecord {
             platform: NamedPoints::new(design.platform_names(), &n.platform),
         }
     }
-}
-
-/// The inverse condition number of the Jacobian at random poses.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct ConditioningRecord {
-    /// How many poses.
-    pub poses: usize,
-    /// The best.
-    pub best: Number,
-    /// The median.
-    pub median: Number,
-    /// The worst.
-    pub worst: Number,
 }
 
 fn triple(v: &nalgebra::Vector3<f64>) -> String {

@@ -60,7 +60,7 @@ pub struct FiguresRecord {
     /// The difference.
     pub stroke: Number,
     /// What the cranks do, where the legs are rods on cranks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub cranks: Option<CrankFiguresRecord>,
     /// Lengths at home that differ by more than a millionth of the size; of rods on cranks the lengths of the rods.
     pub different_legs: usize,

@@ -1,13 +1,13 @@
 //! What joints that are not ideal add to answers: the lengths that drives have in place of distances of joints.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::Number;
-use machine::coupled::{CoupledOutcome, CoupledStatus, DriveState};
+use machine::coupled::{CoupledOutcome, DriveSolutionWord, DriveState};
 
 /// The drives at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DriveLengthsRecord {
     /// The lengths that a controller has to command, in leg order, design units.
     pub lengths: [f64; 6],
@@ -28,7 +28,7 @@ impl DriveLengthsRecord {
 }
 
 /// How the pose for lengths of drives was found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DriveSolutionRecord {
     /// What is known of it.
     pub status: DriveSolutionWord,
@@ -51,41 +51,13 @@ pub struct DriveSolutionRecord {
     pub contraction: Option<Number>,
 }
 
-/// What is known of the pose for lengths of drives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum DriveSolutionWord {
-    /// There is exactly one pose with these lengths in a neighbourhood, within the bound.
-    Proved,
-    /// The corrections settled, and no bound is proved.
-    Unproved,
-    /// The corrections did not settle.
-    NotContracting,
-    /// The pose of the distances was not followed to its end.
-    NotTracked,
-    /// A drive has no length at a pose on the way.
-    NoLength,
-}
-
 impl DriveSolutionRecord {
     /// The record of drives that are followed.
     pub fn new(lengths: &[f64; 6], found: &CoupledOutcome) -> Self {
-        let (status, bound, reason) = match found.status {
-            CoupledStatus::Proved(bound) => (DriveSolutionWord::Proved, Some(bound), None),
-            CoupledStatus::Unproved => (DriveSolutionWord::Unproved, None, None),
-            CoupledStatus::NotContracting => {
-                let why = "the corrections of the joints do not settle: no contraction";
-                (DriveSolutionWord::NotContracting, None, Some(why.to_string()))
-            }
-            CoupledStatus::NotTracked => {
-                let why = "the pose of the distances of the joints was not followed to its end";
-                (DriveSolutionWord::NotTracked, None, Some(why.to_string()))
-            }
-            CoupledStatus::NoLength(why) => (DriveSolutionWord::NoLength, None, Some(why.to_string())),
-        };
+        let bound = found.status.bound();
         Self {
-            status,
-            reason,
+            status: found.status.word(),
+            reason: found.status.failure(),
             lengths: *lengths,
             distances: found.distances,
             steps: found.steps,

@@ -5,14 +5,14 @@ use serde::Serialize;
 
 use super::{
     AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
-    OptimalityWord, OptimizeAnswer, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord, VerdictWord,
+    OptimalityWord, OptimizeAnswer, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord,
 };
 use ask::rounding::{DesignOnHoles, RoundingWay};
 use ask::{OptimizeStatus, Separation};
 use fk::FkSolutions;
 use machine::manufacture::{NoRounding, RoundedJoint};
 use optimize::dimensional::ChosenVariable;
-use verify::Verification;
+use verify::{VerdictWord, Verification};
 
 /// The poses of the original, with the lengths they belong to.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

@@ -19,31 +19,31 @@ pub struct WarningRecord {
 }
 
 /// Why there is no answer: a refusal of what was asked, or a failure of the program.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ErrorAnswer {
     /// What went wrong.
     pub error: FailureRecord,
 }
 
 /// A refusal or a failure.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FailureRecord {
     /// A stable short code, `fk::not_applicable` for example.
     pub code: String,
     /// One sentence.
     pub message: String,
     /// What to do about it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub help: Option<String>,
     /// The design file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
     /// What is wrong with the design file; empty where the failure is not about one.
     pub violations: Vec<ViolationRecord>,
 }
 
 /// One thing that is wrong with a design file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ViolationRecord {
     /// A stable short code.
     pub code: String,
@@ -58,7 +58,7 @@ pub struct ViolationRecord {
 }
 
 /// What `--help`, `--version` and `--licences` print.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct HelpAnswer {
     /// The text.
     pub help: String,

@@ -29,7 +29,7 @@ pub struct FamilyAnswer {
     /// The ways in which legs share joints.
     pub topologies: Vec<FamilyTopologyRecord>,
     /// The platform of the pattern at the offsets given, with `--offsets`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub instance: Option<InstanceRecord>,
     /// How its map follows from coplanar joints, with `--explain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]

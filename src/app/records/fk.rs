@@ -6,20 +6,20 @@ mod pose_count;
 
 use num_complex::Complex64;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 pub use self::certificate::{CertificateRecord, DiscsRecord, EnclosureRecord};
 pub use self::closure::{ClosurePolynomialRecord, ClosureRecord, TrilaterationStepRecord};
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
 use super::{ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number};
 use fk::solve::pose_count::{CountedLengths, PoseSet};
-use fk::{Completeness, FkRoot, FkSolutions, Method, PathReport, Reality, Rejected, SolutionSet};
+use fk::{CompletenessWord, FkRoot, FkSolutions, Method, PathReport, Reality, Rejected, SolutionSet};
 use machine::rotary::RotaryPlatform;
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, height_above_base};
 
 /// The answer of `fk`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FkAnswer {
     /// The lengths come from a CSV file: one record a row.
@@ -29,24 +29,24 @@ pub enum FkAnswer {
 }
 
 /// The poses with the lengths of each row of a file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRowsAnswer {
     /// In the order of the file.
     pub rows: Vec<FkRowRecord>,
 }
 
 /// One row of a file of lengths.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRowRecord {
     /// The line of the CSV file, from 1.
     pub line: usize,
     /// The time of the row, where the file has a column of times.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The six lengths, design units; those of the rods where angles of cranks were given.
     pub lengths: [f64; 6],
     /// The angles of the cranks, where these were given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
     /// The poses, or why there are none.
     #[serde(flatten)]
@@ -54,7 +54,7 @@ pub struct FkRowRecord {
 }
 
 /// What came of a row.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FkRowOutcome {
     /// It was solved.
@@ -64,42 +64,42 @@ pub enum FkRowOutcome {
 }
 
 /// Why a row has no poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RowFailure {
     /// The failure, as the command would have reported it for this row alone.
     pub error: FailureRecord,
 }
 
 /// The poses with one set of lengths, and what was asked for besides.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkOneAnswer {
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
     /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as
     /// doubles, to the platform, and certificates hold for these tips.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
     /// Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub within_limits: Option<bool>,
     /// The legs whose cranks are beyond their limits at these angles, from 1.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally long: how
     /// many finite poses the exactly symmetric platform has, by a theorem. Further poses of the tips as doubles are so
     /// far out that their rounding decides whether there are any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub symmetric_finite: Option<usize>,
     /// How the pose was followed, with `--near`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub near: Option<NearRecord>,
     /// What the corrections of joints that are not ideal came to; the lengths are then those of drives, and no
     /// certificate is given of a root.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveSolutionRecord>,
     /// The exact closure polynomial, with `--method trilateration`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub closure: Option<ClosureRecord>,
 }
 
@@ -130,7 +130,7 @@ impl FkOneAnswer {
 }
 
 /// All finite complex poses with given leg lengths, and whether these are all.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SolvedRecord {
     /// The method that found them.
     pub method: Method,
@@ -165,37 +165,15 @@ pub struct SolvedRecord {
     /// solutions.
     pub unproved: Vec<SolutionRecord>,
     /// What null stands for, where a number is not finite.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
-}
-
-/// Whether all poses are known to be listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CompletenessWord {
-    /// By a theorem.
-    Proved,
-    /// Counted modulo random primes, with a bound on the probability of error.
-    Modular,
-    /// Not known.
-    Unproved,
-}
-
-impl From<&Completeness> for CompletenessWord {
-    fn from(c: &Completeness) -> Self {
-        match c {
-            Completeness::Proved { .. } => Self::Proved,
-            Completeness::Modular { .. } => Self::Modular,
-            Completeness::Unproved { .. } => Self::Unproved,
-        }
-    }
 }
 
 impl From<&FkSolutions> for SolvedRecord {
     fn from(s: &FkSolutions) -> Self {
         let mut record = Self {
             method: s.method,
-            completeness: (&s.completeness).into(),
+            completeness: s.completeness.word(),
             completeness_reason: s.completeness.to_string(),
             all_paths_accounted: s.all_accounted(),
             finite_count: s.roots.len(),
@@ -268,7 +246,7 @@ impl SolvedRecord {
 }
 
 /// What the finite poses form.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "solution_set", rename_all = "snake_case")]
 pub enum SolutionSetRecord {
     /// Nothing speaks against isolated poses.
@@ -326,7 +304,7 @@ impl From<&FkSolutions> for SolutionSetRecord {
 }
 
 /// A pose over the complex numbers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComplexPoseRecord {
     /// Rotation matrix, rows.
     #[serde(rename = "R")]
@@ -355,7 +333,7 @@ impl From<&ComplexPoseRecord> for ComplexPose {
 }
 
 /// A real pose in real numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct RealPoseRecord {
     /// Position of the platform origin, base frame, design units.
     pub position: [f64; 3],
@@ -374,12 +352,12 @@ pub struct RealPoseRecord {
     pub nearest_home: bool,
     /// Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks: a machine
     /// gets to another side only through a pose with crank and rod in one plane with the axis.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub elbow_kept: Option<[bool; 6]>,
 }
 
 /// A side of the plane of the base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SideWord {
     /// The side where the platform is at home.
@@ -389,7 +367,7 @@ pub enum SideWord {
 }
 
 /// One pose with its evidence.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SolutionRecord {
     /// The pose.
     #[serde(flatten)]
@@ -397,7 +375,7 @@ pub struct SolutionRecord {
     /// Null: undecided.
     pub real: Option<bool>,
     /// The pose in real numbers, where it is real.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub real_pose: Option<RealPoseRecord>,
     /// Whether there is a certificate.
     pub certified: bool,

@@ -1,7 +1,7 @@
 //! Answers of inverse kinematics: the leg lengths at given poses.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{
     DriveLengthsRecord, Number, PoseRecord, PoseUncertaintyRecord, RotaryIkRecord, RotaryIkRowsAnswer,
@@ -14,7 +14,7 @@ use platform::geom::Pose;
 use platform::manipulator::{inverse_condition, jacobian};
 
 /// The answer of `ik`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum IkAnswer {
     /// Several poses were given, or a table.
@@ -28,19 +28,19 @@ pub enum IkAnswer {
 }
 
 /// The lengths at several poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct IkRowsAnswer {
     /// In the order given.
     pub rows: Vec<IkRecord>,
 }
 
 /// The lengths at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct IkRecord {
     /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
     /// The time of the row, where the table has a column of times.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
@@ -49,12 +49,12 @@ pub struct IkRecord {
     pub lengths: [f64; 6],
     /// The lengths of the drives, where joints are not ideal; `within_limits`, `outside`, `J` and the angles are then
     /// those of drives and real axes, and there are no margins.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveLengthsRecord>,
     /// Whether all lengths are within `leg_length`, the ends included; null: the design limits none.
     pub within_limits: Option<bool>,
     /// The legs that are too short or too long, from 1.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// How the joints stand at the ends of the legs.
     pub joints: JointAnglesRecord,
@@ -66,11 +66,11 @@ pub struct IkRecord {
     /// 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
     /// What the flexures do to the platform when they bend, where the design has some.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub flexures: Option<FlexureRecord>,
     /// How uncertain the pose is that the calibrated machine computes from its lengths here, where the design has
     /// standard deviations of a calibration and joints are ideal.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
     /// The least margin of each kind of requirement at this pose.
     pub margins: Vec<PoseMarginRecord>,
@@ -78,7 +78,7 @@ pub struct IkRecord {
 
 /// How the joints stand, in leg order, measured from their axes: `base_axes` and `platform_axes` of the design, else
 /// the legs at home.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointAnglesRecord {
     /// Angles between legs and the axes of their base joints.
     pub base_swing_deg: [Number; 6],
@@ -92,7 +92,7 @@ pub struct JointAnglesRecord {
 }
 
 /// The wrench of the flexures on the platform about its origin, base frame.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct FlexureRecord {
     /// Force units.
     pub force: [Number; 3],
@@ -101,7 +101,7 @@ pub struct FlexureRecord {
 }
 
 /// By how much a kind of requirement is met at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PoseMarginRecord {
     /// The kind.
     pub name: TermKind,

@@ -1,14 +1,14 @@
 //! Answers on the squared length of a virtual leg at all poses while one leg length varies.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::Number;
 use files::plot::LocusMeeting;
 use fk::Method;
 
 /// The answer of `plot locus`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LocusAnswer {
     /// The leg that varies, from 1.
     pub leg: u8,
@@ -21,7 +21,7 @@ pub struct LocusAnswer {
 }
 
 /// What was found at one length.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LocusRowRecord {
     /// Its number, from 0.
     pub step: usize,
@@ -38,7 +38,7 @@ pub struct LocusRowRecord {
 }
 
 /// What the poses at one length form.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LocusWord {
     /// Isolated poses.
@@ -65,7 +65,7 @@ impl LocusWord {
 }
 
 /// The squared length of the virtual leg at one pose.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LocusValueRecord {
     /// Its real part.
     pub re: Number,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, leg_number};
 use platform::manipulator::Level;
-use synthesis::alignment::{Alignment, AlignmentUndecided, Difference, Motion, NearestMotion};
+use synthesis::alignment::{Alignment, AlignmentUndecided, AlignmentWord, Difference, Motion, NearestMotion};
 use synthesis::{AffineLegMap, LegCorrespondence, LegMapOutcome, Relation};
 
 /// The answer of `equivalents map`.
@@ -165,10 +165,10 @@ pub struct FramesRecord {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exchanged: bool,
     /// The rigid motions that make the second design equivalent to the first, with `--align`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub alignment: Option<AlignmentRecord>,
     /// The file written.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,
 }
 
@@ -282,24 +282,8 @@ pub struct OtherAlignmentRecord {
     pub motions: usize,
 }
 
-/// Whether rigid motions were found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum AlignmentWord {
-    /// They were.
-    Found,
-    /// There are none.
-    None,
-    /// Not decided.
-    Undecided,
-}
-
 impl From<&Alignment> for OtherAlignmentRecord {
     fn from(a: &Alignment) -> Self {
-        match a {
-            Alignment::Found { motions, .. } => Self { status: AlignmentWord::Found, motions: motions.len() },
-            Alignment::None { .. } => Self { status: AlignmentWord::None, motions: 0 },
-            Alignment::Undecided { .. } => Self { status: AlignmentWord::Undecided, motions: 0 },
-        }
+        Self { status: a.word(), motions: a.motions().len() }
     }
 }

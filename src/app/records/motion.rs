@@ -93,7 +93,7 @@ pub struct MotionRunRecord {
     /// By leg; empty where a leg has no length at some instant, and where the legs are rods on cranks.
     pub legs: Vec<LegMotionRecord>,
     /// By leg, where the legs are rods on cranks; empty where a rod does not reach at some instant.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub cranks: Option<Vec<CrankMotionRecord>>,
     /// The least margin of each kind of requirement, force and speed by this motion.
     pub requirements: Vec<TimedMarginRecord>,
@@ -106,7 +106,7 @@ pub struct MotionRunRecord {
     /// What shows that it is singular.
     pub singular_evidence: Option<SingularEvidence>,
     /// When a rod first does not reach from its crank to the platform, where one does not.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unreached_at_s: Option<f64>,
 }
 

@@ -7,7 +7,7 @@ use super::{AssessAnswer, DesignRecord, LegEndsRecord, MapRecord, Number};
 use platform::manipulator::Body;
 use synthesis::Relation;
 use synthesis::relocate::SingularParameters;
-use synthesis::relocate::search::{self, Hole, HoleAnswer, Impossibility, SearchVerdict, WishMargin, Wishes};
+use synthesis::relocate::search::{self, Hole, HoleAnswer, HoleWord, SearchVerdict, WishMargin, Wishes};
 
 /// The answer of `equivalents move`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -166,16 +166,11 @@ impl SearchWord {
     /// The word for a verdict, and the reason where it is impossible.
     #[must_use]
     pub fn of(verdict: SearchVerdict) -> (Self, Option<String>) {
-        let reason = match verdict {
-            SearchVerdict::Found => return (Self::Found, None),
-            SearchVerdict::Undecided => return (Self::Undecided, None),
-            SearchVerdict::Impossible(Impossibility::NoLegAtHole(_)) => "no_leg_at_hole",
-            SearchVerdict::Impossible(Impossibility::PartnersAtInfinity(_)) => "partners_at_infinity",
-            SearchVerdict::Impossible(Impossibility::NotByThoseLegs(_)) => "not_by_those_legs",
-            SearchVerdict::Impossible(Impossibility::SharedJoints(_)) => "shared_joints",
-            SearchVerdict::Impossible(Impossibility::HolesTogether) => "holes_together",
-        };
-        (Self::Impossible, Some(reason.into()))
+        match verdict {
+            SearchVerdict::Found => (Self::Found, None),
+            SearchVerdict::Undecided => (Self::Undecided, None),
+            SearchVerdict::Impossible(why) => (Self::Impossible, Some(why.name().into())),
+        }
     }
 }
 
@@ -233,30 +228,17 @@ pub struct HoleRecord {
     pub tolerance: Number,
 }
 
-/// Which legs of equivalent platforms end at a hole.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum HoleWord {
-    /// Some.
-    Legs,
-    /// Those with the other end at infinity.
-    AtInfinity,
-    /// None.
-    None,
-}
-
 impl From<&search::JudgedHole> for HoleRecord {
     fn from(h: &search::JudgedHole) -> Self {
-        let (answer, dimension) = match &h.answer {
-            HoleAnswer::Legs { dimension, .. } => (HoleWord::Legs, Some(*dimension)),
-            HoleAnswer::AtInfinity => (HoleWord::AtInfinity, None),
-            HoleAnswer::None => (HoleWord::None, None),
+        let dimension = match h.answer {
+            HoleAnswer::Legs { dimension, .. } => Some(dimension),
+            _ => None,
         };
         let Hole { body, point, legs, .. } = &h.hole;
         Self {
             body: *body,
             point: [point.x, point.y, point.z].map(Number),
-            answer,
+            answer: h.answer.word(),
             legs: legs.iter().copied().map(super::leg_number).collect(),
             dimension,
             exact_rank_defect: h.exact,

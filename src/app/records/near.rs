@@ -1,14 +1,14 @@
 //! How one pose was followed from a known one.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{Number, PoseRecord, PoseUncertaintyRecord};
-use fk::NearOutcome;
+use fk::{NearOutcome, NearWord};
 use platform::geom::Pose;
 
 /// The way from the start to the pose reached, with the numbers that prove it free of singularities.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearRecord {
     /// What came of it.
     pub outcome: NearWord,
@@ -36,20 +36,8 @@ pub struct NearRecord {
     pub angle_deg: Number,
     /// How uncertain the pose reached is, where the design has standard deviations of a calibration and joints are
     /// ideal.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
-}
-
-/// What came of following a pose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum NearWord {
-    /// The pose for the lengths asked for.
-    Tracked,
-    /// A singularity lies on the way or at its end.
-    NearSingularity,
-    /// Given up.
-    Lost,
 }
 
 impl NearRecord {
@@ -58,15 +46,13 @@ impl NearRecord {
     #[must_use]
     pub fn new(start: &Pose, outcome: &NearOutcome, inverse_condition: f64) -> Self {
         let e = outcome.evidence();
-        let (word, fraction, reason) = match outcome {
-            NearOutcome::Tracked { .. } => (NearWord::Tracked, 1.0, None),
-            NearOutcome::NearSingularity { fraction, .. } => (NearWord::NearSingularity, *fraction, None),
-            NearOutcome::Lost { fraction, reason, .. } => {
-                (NearWord::Lost, *fraction, Some(reason.to_string()))
-            }
+        let (fraction, reason) = match outcome {
+            NearOutcome::Tracked { .. } => (1.0, None),
+            NearOutcome::NearSingularity { fraction, .. } => (*fraction, None),
+            NearOutcome::Lost { fraction, reason, .. } => (*fraction, Some(reason.to_string())),
         };
         Self {
-            outcome: word,
+            outcome: outcome.word(),
             reason,
             start: start.into(),
             reached: outcome.pose().into(),

@@ -1,13 +1,13 @@
 //! The answer of `new`.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{PoseRecord, PresetFile};
 use synthesis::singularity::SingularEvidence;
 
 /// The answer of `new`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NewAnswer {
     /// The name of the design.
     pub name: String,

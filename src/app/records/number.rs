@@ -28,7 +28,7 @@ impl<const N: usize, const M: usize> From<[[Complex64; N]; M]> for ComplexRecord
 }
 
 /// The fields of a record that stand among those of another: all of them or none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum AllOrNone<T> {
     /// There is one.

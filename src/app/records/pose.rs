@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use nalgebra::Point3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::Number;
 pub use platform::geom::{PoseQuaternionRecord, PoseRecord};
@@ -52,17 +52,6 @@ impl NamedPoints {
 impl Serialize for NamedPoints {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_map(self.0.iter().map(|(name, point)| (name, point)))
-    }
-}
-
-impl<'de> Deserialize<'de> for NamedPoints {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        // in the order of the text
-        let points = serde_json::Map::deserialize(from)?.into_iter();
-        let point = |(name, value)| {
-            serde_json::from_value(value).map(|point| (name, point)).map_err(serde::de::Error::custom)
-        };
-        points.map(point).collect::<Result<_, _>>().map(Self)
     }
 }
 

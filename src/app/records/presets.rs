@@ -1,13 +1,13 @@
 //! Answers of `design presets`.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use ask::Design;
 use ask::presets::{Preset, PresetClass};
 
 /// The answer of `design presets`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PresetsAnswer {
     /// All of them.
@@ -20,7 +20,7 @@ pub enum PresetsAnswer {
 }
 
 /// One preset, and its design file or where that was written.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PresetAnswer {
     /// The preset.
     #[serde(flatten)]
@@ -31,7 +31,7 @@ pub struct PresetAnswer {
 }
 
 /// The design file of a preset.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PresetFile {
     /// Given.
@@ -47,7 +47,7 @@ pub enum PresetFile {
 }
 
 /// A design of real hardware.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PresetRecord {
     /// Its name as a preset.
     pub preset: String,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::topologies::joint_pairs;
 use platform::manipulator::Body;
@@ -12,7 +12,7 @@ use synthesis::rearrangement::{
 };
 
 /// One line of the table of rearrangements.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct RearrangementRecord {
     /// T01 to T34.
     pub id: String,
@@ -55,7 +55,7 @@ pub struct RearrangementRecord {
 }
 
 /// The argument that finds all families of replaceable legs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ArgumentWord {
     /// Joints of the base hold all legs.
@@ -104,7 +104,7 @@ impl From<&Rearrangement> for RearrangementRecord {
 }
 
 /// A family of replaceable legs.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamilyRecord {
     /// Its kind.
     pub kind: PieceKind,
@@ -147,7 +147,7 @@ impl From<&Piece> for FamilyRecord {
 }
 
 /// A design with rational joints.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ExactDesignRecord {
     /// Base joints: [x, y, z], fractions as text.
     pub base: BTreeMap<String, [String; 3]>,

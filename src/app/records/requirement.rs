@@ -8,7 +8,7 @@ use ask::Design;
 use ask::{AssessReport, JudgedPoses};
 use files::design::JudgedForces;
 use machine::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
-use synthesis::singularity::Regularity;
+use synthesis::singularity::{Regularity, RegularityWord};
 
 /// The least margin of a kind of requirement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -300,27 +300,15 @@ pub struct RegularityRecord {
     pub cells: usize,
 }
 
-/// What is known of the sign of det J.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum RegularityWord {
-    /// It vanishes at no pose.
-    Proved,
-    /// It vanishes at some pose.
-    ChangesSign,
-    /// Neither is proved.
-    Undecided,
-}
-
 impl RegularityRecord {
     /// What is known, and the number of cells it took.
     #[must_use]
     pub fn new(regularity: &Regularity, cells: usize) -> Self {
-        let (status, pose) = match regularity {
-            Regularity::Regular => (RegularityWord::Proved, None),
-            Regularity::ChangesSign(pose) => (RegularityWord::ChangesSign, Some(pose)),
-            Regularity::Undecided(pose) => (RegularityWord::Undecided, Some(pose)),
-        };
-        Self { met: regularity.is_regular(), status, pose: pose.map(PoseQuaternionRecord::from), cells }
+        Self {
+            met: regularity.is_regular(),
+            status: regularity.word(),
+            pose: regularity.pose().map(PoseQuaternionRecord::from),
+            cells,
+        }
     }
 }

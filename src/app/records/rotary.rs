@@ -1,7 +1,7 @@
 //! Answers of inverse kinematics where the legs are rods of constant length on cranks: angles in place of lengths.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{Number, PoseMarginRecord, PoseRecord};
 use ask::Design;
@@ -11,19 +11,19 @@ use platform::geom::Pose;
 use platform::manipulator::{inverse_condition, jacobian};
 
 /// The angles of cranks at several poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RotaryIkRowsAnswer {
     /// In the order given.
     pub rows: Vec<RotaryIkRecord>,
 }
 
 /// The angles of cranks at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RotaryIkRecord {
     /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
     /// The time of the row, where the table has a column of times.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
@@ -35,7 +35,7 @@ pub struct RotaryIkRecord {
     /// no angle.
     pub within_limits: Option<bool>,
     /// The legs whose cranks are beyond their limits, from 1.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// The cranks in leg order; none where a rod does not reach.
     pub cranks: Vec<CrankRecord>,
@@ -47,14 +47,14 @@ pub struct RotaryIkRecord {
     /// characteristic length of the design: 1 at best, 0 at a singular pose; null: a rod does not reach.
     pub inverse_condition: Option<Number>,
     /// The torques of the cranks that hold each load at rest, where the design has loads.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub torques: Vec<CrankTorquesRecord>,
     /// The least margin of each kind of requirement at this pose.
     pub margins: Vec<PoseMarginRecord>,
 }
 
 /// A rod that does not reach from the circle of its crank to the platform joint.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OutOfReachRecord {
     /// The leg, from 1.
     pub leg: usize,
@@ -63,7 +63,7 @@ pub struct OutOfReachRecord {
 }
 
 /// How a crank stands at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CrankRecord {
     /// The side that the design keeps.
     pub elbow: Elbow,
@@ -84,7 +84,7 @@ pub struct CrankRecord {
 }
 
 /// Torques that hold a load.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CrankTorquesRecord {
     /// The load.
     pub load: String,

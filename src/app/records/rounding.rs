@@ -4,15 +4,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::tolerances::joint_name;
-use super::{AssessAnswer, DesignRecord, Number, PoseErrorRecord, VerdictWord};
+use super::{AssessAnswer, DesignRecord, Number, PoseErrorRecord};
 use ask::Design;
 use ask::rounding::RoundingWay;
 use machine::manufacture::{
-    ErrorSpread, ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint,
+    ErrorSpread, ExactRounding, Judgement, NearestRounding, NoRounding, NoRoundingWord, RoundedJoint,
 };
 use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern};
 use platform::manipulator::Body;
-use verify::{Verification, VerifyError};
+use verify::{VerdictWord, Verification, VerifyError};
 
 /// The answer of `build round`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -137,41 +137,9 @@ pub struct NoRoundingError {
     pub message: String,
 }
 
-/// A short code for what stands against a rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum NoRoundingWord {
-    /// The joints are not on the sides of two triangles.
-    NoTriangles,
-    /// No triangle on the grid is near.
-    NoTriangleNear,
-    /// Every rounding is architecturally singular.
-    Singular,
-    /// Two joints come to the same hole.
-    JointsCoincide,
-    /// A pose becomes singular.
-    SingularPose,
-    /// The origin and the angle of a grid can be chosen for square grids alone.
-    FreePattern,
-    /// The grid cannot be used.
-    BadGrid,
-    /// A plate has no lines through many holes.
-    NoLines,
-}
-
 impl From<NoRounding> for NoRoundingRecord {
     fn from(why: NoRounding) -> Self {
-        let code = match why {
-            NoRounding::NoTriangles => NoRoundingWord::NoTriangles,
-            NoRounding::NoTriangleNear(_) => NoRoundingWord::NoTriangleNear,
-            NoRounding::Singular => NoRoundingWord::Singular,
-            NoRounding::JointsCoincide(_) => NoRoundingWord::JointsCoincide,
-            NoRounding::SingularPose => NoRoundingWord::SingularPose,
-            NoRounding::FreePattern(_) => NoRoundingWord::FreePattern,
-            NoRounding::NoLines(_) => NoRoundingWord::NoLines,
-            _ => NoRoundingWord::BadGrid,
-        };
-        Self { error: NoRoundingError { code, message: why.to_string() } }
+        Self { error: NoRoundingError { code: why.word(), message: why.to_string() } }
     }
 }
 
@@ -199,7 +167,7 @@ impl RoundingVerdict {
 
 impl From<&Result<Verification, VerifyError>> for RoundingVerdict {
     fn from(v: &Result<Verification, VerifyError>) -> Self {
-        v.as_ref().map_or(Self::NotComputed, |v| Self::Computed((&v.verdict).into()))
+        v.as_ref().map_or(Self::NotComputed, |v| Self::Computed(v.verdict.word()))
     }
 }
 

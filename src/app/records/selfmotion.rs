@@ -1,16 +1,17 @@
 //! Answers about the curves of poses with constant leg lengths.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::{CompletenessWord, Number, PoseQuaternionRecord};
+use super::{Number, PoseQuaternionRecord};
 use ask::MotionOrigin;
+use fk::CompletenessWord;
 use synthesis::singularity::{
-    CriticalPoses, CurveDegree, MotionCurve, MotionEvidence, MotionPoint, PoseVerdict,
+    CriticalPoses, CurveCrossing, CurveDegree, MotionCurve, MotionEvidence, MotionPoint, PoseVerdict,
 };
 
 /// The answer of `singular motion`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SelfmotionAnswer {
     /// The name of the design.
     pub name: String,
@@ -51,7 +52,7 @@ pub struct SelfmotionAnswer {
 }
 
 /// What shows the dimension of a self-motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionEvidenceWord {
     /// Proved: the leg lines are independent at the pose.
@@ -82,7 +83,7 @@ impl From<PoseVerdict> for MotionEvidenceWord {
 
 /// The surroundings of an isolated pose, in displacements `(t / size, c)`: translation over the size, axis times
 /// tangent of half the angle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct IsolatedRecord {
     /// Every pose with these lengths within this distance lies within `within`.
     pub radius: Number,
@@ -104,7 +105,7 @@ impl IsolatedRecord {
 }
 
 /// What became of the paths to critical points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CriticalPointsRecord {
     /// Paths followed.
     pub paths: usize,
@@ -137,13 +138,13 @@ impl From<&CriticalPoses> for CriticalPointsRecord {
 }
 
 /// A curve of poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MotionCurveRecord {
     /// How it ends: closed, joined, unfinished or stuck.
     #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]
     pub end: String,
     /// Where it crosses others.
-    pub crossings: Vec<CurveCrossingRecord>,
+    pub crossings: Vec<CurveCrossing>,
     /// Its degree, where that was computed.
     pub degree: Option<CurveDegree>,
     /// How its first pose was found.
@@ -152,26 +153,13 @@ pub struct MotionCurveRecord {
     pub points: Vec<MotionPoint>,
 }
 
-/// Where a curve crosses others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct CurveCrossingRecord {
-    /// After this point of the curve, from 0.
-    pub after_point: usize,
-    /// Index into `crossings` of the answer, from 0.
-    pub crossing: usize,
-}
-
 impl MotionCurveRecord {
     /// The record of a curve.
     #[must_use]
     pub fn new(curve: &MotionCurve, degree: Option<&CurveDegree>, found_by: Option<MotionOrigin>) -> Self {
-        let crossing = |(after_point, crossing): &(usize, usize)| CurveCrossingRecord {
-            after_point: *after_point,
-            crossing: *crossing,
-        };
         Self {
             end: curve.end.name().to_owned(),
-            crossings: curve.crossings.iter().map(crossing).collect(),
+            crossings: curve.crossings.clone(),
             degree: degree.copied(),
             found_by,
             points: curve.points.clone(),

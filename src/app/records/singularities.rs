@@ -1,14 +1,14 @@
 //! Answers about singular poses: the sign of det J at poses, along paths and in a box.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{Number, PoseQuaternionRecord, RegularityRecord};
 use platform::geom::Region;
 use synthesis::singularity::{PathPiece, Sign, SignsAlong, Way};
 
 /// The answer of `singular poses`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SingularitiesAnswer {
     /// The name of the design.
     pub name: String,
@@ -29,15 +29,15 @@ pub struct SingularitiesAnswer {
     #[serde(rename = "box")]
     pub regular_box: RegularBoxRecord,
     /// det J along a path, with `--path`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<SignPathRecord>,
     /// det J between all assembly modes, with `--between`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub between: Option<SignPairsRecord>,
 }
 
 /// A pose with figures of its Jacobian.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct JudgedPoseRecord {
     /// The pose.
     #[serde(flatten)]
@@ -47,12 +47,12 @@ pub struct JudgedPoseRecord {
     /// 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
     /// The two conditions of four planes in one point, of octahedral designs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub four_planes: Option<[Number; 2]>,
 }
 
 /// A box of poses about a pose that holds no singular one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct RegularBoxRecord {
     /// Half widths of positions at scale 1, design units, base frame.
     pub translation: [f64; 3],
@@ -71,7 +71,7 @@ pub struct RegularBoxRecord {
 }
 
 /// A pose and the scale of the smallest box that holds it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ScaledPoseRecord {
     /// The pose.
     #[serde(flatten)]
@@ -81,7 +81,7 @@ pub struct ScaledPoseRecord {
 }
 
 /// A proved sign of det J: 1 or -1; null: not proved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(transparent)]
 pub struct SignRecord(#[schemars(extend("enum" = [1, -1, null]))] pub Option<i8>);
 
@@ -92,7 +92,7 @@ impl From<Option<Sign>> for SignRecord {
 }
 
 /// What det J does along a straight path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SignOutcome {
     /// It keeps its sign, proved.
@@ -116,7 +116,7 @@ impl From<&SignsAlong> for SignOutcome {
 }
 
 /// det J along a path of straight parts.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SignPathRecord {
     /// Number of the assembly mode it begins at, from 1; 0: the pose.
     pub from: usize,
@@ -131,7 +131,7 @@ pub struct SignPathRecord {
 }
 
 /// det J along a straight part of a path, with parameter u from 0 to 1.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SignPartRecord {
     /// What it does.
     pub outcome: SignOutcome,
@@ -160,7 +160,7 @@ impl SignPartRecord {
 }
 
 /// A piece of a straight path.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct SignPieceRecord {
     /// Where it begins.
     pub from: Number,
@@ -179,7 +179,7 @@ impl SignPieceRecord {
 }
 
 /// Which assembly modes paths without singular pose join.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SignPairsRecord {
     /// The sign of det J at each assembly mode.
     pub signs: Vec<SignRecord>,
@@ -192,7 +192,7 @@ pub struct SignPairsRecord {
 }
 
 /// The straight path between two assembly modes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SignPairRecord {
     /// Their numbers, from 1.
     pub modes: [usize; 2],
@@ -205,7 +205,7 @@ pub struct SignPairRecord {
 }
 
 /// A path without singular pose between two assembly modes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct WayRecord {
     /// Their numbers, from 1.
     pub modes: [usize; 2],

@@ -38,10 +38,10 @@ pub struct SweepFolderRecord {
     /// Its base design.
     pub design: SweepTextRecord,
     /// Its table of drives; absent where it names none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<String>,
     /// The table of poses that the workspace of the base design names; absent where it names none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub poses: Option<String>,
 }
 
@@ -83,7 +83,7 @@ pub struct SweepManifestRecord {
 }
 
 /// A part that is not what its manifest says.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct DamagedPartRecord {
     /// The shard, from 0.
     pub shard: u64,
@@ -92,7 +92,7 @@ pub struct DamagedPartRecord {
 }
 
 /// The answer of `sweep run`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SweepRunAnswer {
     /// With --estimate: nothing was written.
@@ -102,7 +102,7 @@ pub enum SweepRunAnswer {
 }
 
 /// How long a sweep takes, from a sample of its candidates.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepEstimateAnswer {
     /// The name of the plan.
     pub name: String,
@@ -127,7 +127,7 @@ pub struct SweepEstimateAnswer {
 }
 
 /// A column of the table.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SweepColumnRecord {
     /// Its name.
     pub name: String,
@@ -141,7 +141,7 @@ pub struct SweepColumnRecord {
 }
 
 /// What is done of a sweep, and what is missing.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepStatusAnswer {
     /// The name of the plan.
     pub name: String,
@@ -174,7 +174,7 @@ pub struct SweepStatusAnswer {
 }
 
 /// The answer of `sweep merge`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SweepMergeAnswer {
     /// The file written.
     pub output: String,
@@ -190,7 +190,7 @@ pub struct SweepMergeAnswer {
 }
 
 /// The answer of `sweep verify`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepVerifyAnswer {
     /// All parts are there, with their digests, and every candidate that was computed again has the same row.
     pub same: bool,
@@ -203,7 +203,7 @@ pub struct SweepVerifyAnswer {
 }
 
 /// The answer of `sweep design`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SweepDesignAnswer {
     /// The candidate.
     pub candidate: u64,
@@ -213,7 +213,7 @@ pub struct SweepDesignAnswer {
 }
 
 /// The answer of `sweep best`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepBestAnswer {
     /// The column by which candidates are ranked.
     pub column: String,
@@ -226,7 +226,7 @@ pub struct SweepBestAnswer {
 }
 
 /// One of the best candidates of a sweep.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepBestRecord {
     /// The candidate.
     pub candidate: u64,
@@ -237,7 +237,7 @@ pub struct SweepBestRecord {
 }
 
 /// The answer of `sweep script`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepScriptAnswer {
     /// Shards.
     pub shards: u64,
@@ -251,7 +251,7 @@ pub struct SweepScriptAnswer {
 }
 
 /// Where a design or a script is.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SweepDesignFile {
     /// Written.

@@ -1,35 +1,35 @@
 //! Answers about the ways in which six legs can share joints.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::{RearrangementRecord, TrilaterationStepRecord};
 use fk::distance::ClosureDegrees;
 use platform::topology::{JointIndex, NamedTopology, Sequence};
 
 /// The answer of `equivalents topologies`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TopologiesAnswer {
     /// How many topologies can hold a platform.
     #[schemars(extend("const" = 34))]
     pub count: usize,
     /// The topology of the design, where one is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub design: Option<RecognisedRecord>,
     /// Their numbers by virtual legs; absent where a design is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub by_virtual_legs: Option<VirtualLegsRecord>,
     /// Random members solved of each.
     pub members: u64,
     /// The topologies.
     pub topologies: Vec<TopologyRecord>,
     /// What equivalent rearrangement can do for each, with `--rearrangements`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub rearrangements: Option<Vec<RearrangementRecord>>,
 }
 
 /// The topology of a design.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct RecognisedRecord {
     /// The name of the design.
     pub name: String,
@@ -42,7 +42,7 @@ pub struct RecognisedRecord {
 }
 
 /// Numbers of topologies by the virtual legs that trilateration needs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct VirtualLegsRecord {
     /// None.
     #[serde(rename = "0")]
@@ -83,7 +83,7 @@ impl VirtualLegsRecord {
 }
 
 /// One topology.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TopologyRecord {
     /// T01 to T34.
     #[schemars(regex(pattern = r"^T(0[1-9]|[12][0-9]|3[0-4])$"))]

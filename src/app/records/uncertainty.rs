@@ -30,7 +30,7 @@ impl CorrelationsWord {
 
 /// How uncertain a pose is that is computed from lengths with the calibrated machine, by what the calibration does not
 /// know, to first order; the noise of these lengths comes on top.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PoseUncertaintyRecord {
     /// Whether the design file has correlations.
     pub correlations: CorrelationsWord,

@@ -3,11 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CompletenessWord, ComplexRecord, FramesRecord, MapRecord, Number, PoseRecord, leg_number};
-use fk::{FkSolutions, Method};
+use super::{ComplexRecord, FramesRecord, MapRecord, Number, PoseRecord, leg_number};
+use fk::{CompletenessWord, FkSolutions, Method};
 use platform::geom::{ComplexPose, SamplePlan};
 use synthesis::LegMapOutcome;
-use verify::{Counterexample, Sample, Verdict, Verification};
+use verify::{Counterexample, Sample, Verdict, VerdictWord, Verification};
 
 /// The answer of `verify`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,57 +29,19 @@ pub struct VerifyAnswer {
     pub worst_distance: Option<Number>,
     /// Poses without partner that were set aside: the rounding of the joints decides whether they exist. Absent where
     /// no motion was found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_precision: Option<BeyondPrecisionRecord>,
     /// The numerical side.
     pub samples: Vec<SampleRecord>,
     /// A pose that tells the designs apart.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub counterexample: Option<CounterexampleRecord>,
     /// The box of random poses; absent where no motion was found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sampling: Option<SamplingRecord>,
     /// What was done with the frames of the second design.
     #[serde(flatten)]
     pub frames: FramesRecord,
-}
-
-/// Whether two designs are kinematically equivalent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum VerdictWord {
-    /// They are.
-    Equivalent,
-    /// They are not.
-    NotEquivalent,
-    /// One of them is architecturally singular.
-    Singular,
-    /// Not decided.
-    Inconclusive,
-}
-
-impl VerdictWord {
-    /// The word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Equivalent => "equivalent",
-            Self::NotEquivalent => "not_equivalent",
-            Self::Singular => "singular",
-            Self::Inconclusive => "inconclusive",
-        }
-    }
-}
-
-impl From<&Verdict> for VerdictWord {
-    fn from(v: &Verdict) -> Self {
-        match v {
-            Verdict::Equivalent => Self::Equivalent,
-            Verdict::NotEquivalent(_) => Self::NotEquivalent,
-            Verdict::Singular => Self::Singular,
-            Verdict::Inconclusive(_) => Self::Inconclusive,
-        }
-    }
 }
 
 impl VerifyAnswer {
@@ -88,7 +50,7 @@ impl VerifyAnswer {
     pub fn new(v: &Verification, plan: &SamplePlan, frames: FramesRecord) -> Self {
         let [a, b] = v.beyond_precision();
         Self {
-            verdict: (&v.verdict).into(),
+            verdict: v.verdict.word(),
             explanation: v.explanation(),
             proved: v.proved(),
             map: (&v.map).into(),
@@ -201,7 +163,7 @@ impl From<&FkSolutions> for SolvedSampleRecord {
     fn from(s: &FkSolutions) -> Self {
         Self {
             method: s.method,
-            completeness: (&s.completeness).into(),
+            completeness: s.completeness.word(),
             completeness_reason: s.completeness.to_string(),
             all_paths_accounted: s.all_accounted(),
             finite_count: s.roots.len(),

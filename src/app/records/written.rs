@@ -1,14 +1,14 @@
 //! Answers of commands whose result is a text, a picture or a file, and that have little to say besides.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::AssessAnswer;
 use files::design::Format;
 
 /// The answer of `shell completions`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CompletionsAnswer {
     /// The shell.
     pub shell: String,
@@ -17,7 +17,7 @@ pub struct CompletionsAnswer {
 }
 
 /// The answer of `design convert`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ConvertAnswer {
     /// The name of the design.
     pub name: String,
@@ -28,14 +28,14 @@ pub struct ConvertAnswer {
 }
 
 /// The answer of `shell man`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ManAnswer {
     /// The files written.
     pub paths: Vec<String>,
 }
 
 /// The answer of `plot`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PlotAnswer {
     /// What is drawn.
     pub figure: FigureWord,
@@ -45,7 +45,7 @@ pub struct PlotAnswer {
 }
 
 /// A picture.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PictureRecord {
     /// Written.
@@ -61,7 +61,7 @@ pub enum PictureRecord {
 }
 
 /// What `plot` draws; the answer of `plot locus` is its own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FigureWord {
     /// Assembly modes.
@@ -87,14 +87,14 @@ pub enum FigureWord {
 }
 
 /// The answer of `reference`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ReferenceAnswer {
     /// The page with the options of this program.
     pub page: String,
 }
 
 /// The answer of `report`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportAnswer {
     /// The page.
     pub output: String,
@@ -105,7 +105,7 @@ pub struct ReportAnswer {
 }
 
 /// The answer of `design schema`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SchemaAnswer {
     /// What the schema describes.
     pub of: String,
@@ -114,7 +114,7 @@ pub struct SchemaAnswer {
 }
 
 /// The answer of `view`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ViewAnswer {
     /// The name of the design.
     pub name: String,

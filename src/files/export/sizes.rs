@@ -118,7 +118,7 @@ pub(super) struct LegSizes {
 }
 
 /// A size and where it comes from.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
 #[schemars(rename = "SizeRecord", transform = num::nullable)]
 pub struct SizeChoice {
     /// What it is the size of.

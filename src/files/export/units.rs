@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// A length unit.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
 #[schemars(rename = "LengthUnitRecord")]
 pub struct LengthUnit {
     /// Its label.

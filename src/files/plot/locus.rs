@@ -261,7 +261,7 @@ pub struct LocusValue {
 }
 
 /// Where two real values meet.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
 #[schemars(rename = "LocusMeetingRecord", transform = num::nullable)]
 pub struct LocusMeeting {
     // they leave the real axis, or the other way round: a double root in between

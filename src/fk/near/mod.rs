@@ -9,7 +9,7 @@
 mod local;
 mod outcome;
 
-pub use outcome::{NearEvidence, NearOutcome, WhyLost};
+pub use outcome::{NearEvidence, NearOutcome, NearWord, WhyLost};
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 

@@ -82,7 +82,33 @@ pub enum NearOutcome {
     },
 }
 
+/// What came of following a pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum NearWord {
+    /// The pose for the lengths asked for.
+    Tracked,
+    /// A singularity lies on the way or at its end.
+    NearSingularity,
+    /// Given up.
+    Lost,
+}
+
 impl NearOutcome {
+    /// The word for it.
+    #[must_use]
+    pub fn word(&self) -> NearWord {
+        match self {
+            Self::Tracked { .. } => NearWord::Tracked,
+            Self::NearSingularity { .. } => NearWord::NearSingularity,
+            Self::Lost { .. } => NearWord::Lost,
+        }
+    }
+
     /// The pose for the lengths asked for, when it was reached.
     #[must_use]
     pub fn tracked(&self) -> Option<&Pose> {

@@ -13,7 +13,7 @@ const ON_A_LINE: f64 = 1e-6;
 /// The rigid motion with which measured joints are nearest to those of the design: a point x of the measurements is at
 /// R x + p.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "FrameMotionRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "FrameMotionRecord", transform = num::nullable))]
 pub struct FrameMotion {
     /// The motion.
     pub motion: Pose,
@@ -25,7 +25,7 @@ pub struct FrameMotion {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    derive(serde::Serialize, schemars::JsonSchema),
     schemars(rename = "FrameMotionsRecord")
 )]
 pub struct CarriedFrames {

@@ -68,7 +68,7 @@ pub enum StartChoice {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    derive(serde::Serialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
 pub enum StartName {
@@ -80,7 +80,7 @@ pub enum StartName {
 
 /// Where the fit began, and what came of the other start.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "StartRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "StartRecord", transform = num::nullable))]
 pub struct Starts {
     /// The start whose end was taken.
     pub taken: StartName,
@@ -142,7 +142,7 @@ pub enum CalibrationError {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    derive(serde::Serialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
 pub enum CalibrationStatus {
@@ -209,7 +209,7 @@ impl ResidualSpread {
 
 /// Agreement of residuals with the noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "ChiSquareRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ChiSquareRecord", transform = num::nullable))]
 pub struct ChiSquare {
     /// Sum of the squares of whitened residuals.
     // without outliers where a loss takes them for possible

@@ -11,4 +11,4 @@ mod track;
 
 pub use crate::requirements::coupled::{CoupledLegs, DriveState, NoDriveLength};
 pub use proof::PoseBound;
-pub use track::{CoupledOutcome, CoupledStatus, CoupledTracker};
+pub use track::{CoupledOutcome, CoupledStatus, CoupledTracker, DriveSolutionWord};

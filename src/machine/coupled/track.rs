@@ -40,17 +40,61 @@ impl CoupledStatus {
         matches!(self, Self::Proved(_) | Self::Unproved)
     }
 
-    /// The word used in JSON.
+    /// The word for it.
     #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub fn word(&self) -> DriveSolutionWord {
         match self {
-            Self::Proved(_) => "proved",
-            Self::Unproved => "unproved",
-            Self::NotContracting => "not_contracting",
-            Self::NotTracked => "not_tracked",
-            Self::NoLength(_) => "no_length",
+            Self::Proved(_) => DriveSolutionWord::Proved,
+            Self::Unproved => DriveSolutionWord::Unproved,
+            Self::NotContracting => DriveSolutionWord::NotContracting,
+            Self::NotTracked => DriveSolutionWord::NotTracked,
+            Self::NoLength(_) => DriveSolutionWord::NoLength,
         }
     }
+
+    /// Why there is no pose.
+    #[must_use]
+    pub fn failure(&self) -> Option<String> {
+        match self {
+            Self::Proved(_) | Self::Unproved => None,
+            Self::NotContracting => {
+                Some("the corrections of the joints do not settle: no contraction".into())
+            }
+            Self::NotTracked => {
+                Some("the pose of the distances of the joints was not followed to its end".into())
+            }
+            Self::NoLength(why) => Some(why.to_string()),
+        }
+    }
+
+    /// The proved bound of the pose.
+    #[must_use]
+    pub fn bound(&self) -> Option<PoseBound> {
+        match self {
+            Self::Proved(bound) => Some(*bound),
+            _ => None,
+        }
+    }
+}
+
+/// What is known of the pose for lengths of drives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum DriveSolutionWord {
+    /// There is exactly one pose with these lengths in a neighbourhood, within the bound.
+    Proved,
+    /// The corrections settled, and no bound is proved.
+    Unproved,
+    /// The corrections did not settle.
+    NotContracting,
+    /// The pose of the distances was not followed to its end.
+    NotTracked,
+    /// A drive has no length at a pose on the way.
+    NoLength,
 }
 
 /// The pose for lengths of drives.

@@ -34,14 +34,7 @@ pub struct LimitedAllowance {
     #[cfg_attr(feature = "serde", serde(rename = "limited_by"))]
     pub kind: ErrorKind,
     /// The pose at which it is.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            serialize_with = "platform::geom::PoseQuaternionRecord::write",
-            deserialize_with = "platform::geom::PoseQuaternionRecord::read"
-        ),
-        schemars(with = "platform::geom::PoseQuaternionRecord")
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "platform::geom::ByQuaternion"))]
     pub pose: Pose,
 }
 

@@ -31,7 +31,7 @@ pub use tracker::RotaryTracker;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    derive(serde::Serialize, schemars::JsonSchema),
     serde(rename_all = "snake_case"),
     schemars(rename = "ElbowWord")
 )]

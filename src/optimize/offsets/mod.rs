@@ -28,8 +28,8 @@ pub use bound::GlobalBound;
 pub use branch::{Branch, Zone};
 pub use num::conic::SolverFailure;
 pub use outcome::{
-    BranchCounts, BranchReport, BranchVerdict, LocalEvidence, Margins, OffsetOutcome, OffsetReport,
-    OffsetSolution, Recheck,
+    BranchCounts, BranchReport, BranchVerdict, BranchWord, LocalEvidence, Margins, OffsetOutcome,
+    OffsetReport, OffsetSolution, Recheck,
 };
 pub use problem::{
     DEFAULT_BOUNDS, DEFAULT_MIN_ABS_DET, DEFAULT_SPACING_SHARE, InvalidOffsetProblem, OffsetProblem,

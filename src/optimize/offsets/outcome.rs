@@ -165,6 +165,43 @@ pub enum BranchVerdict {
     SolverFailure(SolverFailure),
 }
 
+impl BranchVerdict {
+    /// The word for it.
+    #[must_use]
+    pub fn word(&self) -> BranchWord {
+        match self {
+            Self::Best => BranchWord::Best,
+            Self::Dominated { .. } => BranchWord::Dominated,
+            Self::Bounded => BranchWord::Bounded,
+            Self::Infeasible => BranchWord::Infeasible,
+            Self::Unproved => BranchWord::Unproved,
+            Self::SolverFailure(_) => BranchWord::SolverFailure,
+        }
+    }
+}
+
+/// What became of a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum BranchWord {
+    /// It holds the best solution.
+    Best,
+    /// It is feasible, and does not reach the best value.
+    Dominated,
+    /// No feasible point was looked for: the bound over all offsets covers it.
+    Bounded,
+    /// It is proved empty.
+    Infeasible,
+    /// No feasible point was found.
+    Unproved,
+    /// No feasible point was found because the conic solver failed.
+    SolverFailure,
+}
+
 /// A branch with its verdict.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BranchReport {

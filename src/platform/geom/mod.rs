@@ -29,7 +29,7 @@ pub use pose::{nearest_rotation, reorthogonalised};
 pub use pose_forms::{Angles, InvalidPose};
 pub use pose_set::{ListedFrom, PoseSpace, Region};
 #[cfg(feature = "serde")]
-pub use pose_written::{PoseQuaternionRecord, PoseRecord};
+pub use pose_written::{ByQuaternion, PoseQuaternionRecord, PoseRecord};
 pub use quaternion::rotation_from_quaternion;
 pub use rotation_vector::{rotation_vector, turn_between};
 pub use segment::{LinePair, segment_box_nearest, segment_distance};

@@ -86,22 +86,6 @@ impl PoseQuaternionRecord {
         let values = self.position.iter().chain(&self.quaternion);
         values.map(|x| fixed(x.0, 4)).collect::<Vec<_>>().join(",")
     }
-
-    /// Writes a pose in this form: the function of `serialize_with`.
-    ///
-    /// # Errors
-    /// As of [`Serialize::serialize`].
-    pub fn write<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
-        Self::from(pose).serialize(to)
-    }
-
-    /// Reads a pose in this form: the function of `deserialize_with`.
-    ///
-    /// # Errors
-    /// As of [`Deserialize::deserialize`].
-    pub fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Pose, D::Error> {
-        Self::deserialize(from).map(|record| Pose::from(&record))
-    }
 }
 
 impl From<&PoseQuaternionRecord> for Pose {
@@ -116,5 +100,41 @@ impl From<&Pose> for PoseQuaternionRecord {
     fn from(pose: &Pose) -> Self {
         let p = &pose.position;
         Self { position: [p.x, p.y, p.z].map(Number), quaternion: pose.quaternion().map(Number) }
+    }
+}
+
+/// Writes and reads the pose of a field as a [`PoseQuaternionRecord`]: `serde(with = "platform::geom::ByQuaternion")`.
+#[derive(Debug)]
+pub enum ByQuaternion {}
+
+impl ByQuaternion {
+    /// Writes a pose.
+    ///
+    /// # Errors
+    /// As of [`Serialize::serialize`].
+    pub fn serialize<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
+        PoseQuaternionRecord::from(pose).serialize(to)
+    }
+
+    /// Reads a pose.
+    ///
+    /// # Errors
+    /// As of [`Deserialize::deserialize`].
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Pose, D::Error> {
+        PoseQuaternionRecord::deserialize(from).map(|record| Pose::from(&record))
+    }
+}
+
+impl JsonSchema for ByQuaternion {
+    fn schema_name() -> Cow<'static, str> {
+        PoseQuaternionRecord::schema_name()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        PoseQuaternionRecord::schema_id()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        PoseQuaternionRecord::json_schema(generator)
     }
 }

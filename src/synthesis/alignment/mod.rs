@@ -11,7 +11,9 @@ mod rotations;
 #[cfg(test)]
 mod tests;
 
-pub use outcome::{Alignment, AlignmentUndecided, Difference, Invariant, Motion, NearestMotion};
+pub use outcome::{
+    Alignment, AlignmentUndecided, AlignmentWord, Difference, Invariant, Motion, NearestMotion,
+};
 
 use nalgebra::{Point3, Rotation3, Vector3};
 

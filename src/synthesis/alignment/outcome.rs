@@ -171,6 +171,43 @@ pub enum Alignment {
     },
 }
 
+impl Alignment {
+    /// The motions found.
+    #[must_use]
+    pub fn motions(&self) -> &[Motion] {
+        match self {
+            Self::Found { motions, .. } => motions,
+            _ => &[],
+        }
+    }
+
+    /// The word for it.
+    #[must_use]
+    pub fn word(&self) -> AlignmentWord {
+        match self {
+            Self::Found { .. } => AlignmentWord::Found,
+            Self::None { .. } => AlignmentWord::None,
+            Self::Undecided { .. } => AlignmentWord::Undecided,
+        }
+    }
+}
+
+/// Whether rigid motions were found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum AlignmentWord {
+    /// They were.
+    Found,
+    /// There are none.
+    None,
+    /// Not decided.
+    Undecided,
+}
+
 /// Smallest singular value that counts and largest that does not, over both designs.
 fn gaps(a: &Canonical, b: &Canonical) -> (f64, f64) {
     (a.span.gap.0.min(b.span.gap.0), a.span.gap.1.max(b.span.gap.1))

@@ -340,7 +340,7 @@ fn spread(
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    derive(serde::Serialize, schemars::JsonSchema),
     schemars(rename = "ObstructionRecord")
 )]
 pub struct Obstruction {

@@ -6,20 +6,24 @@ use num::linalg::LinalgError;
 use platform::geom::CentredPoses;
 use platform::manipulator::{Manipulator, inverse_condition, jacobian};
 
-/// Singular values of the leg vectors, and inverse condition numbers of the Jacobian at random poses.
+/// The inverse condition number of the Jacobian at random poses.
+// `sigma_min / sigma_max` with unit lines and moments over the characteristic length
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ConditioningRecord", transform = num::nullable))]
 pub struct Conditioning {
     /// Singular values of the six normalised leg vectors, largest first.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub leg_vectors: [f64; 6],
-    /// Number of poses: any rotation, middle of the platform within the size of the middle of the base in every
-    /// coordinate.
+    /// How many poses.
+    // any rotation, middle of the platform within the size of the middle of the base in every coordinate
     pub poses: usize,
-    /// Greatest `sigma_min / sigma_max` of the length-normalised Jacobian among the poses: small for a design near
-    /// singular.
+    /// The best.
+    // small for a design near singular
     pub best: f64,
-    /// Their median.
+    /// The median.
     pub median: f64,
-    /// The least; small for every design, because singular poses exist.
+    /// The worst.
+    // small for every design, because singular poses exist
     pub worst: f64,
 }
 

@@ -38,10 +38,12 @@ pub use path::{
     ControlPoint, JoinOptions, Joined, PathPiece, Sign, SignsAlong, Way, between, join, signs_along,
     signs_on_curve, straight,
 };
-pub use regular_box::{BoxOptions, RegularBox, Regularity, SingularSegment, regular_box, regular_workspace};
+pub use regular_box::{
+    BoxOptions, RegularBox, Regularity, RegularityWord, SingularSegment, regular_box, regular_workspace,
+};
 pub use self_motion::{
-    AtPose, CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionEvidence, MotionOptions, MotionPoint,
-    PoseVerdict, SelfMotion, critical_poses, curve_degree, motion_at, self_motion,
+    AtPose, CriticalPoses, CurveCrossing, CurveDegree, CurveEnd, MotionCurve, MotionEvidence, MotionOptions,
+    MotionPoint, PoseVerdict, SelfMotion, critical_poses, curve_degree, motion_at, self_motion,
 };
 pub use verdict::SingularityVerdict;
 

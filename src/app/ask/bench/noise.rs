@@ -36,7 +36,7 @@ pub struct NoisePlan {
 
 /// How angles spread over problems, radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "SpreadRecord", transform = num::nullable))]
+#[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "SpreadRecord", transform = num::nullable))]
 pub struct Spread {
     /// A quarter of the values is at most this.
     pub lower_quartile: f64,
@@ -52,7 +52,7 @@ pub struct Spread {
 
 /// What one level of noise does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "NoiseLevelRecord", transform = num::nullable))]
+#[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "NoiseLevelRecord", transform = num::nullable))]
 pub struct NoiseLevel {
     // spreads are over the problems that have a real pose
     /// Relative error of the leg lengths.

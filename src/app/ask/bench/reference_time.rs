@@ -10,7 +10,7 @@ const RUNS: usize = 12;
 
 /// Two computations of every linear algebra, in microseconds or as what times are multiples of.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "ReferenceRecord", transform = num::nullable))]
+#[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ReferenceRecord", transform = num::nullable))]
 pub struct ReferenceTimes {
     /// Generalised eigenvalues of a random 69 x 69 pair.
     pub qz69: f64,

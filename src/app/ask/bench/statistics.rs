@@ -6,7 +6,7 @@ use super::run::{Plan, ProblemOutcome, WrongAnswer};
 
 /// The error measure of Martyushev over the problems.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "ErrorStatisticsRecord", transform = num::nullable))]
+#[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ErrorStatisticsRecord", transform = num::nullable))]
 pub struct ErrorStatistics {
     // as in Table 1 of the paper
     /// The median.
@@ -23,7 +23,7 @@ pub struct ErrorStatistics {
 
 /// Medians of the parts of a solver call and of its validation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "TimeSplitRecord", transform = num::nullable))]
+#[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "TimeSplitRecord", transform = num::nullable))]
 pub struct TimeSplit {
     /// The solver call without certification.
     pub solve: f64,

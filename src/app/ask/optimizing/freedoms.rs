@@ -122,6 +122,42 @@ pub enum FreedomOutcome {
     NotTried,
 }
 
+impl FreedomOutcome {
+    /// The word for it.
+    #[must_use]
+    pub fn word(&self) -> FreedomWord {
+        match self {
+            Self::Resolved(_) => FreedomWord::Resolved,
+            Self::Undecided(_) => FreedomWord::Undecided,
+            Self::Unresolved => FreedomWord::Unresolved,
+            Self::NotTried => FreedomWord::NotTried,
+        }
+    }
+
+    /// The platform found, with its check.
+    #[must_use]
+    pub fn found(&self) -> Option<&Checked> {
+        match self {
+            Self::Resolved(c) | Self::Undecided(c) => Some(c),
+            Self::Unresolved | Self::NotTried => None,
+        }
+    }
+}
+
+/// What came of a search with a freedom more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FreedomWord {
+    /// A platform was found that is proved to meet all requirements.
+    Resolved,
+    /// One was found that meets them at the poses looked at; not all is proved.
+    Undecided,
+    /// No start met the requirements.
+    Unresolved,
+    /// The search was told to end before.
+    NotTried,
+}
+
 /// A freedom with the search that had it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -141,10 +177,7 @@ impl OpenedFreedom {
     /// The platform found with it.
     #[must_use]
     pub fn design(&self) -> Option<&Design> {
-        match &self.outcome {
-            FreedomOutcome::Resolved(c) | FreedomOutcome::Undecided(c) => Some(&c.design),
-            FreedomOutcome::Unresolved | FreedomOutcome::NotTried => None,
-        }
+        self.outcome.found().map(|c| &c.design)
     }
 }
 

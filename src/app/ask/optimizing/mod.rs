@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use self::drive_search::search_drives;
 pub use self::drive_search::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive};
 use self::freedoms::FreedomSearch;
-pub use self::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
+pub use self::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, FreedomWord, OpenedFreedom};
 pub use self::judged::Checked;
 pub(crate) use self::judged::checked;
 pub use self::judged::{Judging, met_or_nothing_required};

@@ -1,7 +1,7 @@
 //! Proofs of roots, single ones and those of clusters, with their numbers.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::{ComplexRecord, Number};
 use fk::solve::certify::octahedral::OctahedralCertificate;
@@ -11,7 +11,7 @@ use fk::solve::certify::{
 use num::ball::Disc;
 
 /// The proof that a root exists and is alone, with all its numbers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum CertificateRecord {
     /// In coordinates `(e, g / unit)` with `e_patch = 1`; distances are largest moduli of coordinate differences.
@@ -152,7 +152,7 @@ impl From<&OctahedralCertificate> for CertificateRecord {
 }
 
 /// Discs that hold the entries of R and p of a root.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct EnclosureRecord {
     /// The entries of the rotation matrix, rows.
     #[serde(rename = "R")]
@@ -163,7 +163,7 @@ pub struct EnclosureRecord {
 }
 
 /// Discs in the complex plane, in some arrangement.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DiscsRecord<T> {
     /// Real parts of the centres.
     pub re: T,

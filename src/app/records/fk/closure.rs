@@ -1,7 +1,7 @@
 //! The exact closure polynomial beside the poses.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::Number;
 use ask::Design;
@@ -11,7 +11,7 @@ use num::poly::{Dyadic, RealRoot};
 use platform::topology::{JointIndex, Step};
 
 /// The exact closure polynomial beside the poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ClosureRecord {
     /// There is one.
@@ -24,7 +24,7 @@ pub enum ClosureRecord {
 }
 
 /// The closure polynomial in one squared distance, with what it says about the number of real poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ClosurePolynomialRecord {
     /// The joints of the virtual leg; null where none is needed.
     pub virtual_leg: Option<[String; 2]>,
@@ -56,7 +56,7 @@ pub struct ClosurePolynomialRecord {
 }
 
 /// One trilateration: a joint placed by its distances from three others.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TrilaterationStepRecord {
     /// Three joints in place.
     pub from: [String; 3],

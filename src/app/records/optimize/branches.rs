@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::platform::ZONES;
 use crate::Number;
-use optimize::offsets::{BranchReport, BranchVerdict, Conflict};
+use optimize::offsets::{BranchReport, BranchVerdict, BranchWord, Conflict};
 
 /// A branch: a zone for each offset.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -25,39 +25,15 @@ pub struct BranchRecord {
     pub conflicts: Vec<BranchConflictRecord>,
 }
 
-/// What became of a branch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum BranchWord {
-    /// It holds the best solution.
-    Best,
-    /// It is feasible, and does not reach the best value.
-    Dominated,
-    /// No feasible point was looked for: the bound over all offsets covers it.
-    Bounded,
-    /// It is proved empty.
-    Infeasible,
-    /// No feasible point was found.
-    Unproved,
-    /// No feasible point was found because the conic solver failed.
-    SolverFailure,
-}
-
 impl From<&BranchReport> for BranchRecord {
     fn from(b: &BranchReport) -> Self {
-        let (verdict, own) = match &b.verdict {
-            BranchVerdict::Best => (BranchWord::Best, None),
-            BranchVerdict::Dominated { value, offsets, .. } => {
-                (BranchWord::Dominated, Some((*value, *offsets)))
-            }
-            BranchVerdict::Bounded => (BranchWord::Bounded, None),
-            BranchVerdict::Infeasible => (BranchWord::Infeasible, None),
-            BranchVerdict::Unproved => (BranchWord::Unproved, None),
-            BranchVerdict::SolverFailure(_) => (BranchWord::SolverFailure, None),
+        let own = match &b.verdict {
+            BranchVerdict::Dominated { value, offsets, .. } => Some((*value, *offsets)),
+            _ => None,
         };
         Self {
             branch: b.branch.to_string(),
-            verdict,
+            verdict: b.verdict.word(),
             objective: own.map(|o| Number(o.0)),
             offsets: own.map(|o| o.1.map(Number)),
             cells: b.cells,

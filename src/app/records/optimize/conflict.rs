@@ -3,12 +3,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{BranchRecord, BranchWord};
+use super::BranchRecord;
 use crate::Number;
 use ask::Design;
 use machine::requirements::{Objective, TermKind};
 use optimize::dimensional::{ConstraintConflict, Demand, Give};
-use optimize::offsets::Conflict;
+use optimize::offsets::{BranchWord, Conflict};
 
 /// Requirements that cannot be met together; without any one of them the others were met.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

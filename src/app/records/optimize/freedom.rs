@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
 use ask::Design;
-use ask::{ConflictFreedom, EasedDemand, FreedomOutcome, OpenedFreedom};
+use ask::{ConflictFreedom, EasedDemand, FreedomWord, OpenedFreedom};
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
 
 /// A freedom that the design does not have, and what came of the search with it.
@@ -30,30 +30,11 @@ pub struct FreedomRecord {
     pub output: Option<String>,
 }
 
-/// What came of a search with a freedom more.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum FreedomWord {
-    /// A platform was found that is proved to meet all requirements.
-    Resolved,
-    /// One was found that meets them at the poses looked at; not all is proved.
-    Undecided,
-    /// No start met the requirements.
-    Unresolved,
-    /// The search was told to end before.
-    NotTried,
-}
-
 impl FreedomRecord {
     /// What came of a freedom of a design.
     #[must_use]
     pub fn new(design: &Design, opened: &OpenedFreedom, output: Option<&str>) -> Self {
-        let (outcome, found) = match &opened.outcome {
-            FreedomOutcome::Resolved(c) => (FreedomWord::Resolved, Some(c)),
-            FreedomOutcome::Undecided(c) => (FreedomWord::Undecided, Some(c)),
-            FreedomOutcome::Unresolved => (FreedomWord::Unresolved, None),
-            FreedomOutcome::NotTried => (FreedomWord::NotTried, None),
-        };
+        let (outcome, found) = (opened.outcome.word(), opened.outcome.found());
         Self {
             freedom: opened.freedom,
             outcome,

@@ -13,10 +13,10 @@ mod symmetry;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use self::branches::{BranchConflictRecord, BranchRecord, BranchWord};
+pub use self::branches::{BranchConflictRecord, BranchRecord};
 pub use self::conflict::{ConflictReasonRecord, ConflictRecord, DemandWord, GiveRecord, SpecialDemand};
 pub use self::drive::{DriveSearchRecord, DriveSearchWord, SearchedDriveRecord};
-pub use self::freedom::{FreedomRecord, FreedomWord};
+pub use self::freedom::FreedomRecord;
 pub use self::platform::{
     FoundPlatformRecord, FrontMemberRecord, HeldPosesRecord, JointAxesRecord, LocalOptimalityRecord,
     NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchMarginsRecord, SearchStepRecord,

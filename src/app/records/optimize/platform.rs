@@ -8,7 +8,7 @@ use super::riding::{DetMargin, RidingRecord};
 use crate::map::matrix;
 use crate::{
     AssessAnswer, DesignRecord, DesignRoleWord, MarginRecord, Number, PoseQuaternionRecord, PoseRecord,
-    VerdictWord, leg_number,
+    leg_number,
 };
 use ask::Checked;
 use ask::Design;
@@ -18,7 +18,7 @@ use optimize::dimensional::{ChosenVariable, DimensionalSolution, HistoryStep};
 use optimize::offsets::{Branch, OffsetProblem, OffsetSolution};
 use platform::manipulator::Octahedral;
 use synthesis::edge_lengths;
-use verify::Verification;
+use verify::{VerdictWord, Verification};
 
 /// How the zones of the six offsets are written.
 pub(super) const ZONES: &str = "^[-0+]{6}$";
@@ -328,7 +328,7 @@ pub struct VerifiedRecord {
 impl From<&Verification> for VerifiedRecord {
     fn from(v: &Verification) -> Self {
         Self {
-            verdict: (&v.verdict).into(),
+            verdict: v.verdict.word(),
             worst_distance: Number(v.worst_distance()),
             sample_count: v.samples.len(),
         }

@@ -2,7 +2,8 @@
 
 use crate::{Cell, Sheet, Table, Tone, left, right};
 use machine::requirements::MarginVerdict;
-use records::{AssessAnswer, MarginRecord, PoseQuaternionRecord, RegularityWord};
+use records::{AssessAnswer, MarginRecord, PoseQuaternionRecord};
+use synthesis::singularity::RegularityWord;
 
 /// The answer of `assess`.
 #[must_use]

@@ -53,9 +53,9 @@ pub fn check(c: &CheckAnswer, headline: &str, size: f64, units: &str) -> Sheet {
         out,
         "inverse condition number of the Jacobian at {} random poses: best {:.3e}, median {:.3e}, worst {:.3e}",
         f.poses,
-        f.best.0,
-        f.median.0,
-        f.worst.0
+        f.best,
+        f.median,
+        f.worst
     );
     out
 }

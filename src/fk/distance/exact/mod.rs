@@ -47,7 +47,7 @@ pub enum ClosureError {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    derive(serde::Serialize, schemars::JsonSchema),
     schemars(rename = "SingularFactorRecord")
 )]
 pub struct SingularFactor {

@@ -110,6 +110,49 @@ pub enum NoRounding {
     SingularPose,
 }
 
+impl NoRounding {
+    /// The word for it.
+    #[must_use]
+    pub fn word(self) -> NoRoundingWord {
+        match self {
+            Self::NoTriangles => NoRoundingWord::NoTriangles,
+            Self::NoTriangleNear(_) => NoRoundingWord::NoTriangleNear,
+            Self::Singular => NoRoundingWord::Singular,
+            Self::JointsCoincide(_) => NoRoundingWord::JointsCoincide,
+            Self::SingularPose => NoRoundingWord::SingularPose,
+            Self::FreePattern(_) => NoRoundingWord::FreePattern,
+            Self::NoLines(_) => NoRoundingWord::NoLines,
+            Self::NotPlanar(_) | Self::BadGrid(_) => NoRoundingWord::BadGrid,
+        }
+    }
+}
+
+/// A short code for what stands against a rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum NoRoundingWord {
+    /// The joints are not on the sides of two triangles.
+    NoTriangles,
+    /// No triangle on the grid is near.
+    NoTriangleNear,
+    /// Every rounding is architecturally singular.
+    Singular,
+    /// Two joints come to the same hole.
+    JointsCoincide,
+    /// A pose becomes singular.
+    SingularPose,
+    /// The origin and the angle of a grid can be chosen for square grids alone.
+    FreePattern,
+    /// The grid cannot be used.
+    BadGrid,
+    /// A plate has no lines through many holes.
+    NoLines,
+}
+
 /// A joint on its hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoundedJoint {
@@ -307,14 +350,7 @@ pub struct Judgement {
     /// The worst inverse condition number over the poses.
     pub objective: f64,
     /// Where it is.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            serialize_with = "platform::geom::PoseQuaternionRecord::write",
-            deserialize_with = "platform::geom::PoseQuaternionRecord::read"
-        ),
-        schemars(with = "platform::geom::PoseQuaternionRecord")
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "platform::geom::ByQuaternion"))]
     pub worst_pose: Pose,
     /// Least distances of two joints, base and platform.
     // design units

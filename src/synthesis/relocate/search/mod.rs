@@ -19,7 +19,7 @@ mod wishes;
 
 use thiserror::Error;
 
-pub use self::wishes::{HoleAnswer, JudgedHole};
+pub use self::wishes::{HoleAnswer, HoleWord, JudgedHole};
 pub use candidate::{Candidate, LegSource, Placement};
 pub use wishes::{Hole, Wish, WishMargin, Wishes};
 
@@ -96,6 +96,20 @@ pub enum Impossibility {
     SharedJoints(usize),
     /// No six independent replaceable legs have ends at all the holes.
     HolesTogether,
+}
+
+impl Impossibility {
+    /// The name in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NoLegAtHole(_) => "no_leg_at_hole",
+            Self::PartnersAtInfinity(_) => "partners_at_infinity",
+            Self::NotByThoseLegs(_) => "not_by_those_legs",
+            Self::SharedJoints(_) => "shared_joints",
+            Self::HolesTogether => "holes_together",
+        }
+    }
 }
 
 /// What the search came to.

@@ -121,6 +121,34 @@ pub enum HoleAnswer {
     None,
 }
 
+impl HoleAnswer {
+    /// The word for it.
+    #[must_use]
+    pub fn word(&self) -> HoleWord {
+        match self {
+            Self::Legs { .. } => HoleWord::Legs,
+            Self::AtInfinity => HoleWord::AtInfinity,
+            Self::None => HoleWord::None,
+        }
+    }
+}
+
+/// Which legs of equivalent platforms end at a hole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum HoleWord {
+    /// Some.
+    Legs,
+    /// Those with the other end at infinity.
+    AtInfinity,
+    /// None.
+    None,
+}
+
 /// A hole and what was decided about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JudgedHole {

@@ -124,7 +124,42 @@ pub enum Regularity {
     Undecided(Pose),
 }
 
+/// What is known of the sign of det J.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum RegularityWord {
+    /// It vanishes at no pose.
+    Proved,
+    /// It vanishes at some pose.
+    ChangesSign,
+    /// Neither is proved.
+    Undecided,
+}
+
 impl Regularity {
+    /// The word for it.
+    #[must_use]
+    pub fn word(&self) -> RegularityWord {
+        match self {
+            Self::Regular => RegularityWord::Proved,
+            Self::ChangesSign(_) => RegularityWord::ChangesSign,
+            Self::Undecided(_) => RegularityWord::Undecided,
+        }
+    }
+
+    /// The pose with the other sign, or the one in doubt.
+    #[must_use]
+    pub fn pose(&self) -> Option<&Pose> {
+        match self {
+            Self::Regular => None,
+            Self::ChangesSign(pose) | Self::Undecided(pose) => Some(pose),
+        }
+    }
+
     /// `Some` where it is proved.
     #[must_use]
     pub fn is_regular(&self) -> Option<bool> {

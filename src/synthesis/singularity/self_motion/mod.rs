@@ -73,18 +73,10 @@ impl CurveEnd {
 
 /// A pose on a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "MotionPointRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "MotionPointRecord", transform = num::nullable))]
 pub struct MotionPoint {
     /// The pose.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            flatten,
-            serialize_with = "platform::geom::PoseQuaternionRecord::write",
-            deserialize_with = "platform::geom::PoseQuaternionRecord::read"
-        ),
-        schemars(with = "platform::geom::PoseQuaternionRecord")
-    )]
+    #[cfg_attr(feature = "serde", serde(flatten, with = "platform::geom::ByQuaternion"))]
     pub pose: Pose,
     /// Length of the curve up to here, in (e, g / size).
     pub arc: f64,
@@ -95,6 +87,20 @@ pub struct MotionPoint {
     pub gap: f64,
 }
 
+/// Where a curve crosses others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "CurveCrossingRecord")
+)]
+pub struct CurveCrossing {
+    /// After this point of the curve, from 0.
+    pub after_point: usize,
+    /// Index into `crossings` of the answer, from 0.
+    pub crossing: usize,
+}
+
 /// A curve of poses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionCurve {
@@ -102,8 +108,8 @@ pub struct MotionCurve {
     pub points: Vec<MotionPoint>,
     /// How it ends.
     pub end: CurveEnd,
-    /// Crossings passed: index of the point before, and of the crossing in [`SelfMotion::crossings`].
-    pub crossings: Vec<(usize, usize)>,
+    /// Crossings passed.
+    pub crossings: Vec<CurveCrossing>,
     /// Index of the pose given from which it was reached, directly or through crossings.
     pub start: usize,
 }

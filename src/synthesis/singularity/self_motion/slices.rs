@@ -265,7 +265,7 @@ const OFF_CROSSING: f64 = 1e-6;
 
 /// The degree of a curve of poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "CurveDegreeRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CurveDegreeRecord", transform = num::nullable))]
 pub struct CurveDegree {
     /// The degree, at least this where it is not complete.
     // points in which a general hyperplane meets the irreducible curve through the pose

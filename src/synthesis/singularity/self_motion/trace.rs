@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, SMatrix, SVector, SymmetricEigen};
 
 use super::slices::{EQUATIONS, Point, SliceEquations};
-use super::{CurveEnd, MotionOptions};
+use super::{CurveCrossing, CurveEnd, MotionOptions};
 use num::Rng;
 use num::small::bounded_svd;
 
@@ -55,8 +55,12 @@ impl OnCurve {
 pub(super) struct TracedCurve {
     pub(super) points: Vec<OnCurve>,
     pub(super) end: CurveEnd,
-    /// Index of the point before a crossing and, later, of the crossing.
-    pub(super) crossings: Vec<(usize, usize)>,
+    pub(super) crossings: Vec<CurveCrossing>,
+}
+
+/// A crossing that is not located yet.
+fn open(after_point: usize) -> CurveCrossing {
+    CurveCrossing { after_point, crossing: usize::MAX }
 }
 
 /// Equations and what following them needs.
@@ -222,13 +226,13 @@ impl<'a> Tracer<'a> {
             let crossed = next.orientation * here.orientation < 0.0;
             if path.points.len() > 2 && passes(&here, &next, &start) {
                 if crossed {
-                    path.crossings.push((path.points.len() - 1, usize::MAX));
+                    path.crossings.push(open(path.points.len() - 1));
                 }
                 path.end = CurveEnd::Closed;
                 return path;
             }
             if crossed {
-                path.crossings.push((path.points.len() - 1, usize::MAX));
+                path.crossings.push(open(path.points.len() - 1));
             }
             if let Some(end) = stop(&here, &next) {
                 path.points.push(next);
@@ -387,23 +391,29 @@ impl<'a> Web<'a> {
                 *p = p.reversed();
             }
             let shift = other.points.len() - 1;
-            let turned = other.crossings.iter().map(|c| (shift - 1 - c.0, c.1)).rev();
-            let mut crossings: Vec<(usize, usize)> = turned.collect();
-            crossings.extend(path.crossings.iter().map(|c| (c.0 + shift, c.1)));
+            let turned = other
+                .crossings
+                .iter()
+                .map(|c| CurveCrossing { after_point: shift - 1 - c.after_point, ..*c })
+                .rev();
+            let mut crossings: Vec<CurveCrossing> = turned.collect();
+            crossings.extend(
+                path.crossings.iter().map(|c| CurveCrossing { after_point: c.after_point + shift, ..*c }),
+            );
             other.points.extend_from_slice(&path.points[1..]);
             path = TracedCurve { points: other.points, end: other.end, crossings };
         }
         let mut reached = Vec::new();
         for k in 0..path.crossings.len() {
-            let before = path.points[path.crossings[k].0];
-            let after = path.points.get(path.crossings[k].0 + 1).or(path.points.first()).copied();
+            let before = path.points[path.crossings[k].after_point];
+            let after = path.points.get(path.crossings[k].after_point + 1).or(path.points.first()).copied();
             let found = after.and_then(|a| self.tracer.crossing(&before, &aligned(&before, a)));
             if let Some(y) = found {
-                path.crossings[k].1 = self.crossing_at(y);
-                reached.push(path.crossings[k].1);
+                path.crossings[k].crossing = self.crossing_at(y);
+                reached.push(path.crossings[k].crossing);
             }
         }
-        path.crossings.retain(|c| c.1 != usize::MAX);
+        path.crossings.retain(|c| c.crossing != usize::MAX);
         self.paths.push(path);
         for crossing in reached {
             self.follow_from(crossing);

@@ -22,9 +22,9 @@ use records::{
     AssessAnswer, ComparedRecord, ComponentRecord, ComponentsAnswer, DesignRoleWord, ExploreAnswer,
     ExploreGeneralAnswer, ExploreVerdict, FamiliesFoundRecord, MovesFoundRecord, NearestAnswer,
     NearestErrorRecord, Number, PoseTotalsRecord, ProvenanceRecord, SearchWord, StageRecord, StageWord,
-    VerdictWord,
 };
 use synthesis::components::{ComponentOptions, Components, components};
+use verify::VerdictWord;
 
 /// What is worked with in all stages.
 struct ExploreRun<'a> {
@@ -239,7 +239,7 @@ fn compared(
         (None, None) => return Ok(None),
     };
     let verified = verification(a, b, samples, options, &run.provenance, &mut run.folder)?;
-    let word = VerdictWord::from(&verified.found.verdict).name().replace('_', " ");
+    let word = verified.found.verdict.name().replace('_', " ");
     run.done(StageWord::Verify, format!("{who}: {word}, {}", verified.record.explanation));
     Ok(Some(verified))
 }
@@ -267,7 +267,7 @@ fn judged(
     };
     match (moves.chosen, verified, moves.found.record.outcome) {
         (Some(_), Some(v), _) => (
-            ExploreVerdict::Compared((&v.found.verdict).into()),
+            ExploreVerdict::Compared(v.found.verdict.word()),
             v.record.explanation.clone(),
             exit_of(&v.found.verdict),
         ),

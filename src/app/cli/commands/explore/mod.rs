@@ -32,7 +32,7 @@ use ask::equivalents::Original;
 use ask::exporting::octahedral_of_controllers;
 use ask::optimizing::{EXTENSION, RESERVE_PERCENT, with_default_reserve};
 use ask::rounding::DesignOnHoles;
-use ask::{OptimizeEvidence, SAMPLES, sample_plan};
+use ask::{FreedomWord, OptimizeEvidence, SAMPLES, sample_plan};
 use fk::{self, FkOptions, FkSolutions, PoseCounting};
 use machine::manufacture::NoRounding;
 use machine::requirements::KeptSymmetry;
@@ -40,11 +40,11 @@ use platform::manipulator::{LegLengths, Octahedral};
 use records::{
     AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
     ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
-    FreedomWord, LengthsOrigin, OnHolesRecord, OptimizeAnswer, OptimizedRecord, PoseTotalsRecord,
-    PriceRecord, ProvenanceRecord, RoundAnswer, VerdictWord, VerifyAnswer,
+    LengthsOrigin, OnHolesRecord, OptimizeAnswer, OptimizedRecord, PoseTotalsRecord, PriceRecord,
+    ProvenanceRecord, RoundAnswer, VerifyAnswer,
 };
 use synthesis::{Family, FamilyMember};
-use verify::{Verification, verify};
+use verify::{VerdictWord, Verification, verify};
 
 /// Arguments of `explore`.
 #[derive(Debug, clap::Args)]
@@ -161,7 +161,7 @@ impl Results {
             JudgedBy::Violated(_) | JudgedBy::NoHoles(_) => ExploreVerdict::Violated,
             JudgedBy::OnHoles => ExploreVerdict::OnHoles,
             JudgedBy::New => ExploreVerdict::NewKinematics,
-            JudgedBy::Compared(v) => ExploreVerdict::Compared((&v.found.verdict).into()),
+            JudgedBy::Compared(v) => ExploreVerdict::Compared(v.found.verdict.word()),
             JudgedBy::NotFound | JudgedBy::Unproved(_) => ExploreVerdict::Compared(VerdictWord::Inconclusive),
         }
     }

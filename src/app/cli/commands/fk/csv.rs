@@ -2,7 +2,7 @@
 
 use crate::app::cli::table::{column_unit, csv_line, number};
 use ask::Design;
-use records::{CompletenessWord, FkAnswer, FkOneAnswer, FkRowOutcome, SideWord, SolutionRecord};
+use records::{FkAnswer, FkOneAnswer, FkRowOutcome, SideWord, SolutionRecord};
 
 /// Cells of a pose between its number and the completeness.
 const BESIDE_COMPLETENESS: usize = 14;
@@ -71,11 +71,7 @@ impl PoseTable {
         let points = one.solved.solution_set.witness_points().iter().chain(&one.solved.solutions);
         let mut shown: Vec<&SolutionRecord> = points.filter(|s| self.all || s.real != Some(false)).collect();
         shown.sort_by(|a, b| far(a).total_cmp(&far(b)));
-        let completeness = match one.solved.completeness {
-            CompletenessWord::Proved => "proved",
-            CompletenessWord::Modular => "modular",
-            CompletenessWord::Unproved => "unproved",
-        };
+        let completeness = one.solved.completeness.name();
         if shown.is_empty() {
             self.nothing(out, before, completeness);
         }

@@ -8,11 +8,11 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use ask::Design;
-use fk::Reality;
+use fk::{NearWord, Reality};
 use machine::coupled::{CoupledLegs, CoupledOutcome, CoupledStatus, CoupledTracker};
 use platform::geom::Pose;
 use platform::manipulator::LegLengths;
-use records::{DriveSolutionRecord, NearWord};
+use records::DriveSolutionRecord;
 
 /// Refuses what takes the lengths of drives for distances of joints.
 pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {

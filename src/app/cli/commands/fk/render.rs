@@ -3,12 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::app::cli::numbers::listed;
-use fk::Method;
+use fk::{CompletenessWord, Method};
 use platform::geom::{ComplexPose, Pose};
-use records::{
-    ClosureRecord, CompletenessWord, FkRowOutcome, FkRowRecord, SolutionRecord, SolutionSetRecord,
-    SolvedRecord,
-};
+use records::{ClosureRecord, FkRowOutcome, FkRowRecord, SolutionRecord, SolutionSetRecord, SolvedRecord};
 
 /// What people read.
 pub(super) fn text(name: &str, s: &SolvedRecord) -> String {

@@ -6,8 +6,9 @@ use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ask::{Design, MotionOrigin, SelfMotionReport};
+use fk::CompletenessWord;
 use records::{
-    CompletenessWord, CriticalPointsRecord, IsolatedRecord, MotionCurveRecord, MotionEvidenceWord, Number,
+    CriticalPointsRecord, IsolatedRecord, MotionCurveRecord, MotionEvidenceWord, Number,
     PoseQuaternionRecord, SelfmotionAnswer,
 };
 use synthesis::singularity::CurveDegree;

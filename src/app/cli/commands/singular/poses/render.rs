@@ -6,9 +6,10 @@ use super::{SingularPoses, paths};
 use crate::app::cli::output::Answer;
 use ask::{Design, PoseFigures};
 use records::{
-    JudgedPoseRecord, Number, PoseQuaternionRecord, RegularBoxRecord, RegularityRecord, RegularityWord,
-    ScaledPoseRecord, SingularitiesAnswer,
+    JudgedPoseRecord, Number, PoseQuaternionRecord, RegularBoxRecord, RegularityRecord, ScaledPoseRecord,
+    SingularitiesAnswer,
 };
+use synthesis::singularity::RegularityWord;
 
 fn judged(j: &PoseFigures) -> JudgedPoseRecord {
     JudgedPoseRecord {
