@@ -52,6 +52,18 @@ pub enum NearWord {
     Lost,
 }
 
+impl NearWord {
+    /// The word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tracked => "tracked",
+            Self::NearSingularity => "near_singularity",
+            Self::Lost => "lost",
+        }
+    }
+}
+
 impl NearRecord {
     /// The record of an outcome that began at `start` and reached a pose with this inverse condition number of the
     /// Jacobian.

@@ -3,17 +3,23 @@
 mod assess;
 mod check;
 mod compare;
+mod components;
 mod document;
 mod drives;
 mod family;
+mod fk;
 mod legs;
 mod limits;
 mod map;
 mod motion;
 mod moves;
+mod nearest;
 mod optimize;
 mod round;
+mod self_motion;
+mod singular_poses;
 mod tolerances;
+mod topologies;
 mod verify;
 
 pub use assess::{
@@ -22,15 +28,21 @@ pub use assess::{
 };
 pub use check::check;
 pub use compare::compare;
+pub use components::components;
 pub use document::{document, heading, words};
 pub use drives::drives;
 pub use family::family;
+pub use fk::fk;
 pub use legs::legs;
 pub use limits::limits;
 pub use map::{leg_map, map};
 pub use motion::motion;
 pub use moves::{move_search, moves, wishes_in_words};
+pub use nearest::nearest;
 pub use optimize::{optimize, search, tried_drives};
 pub use round::round;
+pub use self_motion::self_motion;
+pub use singular_poses::singular_poses;
 pub use tolerances::tolerances;
+pub use topologies::topologies;
 pub use verify::verify;
