@@ -1,6 +1,9 @@
 //! The sheet of each answer, a file an answer; [`document()`] finds the one of a JSON document.
 
 mod assess;
+#[cfg(feature = "lab")]
+mod bench;
+mod calibrate;
 mod check;
 mod compare;
 mod components;
@@ -8,8 +11,10 @@ mod document;
 mod drives;
 mod family;
 mod fk;
+mod frames;
 mod legs;
 mod limits;
+mod locus;
 mod map;
 mod motion;
 mod moves;
@@ -26,6 +31,9 @@ pub use assess::{
     assess, assumptions, requirements, requirements_without_assumptions, sentence,
     table as requirements_table,
 };
+#[cfg(feature = "lab")]
+pub use bench::bench;
+pub use calibrate::calibrate;
 pub use check::check;
 pub use compare::compare;
 pub use components::components;
@@ -35,6 +43,7 @@ pub use family::family;
 pub use fk::fk;
 pub use legs::legs;
 pub use limits::limits;
+pub use locus::locus;
 pub use map::{leg_map, map};
 pub use motion::motion;
 pub use moves::{move_search, moves, wishes_in_words};

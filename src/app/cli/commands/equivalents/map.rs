@@ -37,6 +37,6 @@ pub(crate) fn run(args: &EquivalentsMapArgs, context: &mut Context) -> Result<An
     let legs = LegCorrespondence::between(from.manipulator(), &second.manipulator);
     let record =
         MapAnswer { map: (&outcome).into(), correspondence: (&legs).into(), frames: second.record() };
-    let text = format!("{}{}", second.text(), sheet::answers::map(&record, &from.name, &to.name));
-    Ok(Answer::new(exit, record, text))
+    let sheet = sheet::answers::map(&record, &from.name, &to.name);
+    Ok(Answer::new(exit, record, sheet))
 }
