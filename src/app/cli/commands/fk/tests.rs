@@ -6,8 +6,10 @@ use fk::{
 };
 use nalgebra::{Rotation3, Vector3};
 use platform::geom::{ComplexPose, Pose};
-use records::{FkAnswer, FkOneAnswer, SolvedRecord};
+use records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord};
 use serde_json::{Value, json};
+
+use crate::app::cli::failure::Failure;
 
 fn solutions(condition: f64) -> FkSolutions {
     let pose = Pose { rotation: Rotation3::identity(), position: Vector3::new(1.0, 2.0, 0.1 + 0.2) };
@@ -73,5 +75,22 @@ fn people_are_told_when_roots_may_be_missing() {
     let shown = sheet::answers::fk("x", "mm", &answer).to_string();
     assert!(
         shown.starts_with("x: 3 finite poses, 1 of them real, 1 undecided (method homotopy)\nINCOMPLETE")
+    );
+}
+
+#[test]
+fn a_row_without_answer_says_why_in_the_last_column() {
+    let failure = Failure::refused("fk::not_applicable", "the legs are not octahedral".to_owned());
+    let row = |line, outcome| FkRowRecord { line, time: None, lengths: [1.0; 6], angles_deg: None, outcome };
+    let solved = FkOneAnswer::from(SolvedRecord::from(&solutions(10.0)));
+    let rows = vec![
+        row(2, FkRowOutcome::Failed(RowFailure { error: (&failure).into() })),
+        row(3, FkRowOutcome::Solved(Box::new(solved))),
+    ];
+    assert_eq!(
+        sheet::answers::fk("x", "mm", &FkAnswer::Rows(FkRowsAnswer { rows })).to_string(),
+        "line  method         finite  real  complete\n   \
+         2  -                   -     -  the legs are not octahedral\n   \
+         3  homotopy            3     1  ROOTS MAY BE MISSING\n"
     );
 }
