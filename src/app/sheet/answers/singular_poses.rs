@@ -17,15 +17,15 @@ pub fn singular_poses(r: &SingularitiesAnswer, of_the_design: bool) -> Sheet {
         match regular.status {
             RegularityWord::Proved => say!(out, "The {region} is free of singular poses: proved."),
             RegularityWord::ChangesSign => {
-                say!(out, "The {region} holds a singular pose: det J changes its sign on the way to {at}.")
+                say!(out, "The {region} holds a singular pose: det J changes its sign on the way to {at}.");
             }
             RegularityWord::Undecided => {
                 say!(
                     out,
                     "It is undecided whether the {region} holds a singular pose, near {at}; more --cells may decide."
-                )
+                );
             }
-        };
+        }
     }
     judged(&mut out, "pose", &r.pose);
     for (k, mode) in r.assembly_modes.iter().enumerate() {
@@ -68,7 +68,7 @@ pub fn singular_poses(r: &SingularitiesAnswer, of_the_design: bool) -> Sheet {
     match &b.singular_within {
         Some(s) => say!(out, "  a singular pose within t = {:.4}, proved by a change of sign", s.scale.0),
         None => say!(out, "  no change of sign found up to t = {:.4}", b.searched_scale.0),
-    };
+    }
     out
 }
 
