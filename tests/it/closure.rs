@@ -136,7 +136,7 @@ fn the_unknown_of_the_closure_polynomial_can_be_chosen() {
     let parts = |k: usize| {
         let digits = c["coefficients"][k].as_str().unwrap();
         let (sign, digits) = digits.strip_prefix('-').map_or((1.0, digits), |rest| (-1.0, rest));
-        (sign * format!("0.{digits}").parse::<f64>().unwrap(), digits.len() as i32)
+        (sign * format!("0.{digits}").parse::<f64>().unwrap(), i32::try_from(digits.len()).unwrap())
     };
     let ((x, of_x), (y, of_y)) = (parts(15), parts(16));
     let sum = -x / y * 10f64.powi(of_x - of_y);

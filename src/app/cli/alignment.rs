@@ -1,9 +1,6 @@
 //! `--align` and `--exchange` of `equivalents map` and `verify`: the second design in the frames of the first.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
-
-use nalgebra::{UnitQuaternion, Vector3};
 
 use super::context::Context;
 use super::exit::Exit;
@@ -12,7 +9,6 @@ use super::files::{self, OutputPath};
 use ::files::design::DesignModel;
 use ask::Design;
 use num::linalg::LinalgError;
-use num::shown::fixed;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 use records::{AlignmentRecord, FramesRecord};
@@ -169,46 +165,10 @@ impl Second {
         }
     }
 
-    /// What people read; empty without the options.
-    pub(crate) fn text(&self) -> String {
-        let mut out = String::new();
-        if self.exchange {
-            out.push_str(
-                "base and platform of the second design are exchanged: its poses are inverse poses\n",
-            );
-        }
-        let Some(found) = &self.aligned else { return out };
-        let _ = writeln!(out, "{}", found.given.explanation());
-        if let Alignment::Found { motions, .. } = &found.given {
-            for (k, m) in motions.iter().enumerate() {
-                let _ = writeln!(out, "{:>3}  base      {}", k + 1, motion_text(&m.base));
-                let _ = writeln!(out, "     platform  {}", motion_text(&m.platform));
-                let _ =
-                    writeln!(out, "     residual {:.1e}, det A = {:.6}", m.map.residual, m.map.determinant);
-            }
-        }
-        for (name, other) in [("exchanged", &found.exchanged), ("mirrored", &found.mirrored)] {
-            if let (Alignment::Found { .. }, false) = (other, self.refuted().is_none()) {
-                let _ = writeln!(out, "it is equivalent when the second design is {name}");
-            }
-        }
-        out.push('\n');
-        out
-    }
-
     /// One sentence on the alignment, where one was asked for.
     pub(crate) fn explanation(&self) -> Option<String> {
         self.aligned.as_ref().map(|a| a.given.explanation())
     }
-}
-
-/// A motion as axis, angle and shift.
-fn motion_text(p: &Pose) -> String {
-    // by the quaternion: the axis of a half turn has no place in the skew part of the matrix
-    let q = UnitQuaternion::from_rotation_matrix(&p.rotation);
-    let (axis, angle) = q.axis_angle().map_or((Vector3::z(), 0.0), |(u, t)| (u.into_inner(), t.to_degrees()));
-    let vector = |v: &Vector3<f64>| format!("({})", [v.x, v.y, v.z].map(|x| fixed(x, 6)).join(", "));
-    format!("turn by {angle:.6} deg about {}, then shift by {}", vector(&axis), vector(&p.position))
 }
 
 fn inverse(pose: &Pose) -> Pose {

@@ -42,7 +42,7 @@ pub struct LegSlideRecord {
     pub moved: String,
     /// The name of F, the joint that it keeps.
     pub fixed: String,
-    /// t: s' = (1 - t) s_X + t s_Y - t (1 - t) d^2.
+    /// t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
     pub share: ExactNumberRecord,
     /// 1 - t.
     pub rest: ExactNumberRecord,

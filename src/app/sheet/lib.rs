@@ -17,6 +17,7 @@ use std::fmt::Display;
 
 pub use html::{badge, shown};
 pub use markdown::escaped as markdown_escaped;
+use num::shown::fixed;
 
 /// What there is to read, from top to bottom.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -80,6 +81,11 @@ impl From<Table> for Sheet {
         sheet.table(table);
         sheet
     }
+}
+
+/// Numbers with so many decimals, in brackets; a number that rounds to zero has no sign.
+fn listed(numbers: impl IntoIterator<Item = f64>, decimals: usize) -> String {
+    format!("[{}]", numbers.into_iter().map(|x| fixed(x, decimals)).collect::<Vec<_>>().join(", "))
 }
 
 /// Rows of cells.

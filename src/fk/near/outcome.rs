@@ -98,6 +98,18 @@ pub enum NearWord {
     Lost,
 }
 
+impl NearWord {
+    /// The word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tracked => "tracked",
+            Self::NearSingularity => "near_singularity",
+            Self::Lost => "lost",
+        }
+    }
+}
+
 impl NearOutcome {
     /// The word for it.
     #[must_use]

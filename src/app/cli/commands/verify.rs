@@ -46,16 +46,16 @@ pub(crate) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Answer, Fa
         let exit = if none { Exit::No } else { Exit::Inconclusive };
         let explanation = second.explanation().unwrap_or_default();
         let record = VerifyAnswer::unaligned(&map, none, explanation, second.record());
-        let text = format!("{} ~ {}: {}\n{}", a.name, b.name, record.verdict.name(), second.text());
-        return Ok(Answer::new(exit, record, text));
+        let sheet = sheet::answers::verify(&record, &a.name, &b.name);
+        return Ok(Answer::new(exit, record, sheet));
     }
     let plan = sample_plan(&a, args.samples, context.seed());
     let options = FkOptions::new().seed(context.seed());
     let found = verify_mapped(a.manipulator(), &second.manipulator, map, &plan, &options)
         .map_err(|e| failure_of(&e))?;
     let record = VerifyAnswer::new(&found, &plan, second.record());
-    let text = format!("{}{}", second.text(), sheet::answers::verify(&record, &a.name, &b.name));
-    Ok(Answer::new(exit_of(&found.verdict), record, text))
+    let sheet = sheet::answers::verify(&record, &a.name, &b.name);
+    Ok(Answer::new(exit_of(&found.verdict), record, sheet))
 }
 
 /// What the verdict means for the exit code.

@@ -2411,7 +2411,7 @@ class LegSlideRecord(Record):
     moved: str
     #: The name of F, the joint that it keeps.
     fixed: str
-    #: t: s' = (1 - t) s_X + t s_Y - t (1 - t) d^2.
+    #: t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
     share: ExactNumberRecord
     #: 1 - t.
     rest: ExactNumberRecord

@@ -1,5 +1,6 @@
 //! The affine map between squared leg lengths.
 
+use super::frames::frames;
 use crate::{Cell, Sheet, Table, left, right};
 use num::shown::fixed;
 use records::{CorrespondenceRecord, MapAnswer, MapRecord, MappedLengthsRecord};
@@ -8,7 +9,8 @@ use synthesis::Relation;
 /// The answer of `equivalents map`, between designs of these names.
 #[must_use]
 pub fn map(answer: &MapAnswer, from: &str, to: &str) -> Sheet {
-    let mut sheet = leg_map(&answer.map, from, to);
+    let mut sheet = frames(&answer.frames);
+    sheet.add(leg_map(&answer.map, from, to));
     if let Some(line) = same_legs(&answer.correspondence) {
         sheet.line(line);
     }

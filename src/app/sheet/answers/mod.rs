@@ -1,38 +1,59 @@
 //! The sheet of each answer, a file an answer; [`document()`] finds the one of a JSON document.
 
 mod assess;
+#[cfg(feature = "lab")]
+mod bench;
+mod calibrate;
 mod check;
 mod compare;
+mod components;
 mod derivation;
 mod document;
 mod drives;
 mod family;
+mod fk;
+mod frames;
 mod legs;
 mod limits;
+mod locus;
 mod map;
 mod motion;
 mod moves;
+mod nearest;
 mod optimize;
 mod round;
+mod self_motion;
+mod singular_poses;
 mod tolerances;
+mod topologies;
 mod verify;
 
 pub use assess::{
     assess, assumptions, requirements, requirements_without_assumptions, sentence,
     table as requirements_table,
 };
+#[cfg(feature = "lab")]
+pub use bench::bench;
+pub use calibrate::calibrate;
 pub use check::check;
 pub use compare::compare;
+pub use components::components;
 pub use derivation::derivation;
 pub use document::{document, heading, words};
 pub use drives::drives;
 pub use family::family;
+pub use fk::fk;
 pub use legs::legs;
 pub use limits::limits;
+pub use locus::locus;
 pub use map::{leg_map, map};
 pub use motion::motion;
 pub use moves::{move_search, moves, wishes_in_words};
+pub use nearest::nearest;
 pub use optimize::{optimize, search, tried_drives};
 pub use round::round;
+pub use self_motion::self_motion;
+pub use singular_poses::singular_poses;
 pub use tolerances::tolerances;
+pub use topologies::topologies;
 pub use verify::verify;

@@ -1,5 +1,6 @@
 //! Whether two designs are kinematically equivalent.
 
+use super::frames::frames;
 use crate::{Sheet, Table, left, right};
 use records::{SampleRecord, VerifyAnswer};
 
@@ -7,6 +8,13 @@ use records::{SampleRecord, VerifyAnswer};
 #[must_use]
 pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
     let mut out = Sheet::new();
+    if v.sampling.is_none() {
+        // no motion was found: the sentence of the alignment is the answer
+        say!(out, "{a} ~ {b}: {}", v.verdict.name());
+        out.add(frames(&v.frames));
+        return out;
+    }
+    out.add(frames(&v.frames));
     say!(out, "{a} ~ {b}: {}\n{}", v.verdict.name(), v.explanation);
     if let Some(polynomial) = &v.map.det_of_shares {
         say!(

@@ -1,7 +1,6 @@
 //! `equipod bench`: random problems of a class, solved, validated by independent code, counted and timed.
 
 mod noise;
-mod render;
 
 use clap::ValueEnum;
 
@@ -104,9 +103,10 @@ pub(crate) fn run(args: &BenchArgs, context: &mut Context) -> Result<Answer, Fai
     }
     let exit = if reports.iter().all(BenchReport::passed) { Exit::Yes } else { Exit::No };
     let name = args.method.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
-    let rows: Vec<_> = reports.iter().map(|r| BenchClassRecord::new(r, &references)).collect();
-    let text = render::text(&rows, &references, context.seed());
-    Ok(Answer::new(exit, BenchAnswer::new(&args.class, &name, rows, &references), text))
+    let rows = reports.iter().map(|r| BenchClassRecord::new(r, &references)).collect();
+    let answer = BenchAnswer::new(&args.class, &name, rows, &references);
+    let sheet = sheet::answers::bench(&answer, context.seed());
+    Ok(Answer::new(exit, answer, sheet))
 }
 
 fn classes(names: &str) -> Result<Vec<Class>, Failure> {

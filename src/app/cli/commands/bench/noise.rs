@@ -1,6 +1,5 @@
 //! `equipod bench --noise`: errors of poses over errors of leg lengths.
 
-use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 
 use super::BenchArgs;
@@ -46,33 +45,9 @@ pub(super) fn run(
     if let Some(path) = &args.svg {
         files::write_text(path, &noise_chart(&figure(&record, seed)))?;
     }
-    let text = text(&record.rows);
-    Ok(Answer::new(Exit::Yes, BenchAnswer::Noise(record), text))
-}
-
-fn text(rows: &[NoiseRowRecord]) -> String {
-    let mut out = format!(
-        "{:<14} {:>7} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-        "class", "sigma", "no pose", "rot 25%", "50%", "75%", "99%", "pos 25%", "50%", "75%", "99%"
-    );
-    for row in rows {
-        for l in &row.levels {
-            let _ = write!(out, "{:<14} {:>7.0e} {:>7}", row.class, l.sigma, l.without_pose);
-            for s in [&l.rotation, &l.position] {
-                match s {
-                    Some(s) => {
-                        for value in [s.lower_quartile, s.median, s.upper_quartile, s.p99] {
-                            let _ = write!(out, " {value:>9.2e}");
-                        }
-                    }
-                    None => out.push_str(&format!(" {:>9}", "-").repeat(4)),
-                }
-            }
-            out.push('\n');
-        }
-    }
-    out.push_str("radians; angle of the rotation, angle of the positions, to the nearest real pose\n");
-    out
+    let answer = BenchAnswer::Noise(record);
+    let sheet = sheet::answers::bench(&answer, seed);
+    Ok(Answer::new(Exit::Yes, answer, sheet))
 }
 
 fn figure(noise: &NoiseAnswer, seed: u64) -> NoiseFigure {

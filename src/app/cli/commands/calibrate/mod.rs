@@ -1,7 +1,5 @@
 //! `equipod calibrate`: joint centres and leg offsets from measured poses and lengths.
 
-mod render;
-
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
@@ -205,7 +203,7 @@ pub(crate) fn run(args: &CalibrateArgs, context: &mut Context) -> Result<Answer,
         next_poses,
         path,
     };
-    let text = render::text(&answer, args.output.is_some());
+    let text = sheet::answers::calibrate(&answer, args.output.is_some());
     Ok(Answer::new(exit_of(outcome), answer, text))
 }
 
@@ -367,6 +365,6 @@ fn plan(
         next_poses: chosen.iter().map(|n| next_record(&candidates[n.candidate], n)).collect(),
         path: None,
     };
-    let text = render::text(&answer, false);
+    let text = sheet::answers::calibrate(&answer, false);
     Ok(Answer::new(Exit::Yes, answer, text))
 }

@@ -47,8 +47,8 @@ pub(crate) fn run(args: &EquivalentsMapArgs, context: &mut Context) -> Result<An
     };
     let (map, correspondence) = ((&outcome).into(), (&legs).into());
     let record = MapAnswer { map, correspondence, lengths, frames: second.record() };
-    let text = format!("{}{}", second.text(), sheet::answers::map(&record, &from.name, &to.name));
-    Ok(Answer::new(exit, record, text))
+    let sheet = sheet::answers::map(&record, &from.name, &to.name);
+    Ok(Answer::new(exit, record, sheet))
 }
 
 /// The lengths that the legs of the second design show where those of the first show these.

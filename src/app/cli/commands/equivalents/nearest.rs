@@ -1,6 +1,5 @@
 //! `equipod equivalents nearest`: the octahedral platform nearest to a design.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::app::cli::commands::optimize::check_extension;
@@ -57,51 +56,6 @@ pub(crate) fn run(args: &EquivalentsNearestArgs, context: &mut Context) -> Resul
     }
     // that no way was found is no proof that there is none
     let exit = if answer.nearest.is_some() { Exit::Yes } else { Exit::Inconclusive };
-    let text = text(&design.units, &answer);
-    Ok(Answer::new(exit, answer, text))
-}
-
-fn text(units: &str, r: &NearestAnswer) -> String {
-    let mut text = format!("{}: {}\n", r.name, r.explanation);
-    let Some(n) = &r.nearest else { return text };
-    let _ = writeln!(
-        text,
-        "\nleg  side       offset  base joint moves [{units}]  platform joint moves [{units}]"
-    );
-    for leg in 0..6 {
-        let side = n.order.iter().position(|l| *l == leg + 1).unwrap_or(0);
-        let [base, platform] = n.displacements[leg];
-        let _ = writeln!(
-            text,
-            "{:>3}  {:>4}  {:>11.6}  {:>16.6}  {:>20.6}",
-            leg + 1,
-            side + 1,
-            n.offsets[side].0,
-            base.0,
-            platform.0
-        );
-    }
-    let _ = writeln!(
-        text,
-        "\nlargest displacement {:.6} {units}, root of the mean square {:.6} {units}; det A = {:.6}\n\
-         leg {} differs most in length: {:.6} {units} at {} ({} poses of the {} workspace)",
-        n.largest_displacement.0,
-        n.rms_displacement.0,
-        n.det.0,
-        n.deviating_leg,
-        n.largest_length_deviation.0,
-        n.deviating_pose.short(),
-        n.poses,
-        if n.workspace_from == records::SourceWord::Design { "design's" } else { "default" }
-    );
-    if !n.settled {
-        text.push_str("the fit has not settled: there are nearer platforms\n");
-    }
-    if n.set_aside > 0 {
-        let _ = writeln!(text, "{} nearer way(s) were set aside: they make no regular platform", n.set_aside);
-    }
-    for path in &r.paths {
-        let _ = writeln!(text, "wrote {path}");
-    }
-    text
+    let sheet = sheet::answers::nearest(&design.units, &answer);
+    Ok(Answer::new(exit, answer, sheet))
 }

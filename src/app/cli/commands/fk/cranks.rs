@@ -3,11 +3,10 @@
 //! With the cranks at these angles their tips are base joints and the rods legs of known lengths: what is solved and
 //! certified is the platform on the tips, rounded to doubles.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use super::near::{self, TrackedMachine};
-use super::{FkArgs, PoseTable, exit_of, failure_of, render, threads};
+use super::{FkArgs, PoseTable, answered, exit_of, failure_of, threads};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -66,7 +65,7 @@ pub(super) fn run(
     // a line of the command has no number, those of a table count from 1
     let one = series.rows.len() == 1 && series.rows[0].line == 0;
     let machine = CrankMachine { design, platform, home: poses::home(design), seed: context.seed() };
-    let (exits, outcomes, mut text) = if let Some(start) = &args.near {
+    let (exits, outcomes) = if let Some(start) = &args.near {
         context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
         let start = poses::parse(start, design, "--near", "fk::bad_pose")?;
         machine.follow(&series.rows, &start)?
@@ -90,55 +89,11 @@ pub(super) fn run(
             Ok((_, answer)) => FkRowOutcome::Solved(Box::new(answer)),
             Err(failure) => FkRowOutcome::Failed(RowFailure { error: (&failure).into() }),
         };
-        (exits, solved.into_iter().map(outcome).collect(), String::new())
+        (exits, solved.into_iter().map(outcome).collect())
     };
     let exit = exits.into_iter().fold(Exit::Yes, Exit::max);
     let answer = machine.answer(one, &series.rows, outcomes);
-    match &answer {
-        FkAnswer::One(answer) => {
-            text.push_str(&render::text(&design.name, &answer.solved));
-            text.push_str(&render::elbows(&answer.solved));
-            text.push_str(&beyond_limits(answer, ""));
-            text.push_str(&symmetric(answer));
-        }
-        FkAnswer::Rows(answer) => {
-            if args.near.is_none() {
-                text.push_str("line  method         finite  real  complete\n");
-                text.extend(answer.rows.iter().map(render::table_row));
-            }
-            for row in &answer.rows {
-                if let FkRowOutcome::Solved(answer) = &row.outcome {
-                    text.push_str(&beyond_limits(answer, &format!("line {}: ", row.line)));
-                }
-            }
-        }
-    }
-    let text = table.text(design, &answer).unwrap_or(text);
-    Ok(Answer::new(exit, answer, text))
-}
-
-/// The cranks that are beyond their limits at the angles given, with words before them; nothing where there are none.
-fn beyond_limits(answer: &FkOneAnswer, before: &str) -> String {
-    let legs: Vec<String> = answer.outside.iter().map(ToString::to_string).collect();
-    if legs.is_empty() {
-        return String::new();
-    }
-    let (crank, is) = if legs.len() == 1 { ("crank of leg", "is") } else { ("cranks of legs", "are") };
-    format!("{before}the {crank} {} {is} beyond `angle_deg`\n", legs.join(", "))
-}
-
-/// What a theorem says of symmetric tips.
-fn symmetric(answer: &FkOneAnswer) -> String {
-    let Some(count) = answer.symmetric_finite else { return String::new() };
-    let certified = answer.solved.solutions.iter().filter(|s| s.certified).count();
-    let listed = if certified == count {
-        "that many are certified here; poses that the tips as doubles have besides are due to rounding"
-    } else {
-        "not all of them are certified here"
-    };
-    format!(
-        "Tips and joints have the symmetry of three turns, to rounding: the exactly symmetric platform has {count} finite poses, and {listed}.\n"
-    )
+    Ok(answered(exit, answer, design, &table))
 }
 
 /// A machine with cranks, of which poses are asked for.
@@ -174,18 +129,13 @@ impl CrankMachine<'_> {
         &self,
         rows: &[SeriesRow<AnglesDeg>],
         start: &Pose,
-    ) -> Result<(Vec<Exit>, Vec<FkRowOutcome>, String), Failure> {
+    ) -> Result<(Vec<Exit>, Vec<FkRowOutcome>), Failure> {
         let angles = self.platform.ik(start).map_err(|why| {
             Failure::refused("fk::bad_pose", format!("--near: the cranks do not hold this pose: {why}"))
                 .with_help("give a pose that `equipod ik` finds angles for")
         })?;
         let mut tracker = RotaryTracker::new(self.platform.clone(), *start, angles);
-        let one = rows.len() == 1 && rows[0].line == 0;
         let (mut exits, mut outcomes) = (Vec::new(), Vec::new());
-        let mut text = String::new();
-        if !one {
-            text.push_str("line  outcome           segments  inverse condition  position\n");
-        }
         for row in rows {
             let from = tracker.pose();
             let angles = row.value.map(f64::to_radians);
@@ -201,14 +151,9 @@ impl CrankMachine<'_> {
             record.solved = record.solved.with_elbows(self.platform, &angles);
             record = record.with_angles(self.platform, &angles, row.value);
             exits.push(near::exit_of(&outcome));
-            if one {
-                text.push_str(&near::sentence(&machine, &outcome));
-            } else {
-                let _ = writeln!(text, "{}", near::line(row.line, &machine, &outcome));
-            }
             outcomes.push(FkRowOutcome::Solved(Box::new(record)));
         }
-        Ok((exits, outcomes, text))
+        Ok((exits, outcomes))
     }
 
     fn answer(&self, one: bool, rows: &[SeriesRow<AnglesDeg>], outcomes: Vec<FkRowOutcome>) -> FkAnswer {

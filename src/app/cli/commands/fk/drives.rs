@@ -5,11 +5,10 @@ use super::lengths::{GivenLengths, ShownLengths};
 use super::near::{self, Proof, TrackedMachine, TrackedRow};
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
-use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use ask::Design;
 use fk::{NearWord, Reality};
-use machine::coupled::{CoupledLegs, CoupledOutcome, CoupledStatus, CoupledTracker};
+use machine::coupled::{CoupledLegs, CoupledStatus, CoupledTracker};
 use platform::geom::Pose;
 use platform::manipulator::LegLengths;
 use records::DriveSolutionRecord;
@@ -36,16 +35,13 @@ pub(super) fn run(
 ) -> Answer {
     let machine = TrackedMachine::of(design);
     let mut tracker = CoupledTracker::new(legs, start);
-    near::followed(design, given, table, "line  position, and what is proved of it", |drives, number| {
-        one(&machine, &mut tracker, drives, number, seed)
-    })
+    near::followed(design, given, table, |drives| one(&machine, &mut tracker, drives, seed))
 }
 
 fn one(
     machine: &TrackedMachine<'_>,
     tracker: &mut CoupledTracker,
     given: &ShownLengths,
-    number: usize,
     seed: u64,
 ) -> TrackedRow {
     let from = tracker.pose();
@@ -65,30 +61,7 @@ fn one(
     {
         (near.outcome, near.reason) = (NearWord::Lost, Some(why.clone()));
     }
-    let sentence = sentence(&found, &solution);
     record.drives = Some(solution);
     let exit = if matches!(found.status, CoupledStatus::Proved(_)) { Exit::Yes } else { Exit::Inconclusive };
-    TrackedRow { exit, record, line: format!("{number:>4}  {sentence}"), sentence: sentence + "\n" }
-}
-
-fn sentence(found: &CoupledOutcome, solution: &DriveSolutionRecord) -> String {
-    let at = listed(found.near.pose().position.iter().copied(), 6);
-    match found.status {
-        CoupledStatus::Proved(bound) => format!(
-            "{at}: proved, the pose with these lengths of drives is within {:.1e} and {:.1e} degrees; {} step(s)",
-            bound.position,
-            bound.angle.to_degrees(),
-            found.steps
-        ),
-        CoupledStatus::Unproved => {
-            format!(
-                "{at}: UNPROVED, the corrections settled after {} step(s) and no bound of the error is proved",
-                found.steps
-            )
-        }
-        _ => {
-            let why = solution.reason.as_deref().unwrap_or_default();
-            format!("NO POSE after {} step(s): {why}; factor {:.2}", found.steps, found.factor)
-        }
-    }
+    TrackedRow { exit, record }
 }

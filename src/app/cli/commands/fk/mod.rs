@@ -5,7 +5,8 @@ mod csv;
 mod drives;
 pub(super) mod lengths;
 mod near;
-mod render;
+#[cfg(test)]
+mod tests;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -120,7 +121,6 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             let solutions = solve(method, m, &l.distances, &options)?;
             let exit = exit_of(&solutions);
             let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &home));
-            let mut text = render::text(&design.name, &answer.solved);
             let squares = l.distances.squared();
             let closure = match between {
                 Some(pair) => Some(fk::closure_between(m, &squares, &solutions, pair)),
@@ -128,21 +128,15 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
                 None => None,
             };
             if let Some(closure) = closure {
-                let found = ClosureRecord::new(&design, &closure);
-                text.push_str(&render::closure(&found));
-                answer.closure = Some(found);
+                answer.closure = Some(ClosureRecord::new(&design, &closure));
             }
-            let answer = FkAnswer::One(Box::new(answer));
-            let text = table.text(&design, &answer).unwrap_or(text);
-            Ok(Answer::new(exit, answer, text))
+            Ok(answered(exit, FkAnswer::One(Box::new(answer)), &design, &table))
         }
         GivenLengths::Rows(series) => {
             context.no_effect("between", "a polynomial belongs to one set of lengths")?;
             let table = PoseTable { time_name: series.time_name, ..table };
-            let (exit, answer, text) =
-                many(method, (m, &home), &series.rows, &options, threads(args.threads));
-            let text = table.text(&design, &answer).unwrap_or(text);
-            Ok(Answer::new(exit, answer, text))
+            let (exit, answer) = many(method, (m, &home), &series.rows, &options, threads(args.threads));
+            Ok(answered(exit, answer, &design, &table))
         }
     }
 }
@@ -162,6 +156,13 @@ fn pair(text: &str, design: &Design) -> Result<(usize, usize), Failure> {
     })
 }
 
+/// The answer with its table, or with its sheet where no table was asked for.
+fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) -> Answer {
+    let sheet = || sheet::answers::fk(&design.name, &design.units, &answer).to_string();
+    let text = table.text(design, &answer).unwrap_or_else(sheet);
+    Answer::new(exit, answer, text)
+}
+
 fn threads(asked: Option<u16>) -> Threads {
     asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
 }
@@ -173,17 +174,15 @@ fn many(
     rows: &[lengths::Row],
     options: &FkOptions,
     threads: Threads,
-) -> (Exit, FkAnswer, String) {
+) -> (Exit, FkAnswer) {
     let squares: Vec<_> = rows.iter().map(|row| row.value.distances.squared()).collect();
     let solver = fk::solver(method);
     let results = fk::solve_batch(solver.as_ref(), m, &squares, options, threads);
     // forty poses with all their numbers take as long to put into records as to find
     let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i], (m, home)));
     let exit = solved.iter().map(|(exit, _)| *exit).fold(Exit::Yes, Exit::max);
-    let rows: Vec<FkRowRecord> = solved.into_iter().map(|(_, record)| record).collect();
-    let mut text = String::from("line  method         finite  real  complete\n");
-    text.extend(rows.iter().map(render::table_row));
-    (exit, FkAnswer::Rows(FkRowsAnswer { rows }), text)
+    let rows = solved.into_iter().map(|(_, record)| record).collect();
+    (exit, FkAnswer::Rows(FkRowsAnswer { rows }))
 }
 
 /// Exit code and record of one row.

@@ -1,11 +1,8 @@
 //! `equipod fk --near POSE`: one pose followed, or a trajectory row by row.
 
-use std::fmt::Write as _;
-
 use super::lengths::{GivenLengths, ShownLengths};
-use super::{PoseTable, render};
+use super::{PoseTable, answered};
 use crate::app::cli::exit::Exit;
-use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ask::Design;
@@ -40,36 +37,26 @@ impl<'a> TrackedMachine<'a> {
 pub(super) struct TrackedRow {
     pub(super) exit: Exit,
     pub(super) record: FkOneAnswer,
-    /// What people are told of it before the list of poses, with the ends of its lines.
-    pub(super) sentence: String,
-    /// The same in a table for many rows.
-    pub(super) line: String,
 }
 
-/// The answer about one set of lengths, or about each row of a table in turn; `step` is given the lengths and the
-/// number of their line.
+/// The answer about one set of lengths, or about each row of a table in turn.
 pub(super) fn followed(
     design: &Design,
     given: &GivenLengths,
     table: &PoseTable,
-    titles: &str,
-    mut step: impl FnMut(&ShownLengths, usize) -> TrackedRow,
+    mut step: impl FnMut(&ShownLengths) -> TrackedRow,
 ) -> Answer {
     match given {
         GivenLengths::One(l) => {
-            let TrackedRow { exit, record, sentence, .. } = step(l, 0);
-            let text = format!("{sentence}{}", render::text(&design.name, &record.solved));
-            let record = FkAnswer::One(Box::new(record));
-            let text = table.text(design, &record).unwrap_or(text);
-            Answer::new(exit, record, text)
+            let TrackedRow { exit, record } = step(l);
+            answered(exit, FkAnswer::One(Box::new(record)), design, table)
         }
         GivenLengths::Rows(series) => {
-            let (mut exit, mut text) = (Exit::Yes, format!("{titles}\n"));
+            let mut exit = Exit::Yes;
             let mut rows = Vec::with_capacity(series.rows.len());
             for row in &series.rows {
-                let found = step(&row.value, row.line);
+                let found = step(&row.value);
                 exit = exit.max(found.exit);
-                let _ = writeln!(text, "{}", found.line);
                 rows.push(FkRowRecord {
                     line: row.line,
                     time: row.time,
@@ -78,10 +65,8 @@ pub(super) fn followed(
                     outcome: FkRowOutcome::Solved(Box::new(found.record)),
                 });
             }
-            let record = FkAnswer::Rows(FkRowsAnswer { rows });
             let table = PoseTable { time_name: series.time_name.clone(), ..*table };
-            let text = table.text(design, &record).unwrap_or(text);
-            Answer::new(exit, record, text)
+            answered(exit, FkAnswer::Rows(FkRowsAnswer { rows }), design, &table)
         }
     }
 }
@@ -97,44 +82,17 @@ pub(super) fn run(
     let (solver, machine) = (NearSolver::new(design.manipulator()), TrackedMachine::of(design));
     let known = design.machine_uncertainty();
     let mut from = start;
-    followed(
-        design,
-        given,
-        table,
-        "line  outcome           segments  inverse condition  position",
-        |given, number| {
-            let lengths = &given.distances;
-            let outcome = solver.solve(&lengths.squared(), &from);
-            let mut record = record(&machine, lengths, &from, &outcome, seed);
-            let uncertainty =
+    followed(design, given, table, |given| {
+        let lengths = &given.distances;
+        let outcome = solver.solve(&lengths.squared(), &from);
+        let mut record = record(&machine, lengths, &from, &outcome, seed);
+        if let Some(near) = &mut record.near {
+            near.uncertainty =
                 known.as_ref().and_then(|known| PoseUncertaintyRecord::at(design, known, outcome.pose()));
-            let mut sentence = sentence(&machine, &outcome);
-            if let Some(found) = &uncertainty {
-                let _ = writeln!(
-                    sentence,
-                    "standard deviations by what the calibration does not know: {:.3e} {} and {:.3e} degrees",
-                    found.position.0, design.units, found.rotation_deg.0
-                );
-            }
-            if let Some(near) = &mut record.near {
-                near.uncertainty = uncertainty;
-            }
-            from = outcome.tracked().copied().unwrap_or(from);
-            TrackedRow { exit: exit_of(&outcome), record, sentence, line: line(number, &machine, &outcome) }
-        },
-    )
-}
-
-/// One line of the table for many rows.
-pub(super) fn line(number: usize, machine: &TrackedMachine<'_>, outcome: &NearOutcome) -> String {
-    let e = outcome.evidence();
-    format!(
-        "{number:>4}  {:<16}  {:>8}  {:>17.3e}  {}",
-        outcome.name(),
-        e.segments,
-        conditioning(machine, outcome),
-        listed(outcome.pose().position.iter().copied(), 6)
-    )
+        }
+        from = outcome.tracked().copied().unwrap_or(from);
+        TrackedRow { exit: exit_of(&outcome), record }
+    })
 }
 
 pub(super) fn exit_of(outcome: &NearOutcome) -> Exit {
@@ -220,27 +178,4 @@ pub(super) fn record_with(
 /// The inverse condition number of the Jacobian at the pose reached.
 fn conditioning(machine: &TrackedMachine<'_>, outcome: &NearOutcome) -> f64 {
     inverse_condition(&jacobian(machine.m, outcome.pose(), machine.characteristic_length))
-}
-
-/// One line for people, before the list of poses.
-pub(super) fn sentence(machine: &TrackedMachine<'_>, outcome: &NearOutcome) -> String {
-    let e = outcome.evidence();
-    match outcome {
-        NearOutcome::Tracked { .. } => format!(
-            "tracked in {} segment(s), {} Newton steps; moved by {:.6} and {:.4} degrees; inverse condition {:.2e}\n",
-            e.segments,
-            e.newton_steps,
-            e.distance,
-            e.angle.to_degrees(),
-            conditioning(machine, outcome)
-        ),
-        NearOutcome::NearSingularity { fraction, .. } => format!(
-            "NEAR A SINGULARITY: stopped after {:.4} % of the way, inverse condition {:.2e}\n",
-            100.0 * fraction,
-            conditioning(machine, outcome)
-        ),
-        NearOutcome::Lost { fraction, reason, .. } => {
-            format!("LOST after {:.4} % of the way: {reason}\n", 100.0 * fraction)
-        }
-    }
 }

@@ -1,7 +1,6 @@
 //! `equipod equivalents components`: the families of replaceable legs of a design.
 
 mod figure;
-mod text;
 
 use std::path::PathBuf;
 
@@ -86,8 +85,8 @@ pub(crate) fn run(args: &EquivalentsComponentsArgs, context: &mut Context) -> Re
     let list = list.map(|(k, s)| ComponentRecord::new(*k, &found.components[*k], s)).collect();
     let answer = ComponentsAnswer::new(&design.name, options.tolerance, &found, list);
     let exit = if found.doubts.is_empty() { Exit::Yes } else { Exit::Inconclusive };
-    let text = text::table(&design, &found, &wanted, &samples);
-    Ok(Answer::new(exit, answer, text))
+    let sheet = sheet::answers::components(&answer);
+    Ok(Answer::new(exit, answer, sheet))
 }
 
 /// Family `k` draws from a stream of its own: `--family` does not change what is drawn.

@@ -3,7 +3,6 @@
 mod rearrangements;
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use nalgebra::Point3;
@@ -91,8 +90,8 @@ pub(crate) fn run(args: &EquivalentsTopologiesArgs, context: &mut Context) -> Re
         topologies: entries.iter().map(record).collect(),
         rearrangements: moved.map(|list| list.iter().map(RearrangementRecord::from).collect()),
     };
-    let text = text(&answer);
-    Ok(Answer::new(exit, answer, text))
+    let sheet = sheet::answers::topologies(&answer);
+    Ok(Answer::new(exit, answer, sheet))
 }
 
 fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<TopologyEntry, Failure> {
@@ -128,38 +127,6 @@ fn record(e: &TopologyEntry) -> TopologyRecord {
         closure: e.closure.as_ref(),
     })
         .into()
-}
-
-fn text(r: &TopologiesAnswer) -> String {
-    let mut text = String::new();
-    if let Some(d) = &r.design {
-        let turned = if d.exchanged { ", base and platform exchanged" } else { "" };
-        let _ = writeln!(text, "{}: {} {}{turned}\n", d.name, d.id, d.topology);
-    }
-    text.push_str(
-        "id   name  legs                                    poses  proved  closure degree  virtual legs\n",
-    );
-    for t in &r.topologies {
-        let joined = |pairs: &[[String; 2]]| pairs.iter().map(|p| p.concat()).collect::<Vec<_>>().join(" ");
-        let closure = t.closure_degree.zip(t.closure_degree_before);
-        let _ = writeln!(
-            text,
-            "{:<4} {:<5} {:<39} {:>5}  {:<6}  {:<14}  {}{}{}",
-            t.id,
-            t.name,
-            joined(&t.legs),
-            t.finite_roots,
-            if t.finite_roots_proved { "yes" } else { "no" },
-            closure.map_or("-".to_string(), |(degree, before)| format!("{degree} from {before}")),
-            t.virtual_legs,
-            if t.virtual_legs == 0 { String::new() } else { format!(": {}", joined(&t.virtual_leg_joints)) },
-            if t.decoupled { " (decoupled)" } else { "" },
-        );
-    }
-    if let Some(list) = &r.rearrangements {
-        rearrangements::table(&mut text, list);
-    }
-    text
 }
 
 fn figure(e: &TopologyEntry) -> TopologyFigure {

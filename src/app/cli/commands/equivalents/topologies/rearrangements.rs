@@ -1,6 +1,5 @@
 //! What equivalent rearrangement can do for the topologies that are listed.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::app::cli::failure::Failure;
@@ -8,32 +7,12 @@ use crate::app::cli::files;
 use ask::Design;
 use platform::manipulator::default_home;
 use platform::topology::NamedTopology;
-use records::RearrangementRecord;
 use synthesis::rearrangement::{Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement};
 
 /// All cases of these topologies.
 pub(super) fn cases(list: &[NamedTopology]) -> Result<Vec<Rearrangement>, Failure> {
     let all = list.iter().flat_map(|t| PlanarBodies::of(*t).into_iter().map(|planar| (*t, planar)));
     all.map(|(t, planar)| rearrangement(t, planar).map_err(|e| Failure::internal(e.to_string()))).collect()
-}
-
-/// The table in words.
-pub(super) fn table(text: &mut String, list: &[RearrangementRecord]) {
-    text.push_str("\nid   name  base   platform  shared joints  merged ends  octahedral         families of replaceable legs\n");
-    for r in list {
-        let _ = writeln!(
-            text,
-            "{:<4} {:<5} {:<6} {:<9} {:<14} {:<12} {:<18} {}",
-            r.id,
-            r.name,
-            r.base,
-            r.platform,
-            format!("{} -> {}", r.shared_joints, r.fewest_shared_joints),
-            format!("{} -> {}", r.merged_ends, r.fewest_merged_ends),
-            r.octahedral_reason.as_deref().unwrap_or("yes"),
-            r.family_names,
-        );
-    }
 }
 
 /// Writes the member, the equivalent design with fewest shared joints, and the octahedral one where there is one.

@@ -120,7 +120,7 @@ pub(super) fn run(
     }
     let exit = if rows.iter().all(Row::complete) { Exit::Yes } else { Exit::Inconclusive };
     let text = match output {
-        Some(path) => format!("{}\n{}", path.display(), render::text(name, &record)),
+        Some(path) => format!("{}\n{}", path.display(), sheet::answers::locus(name, &record)),
         None => found.picture(),
     };
     Ok(Answer::new(exit, record, text))

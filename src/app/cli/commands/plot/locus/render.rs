@@ -1,4 +1,4 @@
-//! Picture, table, JSON and text of a locus.
+//! Picture, table and JSON of a locus.
 
 use std::fmt::Write as _;
 
@@ -80,32 +80,4 @@ pub(super) fn record(leg: u8, between: &VirtualLeg, rows: &[Row], steps: &[Locus
         rows: rows.iter().enumerate().map(row).collect(),
         meetings: locus_meetings(steps),
     }
-}
-
-pub(super) fn text(name: &str, r: &LocusAnswer) -> String {
-    let [base, platform] = &r.between;
-    let mut out = format!(
-        "{name}: squared distance of {base} and {platform} while the length of leg {} varies\n\n\
-         lengths              poses  real  status\n",
-        r.leg
-    );
-    // lengths in a row with the same numbers are one line
-    let key = |r: &LocusRowRecord| {
-        let real = r.values.iter().filter(|v| v.real == Some(true)).count();
-        (r.values.len(), real, r.status, r.all_paths_accounted)
-    };
-    for group in r.rows.chunk_by(|a, b| key(a) == key(b)) {
-        let (poses, real, status, complete) = key(&group[0]);
-        let ends = (group[0].length.0, group[group.len() - 1].length.0);
-        let doubt = if complete { "" } else { " (poses may be missing)" };
-        let _ =
-            writeln!(out, "{:>9.5} {:>9.5}  {poses:>5}  {real:>4}  {}{doubt}", ends.0, ends.1, status.name());
-    }
-    if !r.meetings.is_empty() {
-        out.push_str("\ndouble values on the real axis, about:\n   length      value\n");
-        for m in &r.meetings {
-            let _ = writeln!(out, "{:>9.5}  {:>9.5}", m.length, m.value);
-        }
-    }
-    out
 }

@@ -1,8 +1,7 @@
-//! Self-motions as text, JSON and CSV.
+//! Self-motions as JSON and CSV.
 
 use std::fmt::Write as _;
 
-use crate::app::cli::numbers::listed;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ask::{Design, MotionOrigin, SelfMotionReport};
@@ -42,111 +41,8 @@ pub(super) fn answer(design: &Design, found: &SelfMotionReport, degrees: &[Optio
             .map(|(c, d)| MotionCurveRecord::new(c, d.as_ref(), found.origins.get(c.start).copied()))
             .collect(),
     };
-    let text = text(&record);
-    Answer::new(found.moves().into(), record, text)
-}
-
-fn text(r: &SelfmotionAnswer) -> String {
-    let mut out = format!("{}\n", r.name);
-    let _ = writeln!(out, "{}", verdict(r));
-    if let (Some(d), None) = (r.dimension.filter(|d| *d > 1), &r.start) {
-        let count = r.real_poses.len();
-        let _ = writeln!(out, "real poses found on the set of dimension {d}: {count}; it was not followed");
-        for pose in &r.real_poses {
-            let (p, q) = (pose.position.map(|x| x.0), pose.quaternion.map(|x| x.0));
-            let _ = writeln!(out, "  p = {}  q = {}", listed(p, 6), listed(q, 6));
-        }
-    }
-    for (k, curve) in r.curves.iter().enumerate() {
-        let arc = curve.points.last().map_or(0.0, |p| p.arc);
-        let _ = write!(
-            out,
-            "curve {}: {} poses, length {arc:.6} in (e, g / size), {}, {} crossings",
-            k + 1,
-            curve.points.len(),
-            curve.end,
-            curve.crossings.len()
-        );
-        let _ = match &curve.degree {
-            Some(d) if d.complete => {
-                write!(out, ", degree {} (trace test {:.1e})", d.degree, d.defect)
-            }
-            Some(d) => write!(out, ", degree at least {}", d.degree),
-            None => Ok(()),
-        };
-        let origin = curve.found_by.map_or("", MotionOrigin::name);
-        let _ = writeln!(out, ", found from a {}", origin.replace('_', " "));
-    }
-    if !r.curves.is_empty() {
-        let _ = writeln!(
-            out,
-            "leg lengths constant to {:.1e} of the size; {} crossings; {} further starting poses tried",
-            r.worst_length_error.0,
-            r.crossings.len(),
-            r.further_starts
-        );
-    }
-    if let (Some(c), Some(components)) = (&r.critical_points, &r.complex_components) {
-        let degrees: Vec<String> = components.iter().map(|d| d.degree.to_string()).collect();
-        let _ = writeln!(
-            out,
-            "over the complex numbers: irreducible curves of degrees {}; {} paths to critical points, {} lost",
-            degrees.join(", "),
-            c.paths,
-            c.lost
-        );
-    }
-    match r.components_accounted {
-        Some(true) => out.push_str("every real component is accounted for (numerically, no proof)\n"),
-        Some(false) => out.push_str("real components may be missing\n"),
-        None if r.dimension.is_some_and(|d| d > 1) => {
-            out.push_str("no curve was followed: the poses form a surface or more\n");
-        }
-        None => {}
-    }
-    out
-}
-
-/// Whether the platform moves, and what shows it.
-fn verdict(r: &SelfmotionAnswer) -> String {
-    let freedoms = |d: usize| if d == 1 { "1 freedom".to_string() } else { format!("{d} freedoms") };
-    let first = r.tangent_dimension.unwrap_or(0);
-    match (r.dimension, r.evidence) {
-        (Some(0), MotionEvidenceWord::FirstOrder) => format!(
-            "no self-motion at this pose: proved, the six leg lines are independent (singular values {:.1e} to 1)",
-            r.singular_values[7].0 / r.singular_values[0].0
-        ),
-        (Some(0), MotionEvidenceWord::SecondOrder) => {
-            let [radius, within] = r.isolated.map_or([0.0; 2], |i| [i.radius.0, i.within.0]);
-            format!(
-                "no self-motion at this pose: proved to second order. The leg lines leave {}, and the legs stop it.\n\
-                 every pose with these lengths within {radius:.1e} of the pose lies within {within:.1e} of it (sizes and radians)",
-                freedoms(first)
-            )
-        }
-        (Some(0), _) => "no curve of poses with these lengths was found".to_string(),
-        (Some(d), MotionEvidenceWord::ConstantRank) => format!(
-            "the platform moves at this pose with {}: proved, the leg lines have rank {} at all poses around it",
-            freedoms(d),
-            6 - d
-        ),
-        (Some(d), MotionEvidenceWord::Traced) => {
-            let stretch = "found by tracing, no proof";
-            format!(
-                "the platform moves at this pose with {}: {stretch}; the leg lines leave {first}",
-                freedoms(d)
-            )
-        }
-        (Some(1), _) if r.curves.is_empty() => {
-            "the complex poses with these lengths form curves; no real pose on them was found".to_string()
-        }
-        (Some(1), _) => "poses with these lengths form curves".to_string(),
-        (Some(d), _) => format!("poses with these lengths form a set of dimension {d}"),
-        (None, _) => format!(
-            "undecided: the leg lines leave {} at this pose. Tracing found no motion, and no argument of second order excludes one",
-            freedoms(first)
-        ),
-    }
+    let sheet = sheet::answers::self_motion(&record);
+    Answer::new(found.moves().into(), record, sheet)
 }
 
 /// Starting poses beside the one given.

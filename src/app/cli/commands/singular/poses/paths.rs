@@ -10,8 +10,7 @@ use ::files::plot::{AlongFigure, AlongPart, sign_along};
 use ask::{Design, SignPath, SignsBetween, SingularPosesReport};
 use platform::geom::Pose;
 use records::{
-    Number, PoseQuaternionRecord, SignOutcome, SignPairRecord, SignPairsRecord, SignPartRecord,
-    SignPathRecord, WayRecord,
+    Number, PoseQuaternionRecord, SignPairRecord, SignPairsRecord, SignPartRecord, SignPathRecord, WayRecord,
 };
 use synthesis::singularity::{Sign, SignsAlong};
 
@@ -94,57 +93,4 @@ pub(super) fn pairs_record(between: &SignsBetween) -> SignPairsRecord {
         groups: groups.collect(),
         ways: between.joined.ways.iter().map(WayRecord::from).collect(),
     }
-}
-
-/// What det J does along a path, in words.
-pub(super) fn path_text(r: &SignPathRecord) -> String {
-    let mut out = format!("path from mode {} to mode {} (0 is the pose):\n", r.from, r.to);
-    for (k, part) in r.parts.iter().enumerate() {
-        let _ = writeln!(out, "  part {}", k + 1);
-        for p in &part.pieces {
-            let told = match p.sign.0 {
-                Some(sign) if sign > 0 => "det J > 0, proved",
-                Some(_) => "det J < 0, proved",
-                None if p.singular => "a singular pose, proved by a change of sign",
-                None => "det J vanishes or nearly so",
-            };
-            let _ = writeln!(out, "    {:<14} to {:<14} {told}", p.from.0, p.to.0);
-        }
-    }
-    out
-}
-
-/// Which modes are joined, in words.
-pub(super) fn pairs_text(r: &SignPairsRecord) -> String {
-    let n = r.signs.len();
-    let mut out = String::from(
-        "straight paths between modes: = det J keeps its sign (proved), x changes it (proved), ? neither proved\n     ",
-    );
-    for j in 1..=n {
-        let _ = write!(out, "{j:>3}");
-    }
-    for i in 1..=n {
-        let _ = write!(out, "\n  {i:>3}");
-        for j in 1..=n {
-            let found = r.pairs.iter().find(|s| s.modes == [i.min(j), i.max(j)]);
-            let mark = match found.map(|s| s.straight) {
-                None => ".",
-                Some(SignOutcome::KeepsSign) => "=",
-                Some(SignOutcome::Crosses) => "x",
-                Some(SignOutcome::Undecided) => "?",
-            };
-            let _ = write!(out, "{mark:>3}");
-        }
-    }
-    out.push_str("\nmodes joined by paths without singular pose (proved):\n");
-    for group in &r.groups {
-        let sign = match group.first().and_then(|k| r.signs.get(k - 1)?.0) {
-            Some(sign) if sign > 0 => "det J > 0",
-            Some(_) => "det J < 0",
-            None => "sign not proved",
-        };
-        let names: Vec<String> = group.iter().map(ToString::to_string).collect();
-        let _ = writeln!(out, "  {sign}: {}", names.join(", "));
-    }
-    out
 }

@@ -1,19 +1,16 @@
-//! A calibration as text.
+//! Joint centres and leg offsets from measurements, or poses to measure.
 
-use std::fmt::Write as _;
-
+use crate::{Sheet, Table, left, right};
 use machine::calibration::{NoiseSource, StartName};
-use num::shown::fixed;
-use num::shown::significant;
-use records::{
-    CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationRecord, Number, ResidualsRecord,
-};
+use num::shown::{fixed, significant};
+use records::{CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationRecord, ResidualsRecord};
 
 /// Unobservable changes that are written out.
 const CHANGES: usize = 12;
 
-/// The outcome, the machine, and what says how far to trust it.
-pub(super) fn text(answer: &CalibrateAnswer, wanted: bool) -> String {
+/// The answer of `calibrate`; whether a design was to be written.
+#[must_use]
+pub fn calibrate(answer: &CalibrateAnswer, wanted: bool) -> Sheet {
     let word = match answer.outcome {
         CalibrateOutcome::Calibrated => "calibrated",
         CalibrateOutcome::NotIdentifiable => "not identifiable",
@@ -21,7 +18,8 @@ pub(super) fn text(answer: &CalibrateAnswer, wanted: bool) -> String {
         CalibrateOutcome::Undecided => "undecided",
         CalibrateOutcome::Planned => "planned",
     };
-    let mut out = format!("{}: {word}: {}\n", answer.name, answer.reason);
+    let mut out = Sheet::new();
+    say!(out, "{}: {word}: {}", answer.name, answer.reason);
     let units = &answer.units;
     if let Some(found) = &answer.calibration {
         facts(&mut out, found, units);
@@ -30,41 +28,33 @@ pub(super) fn text(answer: &CalibrateAnswer, wanted: bool) -> String {
         doubts(&mut out, found, units);
     }
     if !answer.next_poses.is_empty() {
-        let _ = writeln!(
+        say!(
             out,
             "\nposes to measure {}: x, y, z ({units}), roll, pitch, yaw (deg); factor of the deviations; greatest one after it",
             if answer.calibration.is_some() { "next" } else { "first" }
         );
+        let columns = (0..6).map(|k| right("", if k < 3 { 10 } else { 9 }));
+        let mut table = Table::new(columns.chain([right("", 0).gap(2), left("", 0).gap(2)]));
         for next in &answer.next_poses {
-            let pose: Vec<String> = next
-                .pose
-                .position
-                .iter()
-                .map(|x| format!("{:>10}", fixed(x.0, 3)))
-                .chain(next.rpy_deg.iter().map(|x| format!("{:>9}", fixed(x.0, 3))))
-                .collect();
-            let _ = writeln!(
-                out,
-                "{}  {:.4}  {}",
-                pose.join(" "),
-                next.shrinks.0,
-                significant(next.greatest_deviation.0)
-            );
+            let numbers = next.pose.position.iter().chain(&next.rpy_deg).map(|x| fixed(x.0, 3));
+            let gains = [format!("{:.4}", next.shrinks.0), significant(next.greatest_deviation.0)];
+            table.row(numbers.chain(gains));
         }
+        out.table(table);
     }
     match &answer.path {
         Some(path) => {
-            let _ = writeln!(out, "wrote {path}");
+            say!(out, "wrote {path}");
         }
-        None if wanted => out.push_str("no design was written\n"),
+        None if wanted => out.line("no design was written"),
         None => {}
     }
     out
 }
 
-fn facts(out: &mut String, found: &CalibrationRecord, units: &str) {
+fn facts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     if let Some([i, j]) = found.exchanged_legs {
-        let _ = writeln!(
+        say!(
             out,
             "LEGS EXCHANGED? The lengths of legs {i} and {j} are five times nearer to the design when they change places: look at the wiring or the columns of the table."
         );
@@ -74,7 +64,7 @@ fn facts(out: &mut String, found: &CalibrationRecord, units: &str) {
         NoiseSource::Estimated => "estimated from the residuals",
         NoiseSource::Assumed => "assumed",
     };
-    let _ = writeln!(
+    say!(
         out,
         "{} poses, {} unknowns, rank {}; joints in the frames of the {}",
         found.poses,
@@ -85,7 +75,7 @@ fn facts(out: &mut String, found: &CalibrationRecord, units: &str) {
             CalibrationFrames::Design => "design",
         }
     );
-    let _ = writeln!(
+    say!(
         out,
         "noise ({source}): length {} {units}, position {} {units}, rotation {} deg",
         significant(found.noise.length.0),
@@ -101,11 +91,11 @@ fn facts(out: &mut String, found: &CalibrationRecord, units: &str) {
         Some(false) => "; the other start ends at another machine, which fits worse",
         None => "",
     };
-    let _ = writeln!(out, "{begun}{other}");
+    say!(out, "{begun}{other}");
     if let Some(motions) = &found.motions {
         for (body, m) in [("base", &motions.base), ("platform", &motions.platform)] {
             let p = <[f64; 3]>::from(m.motion.position).map(significant);
-            let _ = writeln!(
+            say!(
                 out,
                 "{body} carried to the design: shift {} {units}, rms {} {units} left",
                 p.join(", "),
@@ -115,8 +105,10 @@ fn facts(out: &mut String, found: &CalibrationRecord, units: &str) {
     }
 }
 
-fn residuals(out: &mut String, found: &CalibrationRecord, units: &str) {
-    let _ = writeln!(out, "\nresiduals [{units}]        rms    greatest  where");
+fn residuals(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
+    let numbers = [right("rms", 12), right("greatest", 11)];
+    let columns = [left(format!("residuals [{units}]"), 15)].into_iter().chain(numbers);
+    let mut table = Table::new(columns.chain([left("where", 0).gap(2)]));
     let rows = [
         ("before", Some(&found.before)),
         ("after", Some(&found.after)),
@@ -126,57 +118,45 @@ fn residuals(out: &mut String, found: &CalibrationRecord, units: &str) {
     for (name, residuals) in rows {
         let Some(ResidualsRecord { rms, greatest, .. }) = residuals else { continue };
         let Some(greatest) = greatest else { continue };
-        let _ = writeln!(
-            out,
-            "{name:<15} {:>12} {:>11}  line {}, leg {}",
-            significant(rms.0),
-            significant(greatest.value.0),
-            greatest.line,
-            greatest.leg
-        );
+        let [rms, value] = [rms.0, greatest.value.0].map(significant);
+        table.row([name.to_owned(), rms, value, format!("line {}, leg {}", greatest.line, greatest.leg)]);
     }
+    out.space();
+    out.table(table);
     let chi = &found.chi_square;
     let probability = chi.probability.map_or(String::new(), |p| format!(", probability {}", significant(p)));
-    let _ = writeln!(
-        out,
-        "chi-square {} with {} degrees of freedom{probability}",
-        significant(chi.value),
-        chi.freedoms
-    );
+    say!(out, "chi-square {} with {} degrees of freedom{probability}", significant(chi.value), chi.freedoms);
 }
 
-fn machine(out: &mut String, found: &CalibrationRecord, units: &str) {
-    let _ = writeln!(
-        out,
-        "\n{:<22} {:>12} {:>12} {:>12}   standard deviations [{units}]     moved",
-        "joint", "x", "y", "z"
-    );
-    let numbers = |list: &[Number; 3], width: usize| {
-        list.iter().map(|x| format!("{:>width$}", fixed(x.0, 4))).collect::<Vec<_>>().join(" ")
-    };
+/// Joints with their standard deviations, and the offsets of the legs.
+fn machine(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
+    let columns = [left(format!("joint [{units}]"), 22)].into_iter();
+    let columns = columns.chain(["x", "y", "z"].map(|axis| right(axis, 12)));
+    let columns = columns.chain(["x", "y", "z"].map(|axis| right(format!("deviation {axis}"), 11)));
+    let mut table = Table::new(columns.chain([right("moved", 8).gap(2)]));
     for joint in &found.joints {
         let moved = joint.moved.iter().map(|x| x.0 * x.0).sum::<f64>().sqrt();
+        let position = joint.position.map(|x| fixed(x.0, 4));
         let deviations = joint.deviations.map_or_else(
-            || format!("{:>32}", "held"),
-            |d| d.iter().map(|x| format!("{:>10}", significant(x.0))).collect::<Vec<_>>().join(" "),
+            || ["held"; 3].map(str::to_owned),
+            |deviations| deviations.map(|x| significant(x.0)),
         );
-        let _ = writeln!(
-            out,
-            "{:<22} {}  {deviations}  {:>8}",
-            format!("{}.{}", joint.body, joint.joint),
-            numbers(&joint.position, 12),
-            significant(moved)
-        );
+        let name = [format!("{}.{}", joint.body, joint.joint)];
+        table.row(name.into_iter().chain(position).chain(deviations).chain([significant(moved)]));
     }
+    out.space();
+    out.table(table);
+    let mut table = Table::new([left("", 8), right("", 12).gap(2), right("", 12).gap(2)]);
     for leg in &found.offsets {
-        let deviation = leg.deviation.map_or("held".to_string(), |d| significant(d.0));
-        let _ = writeln!(out, "offset {}  {:>12}  {deviation:>12}", leg.leg, significant(leg.offset.0));
+        let deviation = leg.deviation.map_or("held".to_owned(), |d| significant(d.0));
+        table.row([format!("offset {}", leg.leg), significant(leg.offset.0), deviation]);
     }
+    out.table(table);
 }
 
-fn doubts(out: &mut String, found: &CalibrationRecord, units: &str) {
+fn doubts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     if let Some(poses) = &found.computed_poses {
-        let _ = writeln!(
+        say!(
             out,
             "\nposes computed with it are off by {} {units} and {} deg (deviations, greatest of {} poses; medians {} {units}, {} deg), besides the noise of their lengths",
             significant(poses.position_greatest.0),
@@ -187,7 +167,7 @@ fn doubts(out: &mut String, found: &CalibrationRecord, units: &str) {
         );
     }
     let o = &found.observability;
-    let _ = writeln!(
+    say!(
         out,
         "\nobservability: volume {}, inverse condition {}, noise amplification {}, harmonic {}",
         significant(o.volume_index.0),
@@ -196,17 +176,17 @@ fn doubts(out: &mut String, found: &CalibrationRecord, units: &str) {
         significant(o.harmonic_index.0)
     );
     if !o.unobservable.is_empty() {
-        out.push_str("changes that are not seen:\n");
+        out.line("changes that are not seen:");
         for change in o.unobservable.iter().take(CHANGES) {
-            let _ = writeln!(out, "  {}", change.words());
+            say!(out, "  {}", change.words());
         }
         if o.unobservable.len() > CHANGES {
-            let _ = writeln!(out, "  and {} more", o.unobservable.len() - CHANGES);
+            say!(out, "  and {} more", o.unobservable.len() - CHANGES);
         }
     }
     for outlier in &found.outliers {
         let leg = outlier.leg.map_or(String::new(), |leg| format!(", leg {leg}"));
-        let _ = writeln!(
+        say!(
             out,
             "outlier: line {}{leg}: {} deviations from the model, where right ones stay below {}; weight {}",
             outlier.line,
@@ -217,6 +197,6 @@ fn doubts(out: &mut String, found: &CalibrationRecord, units: &str) {
     }
     if !found.indispensable.is_empty() {
         let lines: Vec<String> = found.indispensable.iter().map(ToString::to_string).collect();
-        let _ = writeln!(out, "measurements that nothing checks: line {}", lines.join(", "));
+        say!(out, "measurements that nothing checks: line {}", lines.join(", "));
     }
 }

@@ -1,0 +1,101 @@
+//! The families of replaceable legs.
+
+use crate::{Sheet, Table, left, right};
+use records::{ComponentRecord, ComponentsAnswer, ExactCurveOutcome, PlaneCurveRecord};
+
+/// The answer of `equivalents components`.
+#[must_use]
+pub fn components(r: &ComponentsAnswer) -> Sheet {
+    let mut out = Sheet::new();
+    say!(out, "replaceable legs of {}\n", r.name);
+    if r.count == 0 {
+        out.line("none: no leg can be moved without changing the platform");
+    }
+    out.table(families(&r.components));
+    if r.leg_rank < 6 {
+        let exact = r.leg_rank_decision.exact.map_or(String::new(), |e| format!(", exactly {e}"));
+        say!(out, "\nthe leg vectors are dependent: rank {}{exact}", r.leg_rank);
+    }
+    for planes in &r.planes {
+        say!(out, "\nplanes of legs {}", numbers(&planes.legs));
+        curve(&mut out, "base", &planes.base);
+        curve(&mut out, "platform", &planes.platform);
+    }
+    for family in r.components.iter().filter(|family| !family.samples.is_empty()) {
+        say!(out, "\nlegs of family {}", family.component);
+        for s in &family.samples {
+            let ([a, b, c], [d, e, f]) = (s.ends.base.map(|x| x.0), s.ends.platform.map(|x| x.0));
+            say!(out, "  [{a}, {b}, {c}] - [{d}, {e}, {f}]  residual {:.1e}", s.residual.0);
+        }
+    }
+    for doubt in &r.doubts {
+        say!(out, "\nnot shown to be complete: {doubt}");
+    }
+    out
+}
+
+fn families(list: &[ComponentRecord]) -> Table {
+    let mut table = Table::new([
+        right("no", 4),
+        left("type", 12).gap(2),
+        left("base", 6),
+        left("platform", 9),
+        right("dim", 3),
+        left("legs", 12).gap(2),
+        left("moves with", 12),
+        left("holds", 10),
+        left("inside", 0),
+    ]);
+    for c in list {
+        let holds = match c.exact {
+            Some(true) => "exact",
+            Some(false) => "tolerance",
+            None => "numerical",
+        };
+        table.row([
+            c.component.to_string(),
+            c.type_name.clone(),
+            c.base.clone(),
+            c.platform.clone(),
+            c.dimension.to_string(),
+            numbers(&c.legs),
+            numbers(&c.support),
+            holds.to_owned(),
+            numbers(&c.contained_in),
+        ]);
+    }
+    table
+}
+
+fn numbers(list: &[usize]) -> String {
+    list.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+}
+
+fn curve(out: &mut Sheet, body: &str, c: &PlaneCurveRecord) {
+    let parts = c.parts.iter().map(|p| match p.multiplicity {
+        0 | 1 => p.kind.name().to_owned(),
+        times => format!("{} ({times} times)", p.kind.name()),
+    });
+    let what = if c.generic_rank < 3 {
+        "every point of the plane carries a replaceable leg".to_owned()
+    } else if c.degree == 0 {
+        "no curve".to_owned()
+    } else {
+        format!("degree {}: {}", c.degree, parts.collect::<Vec<_>>().join(", "))
+    };
+    say!(out, "  {body:<9} {what}");
+    match &c.exact {
+        ExactCurveOutcome::Curve(e) if e.generic_rank == 3 && e.degree > 0 => {
+            let parts: Vec<&str> = e.parts.iter().map(|p| p.kind.name()).collect();
+            say!(out, "            as written, over the complex numbers: {}", parts.join(", "));
+        }
+        ExactCurveOutcome::Curve(_) => {}
+        ExactCurveOutcome::None { reason } => say!(out, "            nothing exact: {reason}"),
+    }
+    for s in &c.singular_points {
+        let at = s.point.map(|p| p.map(|x| x.0));
+        let at = at.map_or("infinity".to_owned(), |[x, y, z]| format!("[{x}, {y}, {z}]"));
+        let line = if s.line_of_partners { ", a whole line corresponds" } else { "" };
+        say!(out, "            {} at {at}{line}", s.kind);
+    }
+}

@@ -1,0 +1,318 @@
+//! All poses for given lengths, or one pose that is followed.
+
+use crate::{Sheet, Table, left, listed, right};
+use fk::{CompletenessWord, NearWord};
+use machine::coupled::DriveSolutionWord;
+use platform::geom::{ComplexPose, Pose};
+use records::{
+    ClosureRecord, DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, NearRecord, Number,
+    SolutionRecord, SolutionSetRecord, SolvedRecord,
+};
+
+/// The answer of `fk` for a design of this name, in its units.
+#[must_use]
+pub fn fk(name: &str, units: &str, answer: &FkAnswer) -> Sheet {
+    match answer {
+        FkAnswer::One(one) => one_set(name, units, one),
+        FkAnswer::Rows(answer) => many(&answer.rows),
+    }
+}
+
+fn one_set(name: &str, units: &str, one: &FkOneAnswer) -> Sheet {
+    let mut out = Sheet::new();
+    match (&one.drives, &one.near) {
+        (Some(drives), Some(near)) => out.line(drive_sentence(drives, near)),
+        (None, Some(near)) => followed(&mut out, near, units),
+        _ => {}
+    }
+    poses(&mut out, name, &one.solved);
+    if one.angles_deg.is_some() {
+        out.line(elbows(&one.solved));
+        beyond_limits(&mut out, one, "");
+        symmetric(&mut out, one);
+    }
+    if let Some(found) = &one.closure {
+        closure(&mut out, found);
+    }
+    out
+}
+
+fn solved(row: &FkRowRecord) -> Option<&FkOneAnswer> {
+    match &row.outcome {
+        FkRowOutcome::Solved(one) => Some(one),
+        FkRowOutcome::Failed(_) => None,
+    }
+}
+
+/// A row of lengths a line. Cranks beyond their limits follow the table.
+fn many(rows: &[FkRowRecord]) -> Sheet {
+    let first = rows.iter().find_map(solved);
+    let columns = if first.is_some_and(|one| one.drives.is_some()) {
+        vec![left("position, and what is proved of it", 0)]
+    } else if first.is_some_and(|one| one.near.is_some()) {
+        let numbers = [right("segments", 8), right("inverse condition", 17)];
+        [left("outcome", 16)].into_iter().chain(numbers).chain([left("position", 0)]).collect()
+    } else {
+        vec![left("method", 13), right("finite", 6), right("real", 4), left("complete", 0)]
+    };
+    let columns = columns.into_iter().map(|column| column.gap(2));
+    let mut table = Table::new([right("line", 4)].into_iter().chain(columns));
+    for row in rows {
+        table.row([row.line.to_string()].into_iter().chain(cells(&row.outcome)));
+    }
+    let mut out = Sheet::from(table);
+    for row in rows {
+        if let Some(one) = solved(row) {
+            beyond_limits(&mut out, one, &format!("line {}: ", row.line));
+        }
+    }
+    out
+}
+
+/// The cells of a row after the number of its line.
+fn cells(outcome: &FkRowOutcome) -> Vec<String> {
+    let one = match outcome {
+        FkRowOutcome::Solved(one) => one,
+        FkRowOutcome::Failed(why) => {
+            return ["-", "-", "-", &why.error.message].map(str::to_owned).into();
+        }
+    };
+    match (&one.drives, &one.near) {
+        (Some(drives), Some(near)) => vec![drive_sentence(drives, near)],
+        (None, Some(near)) => vec![
+            near.outcome.name().to_owned(),
+            near.segments.to_string(),
+            format!("{:.3e}", near.inverse_condition.0),
+            position(near),
+        ],
+        _ => {
+            let s = &one.solved;
+            let complete = match s.completeness {
+                _ if !s.solution_set.witness_points().is_empty() => "SELF-MOTION",
+                CompletenessWord::Proved => "proved",
+                CompletenessWord::Modular => "modular",
+                CompletenessWord::Unproved if s.all_paths_accounted => "all paths accounted",
+                CompletenessWord::Unproved => "ROOTS MAY BE MISSING",
+            };
+            let counts = [s.finite_count, s.real_count].map(|n| n.to_string());
+            [s.method.to_string()].into_iter().chain(counts).chain([complete.to_owned()]).collect()
+        }
+    }
+}
+
+fn position(near: &NearRecord) -> String {
+    listed(near.reached.position.map(|x| x.0), 6)
+}
+
+/// How the pose was followed, before the list of poses.
+fn followed(out: &mut Sheet, near: &NearRecord, units: &str) {
+    let share = 100.0 * near.fraction;
+    match near.outcome {
+        NearWord::Tracked => say!(
+            out,
+            "tracked in {} segment(s), {} Newton steps; moved by {:.6} and {:.4} degrees; inverse condition {:.2e}",
+            near.segments,
+            near.newton_steps,
+            near.distance.0,
+            near.angle_deg.0,
+            near.inverse_condition.0
+        ),
+        NearWord::NearSingularity => say!(
+            out,
+            "NEAR A SINGULARITY: stopped after {share:.4} % of the way, inverse condition {:.2e}",
+            near.inverse_condition.0
+        ),
+        NearWord::Lost => {
+            say!(out, "LOST after {share:.4} % of the way: {}", near.reason.as_deref().unwrap_or_default());
+        }
+    }
+    if let Some(found) = &near.uncertainty {
+        say!(
+            out,
+            "standard deviations by what the calibration does not know: {:.3e} {units} and {:.3e} degrees",
+            found.position.0,
+            found.rotation_deg.0
+        );
+    }
+}
+
+/// The pose of drives whose joints are not ideal.
+fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord) -> String {
+    let (at, steps) = (position(near), drives.steps);
+    match drives.status {
+        DriveSolutionWord::Proved => {
+            let [position, angle] =
+                [drives.position_bound, drives.angle_bound_deg].map(|x| x.map_or(f64::INFINITY, |x| x.0));
+            format!(
+                "{at}: proved, the pose with these lengths of drives is within {position:.1e} and {angle:.1e} degrees; {steps} step(s)"
+            )
+        }
+        DriveSolutionWord::Unproved => format!(
+            "{at}: UNPROVED, the corrections settled after {steps} step(s) and no bound of the error is proved"
+        ),
+        _ => {
+            let why = drives.reason.as_deref().unwrap_or_default();
+            format!("NO POSE after {steps} step(s): {why}; factor {:.2}", drives.factor.0)
+        }
+    }
+}
+
+/// The number of poses, whether these are all, and the real ones.
+fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord) {
+    if let SolutionSetRecord::PositiveDimensional { dimension_at_least, witness_points, .. } = &s.solution_set
+    {
+        let what = if *dimension_at_least == 1 { "curve" } else { "set" };
+        say!(
+            out,
+            "{name}: self-motion, a {what} of poses of dimension {dimension_at_least} at least, {} points on it and {} isolated poses (method {})",
+            witness_points.len(),
+            s.finite_count,
+            s.method
+        );
+    } else {
+        let undecided = match s.undecided_count {
+            0 => String::new(),
+            n => format!(", {n} undecided"),
+        };
+        say!(
+            out,
+            "{name}: {} finite poses, {} of them real{undecided} (method {})",
+            s.finite_count,
+            s.real_count,
+            s.method
+        );
+    }
+    say!(out, "{}, {}", completeness(s), s.completeness_reason);
+    for (i, r) in numbered(s).filter(|(_, r)| r.real != Some(false)) {
+        real_pose(out, i, r);
+    }
+    let complex = s.solutions.iter().filter(|r| r.real == Some(false)).count();
+    if complex > 0 {
+        say!(out, "{complex} complex poses: see --json");
+    }
+    if !s.unproved.is_empty() {
+        say!(
+            out,
+            "{} ends of paths without a proof (multiple poses, several close ones, or none), under `unproved` with --json; those that may be real:",
+            s.unproved.len()
+        );
+        for (i, r) in s.unproved.iter().enumerate().filter(|(_, r)| r.real != Some(false)) {
+            unproved_pose(out, i + 1, r);
+        }
+    }
+}
+
+/// All poses with the numbers by which people name them.
+fn numbered(s: &SolvedRecord) -> impl Iterator<Item = (usize, &SolutionRecord)> {
+    (1..).zip(s.solution_set.witness_points().iter().chain(&s.solutions))
+}
+
+/// What stands before the reason.
+fn completeness(s: &SolvedRecord) -> &'static str {
+    let moves = matches!(s.solution_set, SolutionSetRecord::PositiveDimensional { .. });
+    let as_written =
+        matches!(s.solution_set, SolutionSetRecord::PositiveDimensional { dimension_established: true, .. });
+    match (s.completeness, moves, s.all_paths_accounted) {
+        (CompletenessWord::Proved, ..) => "complete: proved",
+        (CompletenessWord::Modular, ..) => "complete: modulo random primes",
+        (CompletenessWord::Unproved, true, true) if as_written => "self-motion: established",
+        (CompletenessWord::Unproved, true, true) => "self-motion within the rounding of the lengths",
+        (CompletenessWord::Unproved, true, false) => "UNDECIDED: self-motion",
+        (CompletenessWord::Unproved, false, true) => "complete: not proved",
+        (CompletenessWord::Unproved, false, false) => "INCOMPLETE: roots may be missing",
+    }
+}
+
+/// The real part of a pose, with roll, pitch and yaw in degrees.
+fn shown(r: &SolutionRecord) -> (Pose, [f64; 3]) {
+    let pose = ComplexPose::from(&r.pose).real_part();
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    (pose, [roll, pitch, yaw].map(f64::to_degrees))
+}
+
+fn real_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
+    let (pose, angles) = shown(r);
+    let undecided = if r.real.is_none() { "  reality undecided" } else { "" };
+    let certified = if r.certified { "  certified" } else { "" };
+    say!(
+        out,
+        "{number:>3}  p = {}  rpy_deg = {}  residual {:.1e}{certified}{undecided}",
+        listed(pose.position.iter().copied(), 6),
+        listed(angles, 4),
+        r.residual.0
+    );
+}
+
+/// Where a multiple pose may be, with the number of paths that end there.
+fn unproved_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
+    let (pose, angles) = shown(r);
+    say!(
+        out,
+        "{number:>3}  near p = {}  rpy_deg = {}  paths {}",
+        listed(pose.position.iter().copied(), 4),
+        listed(angles, 2),
+        r.multiplicity
+    );
+}
+
+/// Which real poses have all cranks on the sides that the design keeps.
+fn elbows(s: &SolvedRecord) -> String {
+    let kept =
+        numbered(s).filter(|(_, r)| r.real_pose.and_then(|p| p.elbow_kept).is_some_and(|k| k == [true; 6]));
+    let kept: Vec<String> = kept.map(|(i, _)| i.to_string()).collect();
+    match kept.len() {
+        0 => "no real pose has all cranks on the sides that the design keeps".into(),
+        1 => format!("all cranks are on the sides that the design keeps in pose {}", kept[0]),
+        _ => format!("all cranks are on the sides that the design keeps in poses {}", kept.join(", ")),
+    }
+}
+
+/// The cranks that are beyond their limits at the angles given, with words before them; nothing without such cranks.
+fn beyond_limits(out: &mut Sheet, answer: &FkOneAnswer, before: &str) {
+    let legs: Vec<String> = answer.outside.iter().map(ToString::to_string).collect();
+    let (crank, is) = if legs.len() == 1 { ("crank of leg", "is") } else { ("cranks of legs", "are") };
+    if !legs.is_empty() {
+        say!(out, "{before}the {crank} {} {is} beyond `angle_deg`", legs.join(", "));
+    }
+}
+
+/// What a theorem says of symmetric tips.
+fn symmetric(out: &mut Sheet, answer: &FkOneAnswer) {
+    let Some(count) = answer.symmetric_finite else { return };
+    let certified = answer.solved.solutions.iter().filter(|s| s.certified).count();
+    let listed = if certified == count {
+        "that many are certified here; poses that the tips as doubles have besides are due to rounding"
+    } else {
+        "not all of them are certified here"
+    };
+    say!(
+        out,
+        "Tips and joints have the symmetry of three turns, to rounding: the exactly symmetric platform has {count} finite poses, and {listed}."
+    );
+}
+
+/// The closure polynomial in two lines.
+fn closure(out: &mut Sheet, closure: &ClosureRecord) {
+    let p = match closure {
+        ClosureRecord::Polynomial(p) => p,
+        ClosureRecord::None { error } => return say!(out, "no closure polynomial: {error}"),
+    };
+    let [x, y] = &p.unknown;
+    say!(
+        out,
+        "closure polynomial in the squared distance of {x} and {y}: degree {} before, {} after removal of singular factors, {} distinct roots, {} real",
+        p.degree_before,
+        p.degree.unwrap_or(0),
+        p.distinct_roots,
+        p.real_roots.len()
+    );
+    let middle = |[low, high]: &[Number; 2]| format!("{:.9}", 0.5 * (low.0 + high.0));
+    let roots: Vec<String> = p.real_roots.iter().map(middle).collect();
+    if !roots.is_empty() {
+        say!(out, "its real roots: {}", roots.join(", "));
+    }
+    match p.poses_real_proved {
+        Some(n) => say!(out, "real poses: {n}, proved by its real roots"),
+        None => out.line("real poses: not decided by its real roots alone"),
+    }
+}

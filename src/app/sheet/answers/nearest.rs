@@ -1,0 +1,45 @@
+//! The octahedral platform nearest to a design.
+
+use crate::{Sheet, Table, right};
+use records::{NearestAnswer, SourceWord};
+
+/// The answer of `equivalents nearest` for a design in these units.
+#[must_use]
+pub fn nearest(units: &str, r: &NearestAnswer) -> Sheet {
+    let mut out = Sheet::new();
+    say!(out, "{}: {}", r.name, r.explanation);
+    let Some(n) = &r.nearest else { return out };
+    let moves = ["base", "platform"].map(|body| right(format!("{body} joint moves [{units}]"), 0).gap(2));
+    let columns = [right("leg", 3), right("side", 4).gap(2), right("offset", 11).gap(2)];
+    let mut table = Table::new(columns.into_iter().chain(moves));
+    for (leg, displacements) in n.displacements.iter().enumerate() {
+        let side = n.order.iter().position(|l| *l == leg + 1).unwrap_or(0);
+        let numbers = [n.offsets[side], displacements[0], displacements[1]].map(|x| format!("{:.6}", x.0));
+        table.row([leg + 1, side + 1].map(|k| k.to_string()).into_iter().chain(numbers));
+    }
+    out.space();
+    out.table(table);
+    say!(
+        out,
+        "\nlargest displacement {:.6} {units}, root of the mean square {:.6} {units}; det A = {:.6}\n\
+         leg {} differs most in length: {:.6} {units} at {} ({} poses of the {} workspace)",
+        n.largest_displacement.0,
+        n.rms_displacement.0,
+        n.det.0,
+        n.deviating_leg,
+        n.largest_length_deviation.0,
+        n.deviating_pose.short(),
+        n.poses,
+        if n.workspace_from == SourceWord::Design { "design's" } else { "default" }
+    );
+    if !n.settled {
+        out.line("the fit has not settled: there are nearer platforms");
+    }
+    if n.set_aside > 0 {
+        say!(out, "{} nearer way(s) were set aside: they make no regular platform", n.set_aside);
+    }
+    for path in &r.paths {
+        say!(out, "wrote {path}");
+    }
+    out
+}
