@@ -123,7 +123,7 @@ fn what_cannot_be_asked_is_refused() {
     let base = ["plot", "locus", design, "--leg", "6", "--from", "1", "--to", "2", "--json"];
     for (more, code) in [
         (["--between", "b,a"].as_slice(), "locus::is_a_leg"),
-        (&["--between", "a,b"], "locus::unknown_joint"),
+        (&["--between", "a,b"], "locus::is_a_leg"),
         (&["--between", "b"], "locus::unknown_joint"),
         (&["--lengths", "1,2,3"], "fk::bad_lengths"),
         (&["--steps", "1"], "usage"),

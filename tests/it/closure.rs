@@ -145,7 +145,7 @@ fn the_unknown_of_the_closure_polynomial_can_be_chosen() {
     let why = |design, pair| between(design, pair)["closure"]["error"].as_str().unwrap().to_owned();
     assert!(why(octahedral, "P1,P4").contains("a leg joins these joints"));
     assert!(why("designs/innocenti-6-4.toml", "k,d").contains("cannot be placed one by one"));
-    assert_eq!(between(octahedral, "P1,P2")["error"]["code"], "fk::bad_joints");
+    assert_eq!(between(octahedral, "P1,P2")["error"]["code"], "fk::unknown_joint");
 }
 
 fn joint(names: &[String], name: &str) -> usize {

@@ -68,6 +68,7 @@ mod one_judgement;
 mod optimize_doors;
 mod optimize_options;
 mod optimizer_evidence;
+mod papers;
 mod pose_count;
 mod presets;
 mod rearrangements;

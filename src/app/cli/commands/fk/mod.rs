@@ -110,7 +110,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
         return Ok(near::run(&design, &given, start, context.seed(), &table));
     }
     let (m, home) = (design.manipulator(), poses::home(&design));
-    let between = args.between.as_deref().map(|text| pair(text, &design)).transpose()?;
+    let between = args.between.as_deref().map(|text| pair(text, &design, "fk::unknown_joint")).transpose()?;
     let options = FkOptions::new().seed(context.seed());
     match given {
         GivenLengths::One(l) => {
@@ -141,18 +141,17 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
     }
 }
 
-/// A joint of the base and one of the platform, in any order.
-fn pair(text: &str, design: &Design) -> Result<(usize, usize), Failure> {
+/// `--between`: a joint of the base and one of the platform by their names, in any order.
+pub(super) fn pair(text: &str, design: &Design, code: &'static str) -> Result<(usize, usize), Failure> {
     let find = |names: &[String], name: &str| names.iter().position(|own| own == name.trim());
     let pair = text.split_once(',').and_then(|(x, y)| {
         let both = |a, b| Some((find(design.base_names(), a)?, find(design.platform_names(), b)?));
         both(x, y).or_else(|| both(y, x))
     });
     pair.ok_or_else(|| {
-        let names = [design.base_names(), design.platform_names()].map(|list| list.join(", "));
+        let [base, platform] = [design.base_names(), design.platform_names()].map(|list| list.join(", "));
         let message = format!("--between: `{text}` is not a joint of the base and one of the platform");
-        let help = format!("base: {}; platform: {}", names[0], names[1]);
-        Failure::refused("fk::bad_joints", message).with_help(help)
+        Failure::refused(code, message).with_help(format!("base joints: {base}; platform joints: {platform}"))
     })
 }
 

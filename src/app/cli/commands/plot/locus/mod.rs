@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use num_complex::Complex64;
 
-use crate::app::cli::commands::fk::{MethodArg, failure_of, lengths};
+use crate::app::cli::commands::fk::{MethodArg, failure_of, lengths, pair};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -199,29 +199,12 @@ fn between(design: &Design, (a, b): (usize, usize)) -> VirtualLeg {
     }
 }
 
-/// `BASE,PLATFORM` by the names of the design.
+/// `--between`, which names two joints that no leg joins.
 fn named(text: &str, design: &Design) -> Result<VirtualLeg, Failure> {
-    let refuse = |message: String| {
-        let help = format!(
-            "base joints: {}; platform joints: {}",
-            design.base_names().join(", "),
-            design.platform_names().join(", ")
-        );
-        Failure::refused("locus::unknown_joint", message).with_help(help)
-    };
-    let Some((a, b)) = text.split_once(',') else {
-        return Err(refuse(format!("--between: `{text}` is not a pair of joints")));
-    };
-    let find = |names: &[String], name: &str, body: &str| {
-        names
-            .iter()
-            .position(|n| n == name.trim())
-            .ok_or_else(|| refuse(format!("--between: the {body} has no joint `{}`", name.trim())))
-    };
-    let pair = (find(design.base_names(), a, "base")?, find(design.platform_names(), b, "platform")?);
+    let pair = pair(text, design, "locus::unknown_joint")?;
     let leg = design.manipulator().pairs().iter().position(|p| *p == pair);
     if let Some(leg) = leg {
-        let message = format!("--between: leg {} joins {} and {}", leg + 1, a.trim(), b.trim());
+        let message = format!("--between: leg {} joins {text}", leg + 1);
         return Err(
             Failure::refused("locus::is_a_leg", message).with_help("take two joints that no leg joins")
         );

@@ -1,0 +1,57 @@
+//! `docs/papers.md`: every command prints what the page shows, and the line of Fig. 8 is singular.
+
+use super::cli_frame::equipod;
+use equipod::methods::manipulator::Level;
+use equipod::prelude::*;
+
+/// Whether a line of the page is this line of the program; `..` at its end stands for the rest.
+fn shows(shown: &str, printed: &str) -> bool {
+    let printed = printed.trim();
+    shown.strip_suffix(" ..").map_or(printed == shown, |start| printed.starts_with(start))
+}
+
+#[test]
+fn commands_print_what_the_page_shows() {
+    let page = std::fs::read_to_string("docs/papers.md").unwrap();
+    let mut commands: Vec<(&str, Vec<&str>)> = Vec::new();
+    for block in page.split("```console\n").skip(1) {
+        for line in block.split("```").next().unwrap().lines() {
+            match line.strip_prefix("$ equipod ") {
+                Some(command) => commands.push((command, Vec::new())),
+                None => commands.last_mut().unwrap().1.push(line),
+            }
+        }
+    }
+    assert!(commands.len() > 15);
+    for (command, lines) in commands {
+        let output = equipod(&command.split(' ').collect::<Vec<_>>());
+        let printed = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
+        assert!(!lines.is_empty(), "{command}");
+        for line in lines {
+            let found = printed.lines().any(|own| shows(line, own));
+            assert!(found, "`{line}` is not printed by `equipod {command}`:\n{printed}");
+        }
+    }
+}
+
+/// `Delta1 + 2 Delta2 = 12` (Rojas, Borras, Thomas, Fig. 8) is singular at all points, and nothing beside it is.
+#[test]
+fn the_line_of_figure_8_is_singular() {
+    let read = |name: &str| std::fs::read_to_string(format!("designs/{name}.toml")).unwrap();
+    let octahedral: Design = read("rbt-octahedral").parse().unwrap();
+    let with = |first: &str, second: &str| -> Design {
+        let line = |line: &str| match line {
+            _ if line.starts_with("delta1 =") => format!("delta1 = \"{first}\""),
+            _ if line.starts_with("delta2 =") => format!("delta2 = \"{second}\""),
+            _ if line.starts_with("lengths") => String::new(),
+            other => other.to_owned(),
+        };
+        read("rbt-griffis-duffy").lines().map(line).collect::<Vec<_>>().join("\n").parse().unwrap()
+    };
+    for k in 1..=23 {
+        let on = leg_map(&octahedral, &with(&format!("{k}/2"), &format!("(12-{k}/2)/2"))).unwrap();
+        assert_eq!((on.relation, on.level), (Relation::Singular, Level::ExactJoints), "{k}");
+        let beside = leg_map(&octahedral, &with(&format!("{k}/2"), &format!("(12-{k}/2)/2+1/1000"))).unwrap();
+        assert_eq!(beside.relation, Relation::Equivalent, "{k}");
+    }
+}
