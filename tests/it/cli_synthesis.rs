@@ -53,6 +53,33 @@ fn the_published_designs_carry_lengths_of_one_pose() {
     }
 }
 
+#[test]
+fn offsets_as_fractions_and_roots_stay_exact() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("moved.toml");
+    let file = path.to_str().unwrap();
+    let family = |offsets: &str, more: &[&str]| {
+        let words = ["equivalents", "family", OCTAHEDRAL, "--pattern", "S123456", offsets];
+        json(&[&words, more].concat())
+    };
+    let (code, doc) = family("--offsets=1/3,1/5,2-sqrt(3),1/7,0.25,3/7", &["-o", file]);
+    assert_eq!((code, &doc["instance"]["offsets"][0]), (Some(0), &(1.0 / 3.0).into()));
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains("t = \"1/3\"") && text.contains("t = \"2-sqrt(3)\"") && text.contains("t = 0.25"));
+    let (_, map) = json(&["equivalents", "map", OCTAHEDRAL, file]);
+    assert_eq!((&map["level"], &map["det_exact"]), (&"exact_joints".into(), &"-97/490 + 193*sqrt(3)/980".into()));
+    for bad in ["1/0", "1/x", "nan", ""] {
+        let (code, doc) = family(&format!("--offsets={bad},0.1,0.1,0.1,0.1,0.1"), &[]);
+        assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("usage")), "{bad}");
+    }
+    // the same for a leg that moves along a family
+    let path = folder.path().join("leg.toml");
+    let file = path.to_str().unwrap();
+    let (code, _) = json(&["equivalents", "move", OCTAHEDRAL, "--move", "1:P1-P2:P4:1/3", "-o", file]);
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(code == Some(0) && text.contains("t = \"1/3\""), "{text}");
+}
+
 /// The lengths of the paper's platform without shared joints (Rojas, Borras, Thomas, sec. 6).
 #[test]
 fn lengths_of_one_design_are_taken_to_those_of_the_other() {

@@ -306,7 +306,7 @@ def test_the_class_of_an_octahedral_design_has_all_its_patterns(octahedral):
     assert [leg.kind for leg in free[0].legs] == ["inner"] * 6 and len(free) == 1
     with pytest.raises(equipod.DesignError):
         equipod.Design.load(DESIGNS / "general-6-6.toml").equivalents()
-    steps = octahedral.derivation([0.2] * 6).derivation
+    steps = octahedral.derivation([0.2, "1/5", 0.2, 0.2, 0.2, 0.2]).derivation
     assert steps.moves[0].constant.exact == "-576/25" and steps.verification.verdict == "equivalent"
 
 

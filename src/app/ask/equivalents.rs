@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::Design;
-use files::design::{DesignModel, Origin};
+use files::design::{DesignModel, Origin, Share};
 use platform::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
 use synthesis::singularity::GriffisDuffy;
 use synthesis::{
@@ -162,6 +162,29 @@ impl Original {
         pattern: &Pattern,
         offsets: &[f64],
     ) -> Result<(Design, AffineLegMap), InstantiateError> {
+        let shares: Vec<Share> = offsets.iter().copied().filter_map(Share::shortest).collect();
+        self.built(pattern, offsets, &shares)
+    }
+
+    /// The same at offsets as they are written, which the joints of the design keep.
+    ///
+    /// # Errors
+    /// Offsets that are too few or too many, or make no platform.
+    pub fn equivalent_at(
+        &self,
+        pattern: &Pattern,
+        shares: &[Share],
+    ) -> Result<(Design, AffineLegMap), InstantiateError> {
+        let offsets: Vec<f64> = shares.iter().map(Share::nearest).collect();
+        self.built(pattern, &offsets, shares)
+    }
+
+    fn built(
+        &self,
+        pattern: &Pattern,
+        offsets: &[f64],
+        shares: &[Share],
+    ) -> Result<(Design, AffineLegMap), InstantiateError> {
         let m = pattern.instantiate(&self.octahedral, offsets)?;
         let map = pattern.leg_map(&self.octahedral, offsets)?;
         let [base, platform] = pattern.joints().map(|l| l.iter().map(|j| self.joint_name(*j)).collect());
@@ -169,9 +192,10 @@ impl Original {
         let plain = DesignModel::new(format!("{} {pattern}", self.name), &own.units, m);
         // a pattern has a name for each joint it has
         let built = plain.clone().with_joint_names(base, platform).unwrap_or(plain).with_tables_of(own);
-        let [on_base, on_platform] = self.origins(pattern, offsets);
+        let [on_base, on_platform] = self.origins(pattern, shares);
         let mut built = built.constructed_from(own, [&on_base, &on_platform]);
-        built.description = Some(format!("{pattern} of {}, offsets {offsets:?}", own.name));
+        let listed = shares.iter().map(Share::to_string).collect::<Vec<_>>().join(", ");
+        built.description = Some(format!("{pattern} of {}, offsets [{}]", own.name, listed));
         built.lengths = own.lengths.and_then(|l| map.apply(&l.squared()).ok()).map(|s| s.lengths());
         Ok((built.into(), map))
     }
@@ -184,7 +208,7 @@ impl Original {
     }
 
     /// Where the joints of a pattern come from: corners, and points between two of them.
-    fn origins(&self, pattern: &Pattern, offsets: &[f64]) -> [Vec<Origin>; 2] {
+    fn origins(&self, pattern: &Pattern, offsets: &[Share]) -> [Vec<Origin>; 2] {
         let o = &self.octahedral;
         let corner = |i: usize| if i < 3 { o.base_indices()[i] } else { o.platform_indices()[i - 3] };
         let order = pattern.offsets();
@@ -193,7 +217,7 @@ impl Original {
                 JointLabel::Corner(i) => Origin::Kept(corner(i)),
                 JointLabel::OnEdge(offset) => {
                     let value = order.iter().position(|x| *x == offset).and_then(|k| offsets.get(k));
-                    value.map_or(Origin::New, |t| Origin::Between(edge(offset.side).map(corner), *t))
+                    value.map_or(Origin::New, |t| Origin::Between(edge(offset.side).map(corner), t.clone()))
                 }
             };
             list.iter().map(origin).collect()
@@ -329,7 +353,7 @@ impl NearestDesigns {
         let origins = |list: &[LegEnd]| -> Vec<Origin> {
             let origin = |end: &LegEnd| match *end {
                 LegEnd::Corner(c) => Origin::Kept(c % 3),
-                LegEnd::OnSide(k) => Origin::Between(edge(k).map(|c| c % 3), found.offsets[k]),
+                LegEnd::OnSide(k) => Origin::between(edge(k).map(|c| c % 3), found.offsets[k]),
             };
             list.iter().map(origin).collect()
         };

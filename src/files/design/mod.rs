@@ -26,9 +26,9 @@ mod tree;
 mod violation;
 mod workspace;
 
-pub use construction::Origin;
 use construction::{Constructions, WrittenNumber};
 pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
+pub use construction::{InvalidShare, Origin, Share};
 pub use edit::{JointError, Written};
 pub use keys::SCHEMA;
 pub use likeness::{likeness, nearest_word};

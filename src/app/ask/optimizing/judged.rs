@@ -93,7 +93,7 @@ fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator, t: [f64; 
         let k = i / 2;
         let (on_base, on_platform) = m.pairs()[leg.get()];
         let corner = |of: [usize; 3], k: usize| of[k % 3];
-        let edge = |of: [usize; 3]| Origin::Between([corner(of, k), corner(of, k + 1)], t[i]);
+        let edge = |of: [usize; 3]| Origin::between([corner(of, k), corner(of, k + 1)], t[i]);
         let (first, second) = (o.base_indices(), o.platform_indices());
         (a[on_base], b[on_platform]) = match sliding_body(i) {
             Body::Base => (format!("{}_{}", base_name(k), base_name(k + 1)), platform_name(k)),

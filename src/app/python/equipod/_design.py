@@ -648,13 +648,13 @@ class Design:
         with Workshop() as shop:
             return FamilyAnswer(ask(["equivalents", "family", shop.file("design.toml", self._native)]))
 
-    def derivation(self, offsets: Sequence[float], *, pattern: str = "S123456") -> FamilyAnswer:
+    def derivation(self, offsets: Sequence[float | str], *, pattern: str = "S123456") -> FamilyAnswer:
         """How A, c and det A of an equivalent platform follow from coplanar joints, with forward kinematics of both.
 
         Parameters
         ----------
-        offsets : sequence of float
-            Shares of the edges, as in `equivalent`.
+        offsets : sequence of float or str
+            Shares of the edges, as in `equivalent`; a text such as ``"1/5"`` is exact.
         pattern : str
             A pattern of ``equipod equivalents family``.
 
@@ -666,7 +666,7 @@ class Design:
         from .records import FamilyAnswer
 
         with Workshop() as shop:
-            shares = ",".join(repr(float(x)) for x in offsets)
+            shares = ",".join(x if isinstance(x, str) else repr(float(x)) for x in offsets)
             words = ["equivalents", "family", shop.file("design.toml", self._native), "--explain"]
             return FamilyAnswer(ask([*words, f"--pattern={pattern}", f"--offsets={shares}"]))
 

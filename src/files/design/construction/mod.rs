@@ -15,7 +15,7 @@ use nalgebra::Point3;
 pub use self::cranks::CrankLimits;
 pub(super) use self::cranks::{CrankCopy, PARTS, WrittenCrank, WrittenCranks};
 use self::expression::{Expression, Slip};
-pub use self::origins::Origin;
+pub use self::origins::{InvalidShare, Origin, Share};
 use num::exact::rational;
 use num::real::RealNumber;
 use num::surd::{Surd, generators};

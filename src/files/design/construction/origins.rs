@@ -1,20 +1,98 @@
 //! Constructions of a design whose joints come from those of another.
 
+use std::fmt;
+use std::str::FromStr;
+
+use thiserror::Error;
+
+use super::expression::Unsolved;
 use super::resolve::on_line;
-use super::{Construction, Constructions, LinePlace, RealPoint, WrittenHome, WrittenNumber};
+use super::{Construction, Constructions, LinePlace, RealPoint, Spelling, WrittenHome, WrittenNumber};
 use crate::design::DesignModel;
 use num::real::RealNumber;
 use platform::manipulator::Body;
 
+/// A share of the way from one joint to another: a decimal, or an expression such as `1/5` or `2 - sqrt(3)`, as it is
+/// written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Share {
+    written: WrittenNumber,
+    value: RealNumber,
+}
+
+/// A text that is no share.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{text}`: {why}")]
+pub struct InvalidShare {
+    text: String,
+    why: String,
+}
+
+impl Share {
+    /// The decimal with the fewest digits that is read to this double; `None` unless it is finite.
+    #[must_use]
+    pub fn shortest(x: f64) -> Option<Self> {
+        let written = WrittenNumber::shortest(x)?;
+        let value = RealNumber::rational(&written.expression().decimal()?).ok()?;
+        Some(Self { written, value })
+    }
+
+    /// The nearest double.
+    #[must_use]
+    pub fn nearest(&self) -> f64 {
+        self.value.nearest()
+    }
+}
+
+impl FromStr for Share {
+    type Err = InvalidShare;
+
+    fn from_str(text: &str) -> Result<Self, InvalidShare> {
+        let text = text.trim();
+        let refuse = |why: String| InvalidShare { text: text.to_owned(), why };
+        if let Some(decimal) = text.parse().ok().and_then(Self::shortest) {
+            return Ok(decimal);
+        }
+        let written = WrittenNumber::text(text).map_err(|slip| refuse(slip.message))?;
+        let value = written.expression().value(&|name| Err(Unsolved::Name(name.to_owned())));
+        let value = value.map_err(|stuck| {
+            refuse(match stuck.why {
+                Unsolved::NoReal(why) => why.to_string(),
+                Unsolved::Name(name) => format!("no value belongs to `{name}` here"),
+                Unsolved::Poisoned => "it has no value".to_owned(),
+            })
+        })?;
+        Ok(Self { written, value })
+    }
+}
+
+/// As it is written.
+impl fmt::Display for Share {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.written.written() {
+            Spelling::Number(x) => write!(f, "{x:?}"),
+            Spelling::Text(text) => f.write_str(text),
+        }
+    }
+}
+
 /// Where a joint comes from, in the joints of the same body of the design before.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Origin {
     /// It is this joint.
     Kept(usize),
     /// It is on the line of two of them, at this share of the way.
-    Between([usize; 2], f64),
+    Between([usize; 2], Share),
     /// It is given by its coordinates alone.
     New,
+}
+
+impl Origin {
+    /// On the line of two joints at this share; given by its coordinates where it is not finite.
+    #[must_use]
+    pub fn between(ends: [usize; 2], t: f64) -> Self {
+        Share::shortest(t).map_or(Self::New, |share| Self::Between(ends, share))
+    }
 }
 
 impl DesignModel {
@@ -76,23 +154,21 @@ impl DesignModel {
             origins.iter().enumerate().position(|(new, o)| *o == Origin::Kept(joint) && stayed(new, joint))
         };
         let one = |(new, origin): (usize, &Origin)| -> Option<Construction> {
-            match *origin {
+            match origin {
                 Origin::New => None,
-                Origin::Kept(joint) if !stayed(new, joint) => None,
+                Origin::Kept(joint) if !stayed(new, *joint) => None,
                 Origin::Kept(joint) => {
-                    let own = old.constructions.of(body, joint)?;
-                    own.moved(&place).or_else(|| coordinates(&exact[joint]))
+                    let own = old.constructions.of(body, *joint)?;
+                    own.moved(&place).or_else(|| coordinates(&exact[*joint]))
                 }
                 Origin::Between(ends, t) => {
-                    let share = LinePlace::Share(WrittenNumber::shortest(t)?);
+                    let share = LinePlace::Share(t.written.clone());
                     let [a, b] = ends.map(|joint| origins.iter().position(|o| *o == Origin::Kept(joint)));
                     if let (Some(a), Some(b)) = (a, b) {
                         return Some(Construction::OnLine { through: [a, b], at: share });
                     }
                     let [a, b] = ends.map(|joint| &exact[joint]);
-                    let LinePlace::Share(q) = &share else { return None };
-                    let t = RealNumber::rational(&q.expression().decimal()?).ok()?;
-                    coordinates(&on_line(a, b, &share, &t)?.ok()??)
+                    coordinates(&on_line(a, b, &share, &t.value)?.ok()??)
                 }
             }
         };

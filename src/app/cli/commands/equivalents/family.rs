@@ -9,6 +9,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
+use ::files::design::Share;
 use ask::Design;
 use ask::equivalents::{Original, Origins};
 use ask::{SAMPLES, leg_map, sample_plan};
@@ -33,7 +34,7 @@ pub(crate) struct EquivalentsFamilyArgs {
     /// Report only this pattern, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID")]
     pattern: Option<String>,
-    /// Fractions of the edges at which the moved joints sit, one for each inner point
+    /// Shares of the edges at which the moved joints sit, one for each inner point: decimals or expressions such as 1/5
     #[arg(
         long,
         value_name = "T1,..",
@@ -41,7 +42,7 @@ pub(crate) struct EquivalentsFamilyArgs {
         allow_hyphen_values = true,
         requires = "pattern"
     )]
-    offsets: Option<Vec<f64>>,
+    offsets: Option<Vec<Share>>,
     /// Show how A, c and det A follow from coplanar joints, step by step, and what forward kinematics of both platforms
     /// says
     #[arg(long, requires = "offsets")]
@@ -145,11 +146,12 @@ fn realise(
     pattern: &Pattern,
     design: &Design,
     original: &Original,
-    offsets: &[f64],
+    shares: &[Share],
 ) -> Result<(InstanceRecord, Design, LegMapOutcome), Failure> {
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
-    let (built, map) = original.equivalent(pattern, offsets).map_err(|e| refused(&e))?;
-    let record = InstanceRecord::new(pattern, offsets, &built, &map).map_err(|e| refused(&e))?;
+    let offsets: Vec<f64> = shares.iter().map(Share::nearest).collect();
+    let (built, map) = original.equivalent_at(pattern, shares).map_err(|e| refused(&e))?;
+    let record = InstanceRecord::new(pattern, &offsets, &built, &map).map_err(|e| refused(&e))?;
     let found = leg_map(design, &built)
         .map_err(|e| Failure::new(Exit::Inconclusive, "family::breakdown", e.to_string()))?;
     if let Some(path) = args.output.as_ref().filter(|_| found.is_regular_within_rounding()) {

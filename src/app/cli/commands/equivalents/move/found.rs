@@ -1,5 +1,6 @@
 //! `equipod equivalents move DESIGN --search`: what was found.
 
+use ::files::design::Share;
 use std::path::Path;
 
 use super::naming::{family_names, moved_design};
@@ -114,7 +115,8 @@ impl JudgedPlatform<'_> {
 /// search.
 fn judged<'a>(design: &Design, outcome: &'a SearchOutcome, seed: u64) -> Vec<JudgedPlatform<'a>> {
     let judge = |candidate: &'a Candidate| {
-        let shares: Vec<f64> = candidate.placements.iter().flat_map(|p| p.parameters.clone()).collect();
+        let parameters = candidate.placements.iter().flat_map(|p| p.parameters.iter().copied());
+        let shares: Vec<Share> = parameters.filter_map(Share::shortest).collect();
         let built = moved_design(design, &candidate.assembled, &shares);
         let assessment = built
             .as_ref()

@@ -7,6 +7,7 @@ mod render;
 mod request;
 pub(in crate::app::cli::commands) mod wishes;
 
+use ::files::design::Share;
 use std::path::PathBuf;
 
 use crate::app::cli::context::Context;
@@ -39,7 +40,7 @@ pub(crate) struct EquivalentsMoveArgs {
     /// Parameters of the new leg in the family
     #[arg(long, value_name = "T[,U,..]", allow_hyphen_values = true, requires = "leg")]
     to: Option<String>,
-    /// Leg, family and parameters in one word, for instance 1:3:0.25 or 1:P1:P4-P5:0.25; repeat the option for several
+    /// Leg, family and parameters in one word, for instance 1:3:0.25 or 1:P1:P4-P5:1/4; repeat the option for several
     /// moves
     #[arg(long = "move", value_name = "LEG:FAMILY:T[,U,..]", conflicts_with = "leg")]
     moves: Vec<String>,
@@ -206,7 +207,7 @@ fn one_step(
     let mut moves: Vec<LegMove> = Vec::new();
     for r in wanted {
         let Meant { index, formulas } = resolve(&r.along, given, current, &found)?;
-        let parameters = r.parameters.clone();
+        let parameters = r.parameters.iter().map(Share::nearest).collect();
         moves.push(LegMove { leg: r.leg, family: index, parameters, formulas });
     }
     let mut relocation = relocate(current.manipulator(), &found, &moves, LegMapTolerances::default())
@@ -216,7 +217,7 @@ fn one_step(
         let type_name = found.components[step.family].type_name();
         names.push((type_name, family_names(current, &found, step.family)?));
     }
-    let shares: Vec<f64> = wanted.iter().flat_map(|r| r.parameters.clone()).collect();
+    let shares: Vec<Share> = wanted.iter().flat_map(|r| r.parameters.clone()).collect();
     let design = moved_design(current, &relocation.assembled, &shares);
     if let Some(new) = &design {
         relocation.map = judged(current, new)?;

@@ -4,8 +4,8 @@ use nalgebra::Point3;
 
 use super::request::NamedFamily;
 use crate::app::cli::failure::Failure;
+use ::files::design::{DesignModel, Origin, Share};
 use ask::Design;
-use files::design::{DesignModel, Origin};
 use num::linalg::LinalgError;
 use platform::manipulator::Body;
 use synthesis::components::{Components, Parametrisation};
@@ -135,7 +135,7 @@ pub(super) fn list_families(design: &Design, found: &Components) -> Result<Strin
 ///
 /// A new joint that is at one of the `shares` of the way between two joints that stay is constructed there: then it is
 /// exact.
-pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[f64]) -> Option<Design> {
+pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[Share]) -> Option<Design> {
     let platform = new.platform.clone().ok()?;
     let points = [platform.base_joints().to_vec(), platform.platform_joints().to_vec()];
     let mut taken: Vec<String> = design.base_names().iter().chain(design.platform_names()).cloned().collect();
@@ -159,14 +159,13 @@ pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[f64]) -> 
         let pairs = || kept.iter().flat_map(|i| kept.iter().filter(move |j| *j != i).map(move |j| [*i, *j]));
         let between = |x: &Point3<f64>| {
             let at = |[i, j]: [usize; 2], t: f64| old[i] + (old[j] - old[i]) * t;
-            let places = shares.iter().flat_map(|t| pairs().map(move |ends| (ends, *t)));
-            places.into_iter().find(|(ends, t)| (at(*ends, *t) - x).norm() <= limit)
+            let places = shares.iter().flat_map(|t| pairs().map(move |ends| (ends, t)));
+            places.into_iter().find(|(ends, t)| (at(*ends, t.nearest()) - x).norm() <= limit)
         };
         let origin = |(k, o): (usize, &JointOrigin)| match o {
             JointOrigin::Kept(k) => Origin::Kept(*k),
-            JointOrigin::Displaced(_) | JointOrigin::Split(_) => {
-                between(&points[body.index()][k]).map_or(Origin::New, |(ends, t)| Origin::Between(ends, t))
-            }
+            JointOrigin::Displaced(_) | JointOrigin::Split(_) => between(&points[body.index()][k])
+                .map_or(Origin::New, |(ends, t)| Origin::Between(ends, t.clone())),
         };
         of.iter().enumerate().map(origin).collect()
     };

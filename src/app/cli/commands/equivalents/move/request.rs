@@ -1,9 +1,10 @@
 //! The moves asked for on the command line.
 
 use crate::app::cli::failure::Failure;
+use ::files::design::{InvalidShare, Share};
 use platform::manipulator::LegIndex;
 
-const FORM: &str = "a move is LEG:FAMILY:T[,U,..], for instance 1:3:0.25 or 1:P1:P4-P5:0.25";
+const FORM: &str = "a move is LEG:FAMILY:T[,U,..], for instance 1:3:0.25 or 1:P1:P4-P5:1/4";
 
 /// A family as it is named.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,7 +20,7 @@ pub(super) enum NamedFamily {
 pub(super) struct MoveRequest {
     pub(super) leg: LegIndex,
     pub(super) along: NamedFamily,
-    pub(super) parameters: Vec<f64>,
+    pub(super) parameters: Vec<Share>,
 }
 
 /// All moves asked for, in order.
@@ -46,13 +47,8 @@ pub(super) fn requests(
 
 fn request(leg: &str, along: &str, to: &str) -> Result<MoveRequest, Failure> {
     let bad = |message: String| Failure::refused("move::bad_move", message).with_help(FORM);
-    let parameters: Result<Vec<f64>, Failure> = to
-        .split(',')
-        .map(|x| match x.trim().parse::<f64>() {
-            Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(bad(format!("the parameter `{x}` is not a finite number"))),
-        })
-        .collect();
+    let parameter = |text: &str| text.parse().map_err(|why: InvalidShare| bad(why.to_string()));
+    let parameters: Result<Vec<Share>, Failure> = to.split(',').map(parameter).collect();
     let along = along.trim();
     let along = along.parse().map_or_else(|_| NamedFamily::Between(along.to_string()), NamedFamily::Number);
     Ok(MoveRequest { leg: self::leg(leg)?, along, parameters: parameters? })
@@ -73,10 +69,11 @@ mod tests {
 
     #[test]
     fn moves_in_one_word_and_in_three() {
-        let list = requests(None, None, None, &["1:3:0.25".into(), "6:P1:P4-P5:-0.5,2".into()]).unwrap();
-        assert_eq!((list[0].along.clone(), list[0].parameters.clone()), (NamedFamily::Number(3), vec![0.25]));
+        let list = requests(None, None, None, &["1:3:0.25".into(), "6:P1:P4-P5:-1/2,2".into()]).unwrap();
+        let numbers = |k: usize| list[k].parameters.iter().map(Share::nearest).collect::<Vec<_>>();
+        assert_eq!((list[0].along.clone(), numbers(0)), (NamedFamily::Number(3), vec![0.25]));
         assert_eq!((list[1].leg.get(), list[1].along.clone()), (5, NamedFamily::Between("P1:P4-P5".into())));
-        assert_eq!(list[1].parameters, [-0.5, 2.0]);
+        assert_eq!(numbers(1), [-0.5, 2.0]);
         assert_eq!(requests(Some("1"), Some("3"), Some("0.25"), &[]).unwrap()[0], list[0]);
         for bad in ["1:0.25", "x:1:0.2", "7:1:0.2", "0:1:0.2", "1:2:", "1:2:nan", "1"] {
             assert!(requests(None, None, None, &[bad.to_string()]).is_err(), "{bad}");
