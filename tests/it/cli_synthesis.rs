@@ -67,7 +67,10 @@ fn offsets_as_fractions_and_roots_stay_exact() {
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("t = \"1/3\"") && text.contains("t = \"2-sqrt(3)\"") && text.contains("t = 0.25"));
     let (_, map) = json(&["equivalents", "map", OCTAHEDRAL, file]);
-    assert_eq!((&map["level"], &map["det_exact"]), (&"exact_joints".into(), &"-97/490 + 193*sqrt(3)/980".into()));
+    assert_eq!(
+        (&map["level"], &map["det_exact"]),
+        (&"exact_joints".into(), &"-97/490 + 193*sqrt(3)/980".into())
+    );
     for bad in ["1/0", "1/x", "nan", ""] {
         let (code, doc) = family(&format!("--offsets={bad},0.1,0.1,0.1,0.1,0.1"), &[]);
         assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("usage")), "{bad}");

@@ -217,7 +217,9 @@ impl Original {
                 JointLabel::Corner(i) => Origin::Kept(corner(i)),
                 JointLabel::OnEdge(offset) => {
                     let value = order.iter().position(|x| *x == offset).and_then(|k| offsets.get(k));
-                    value.map_or(Origin::New, |t| Origin::Between(edge(offset.side).map(corner), t.clone()))
+                    value.map_or(Origin::New, |t| {
+                        Origin::Between(edge(offset.side).map(corner), Box::new(t.clone()))
+                    })
                 }
             };
             list.iter().map(origin).collect()

@@ -82,7 +82,7 @@ pub enum Origin {
     /// It is this joint.
     Kept(usize),
     /// It is on the line of two of them, at this share of the way.
-    Between([usize; 2], Share),
+    Between([usize; 2], Box<Share>),
     /// It is given by its coordinates alone.
     New,
 }
@@ -91,7 +91,7 @@ impl Origin {
     /// On the line of two joints at this share; given by its coordinates where it is not finite.
     #[must_use]
     pub fn between(ends: [usize; 2], t: f64) -> Self {
-        Share::shortest(t).map_or(Self::New, |share| Self::Between(ends, share))
+        Share::shortest(t).map_or(Self::New, |share| Self::Between(ends, Box::new(share)))
     }
 }
 

@@ -165,7 +165,7 @@ pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[Share]) -
         let origin = |(k, o): (usize, &JointOrigin)| match o {
             JointOrigin::Kept(k) => Origin::Kept(*k),
             JointOrigin::Displaced(_) | JointOrigin::Split(_) => between(&points[body.index()][k])
-                .map_or(Origin::New, |(ends, t)| Origin::Between(ends, t.clone())),
+                .map_or(Origin::New, |(ends, t)| Origin::Between(ends, Box::new(t.clone()))),
         };
         of.iter().enumerate().map(origin).collect()
     };
