@@ -8,19 +8,28 @@ use records::{DerivationRecord, ExactNumberRecord, LegSlideRecord};
 /// The steps from coplanar joints to A, c and det A, and what forward kinematics says of the platform.
 #[must_use]
 pub fn derivation(d: &DerivationRecord, from: &str, to: &str) -> Sheet {
+    let mut out = derivation_steps(d);
+    out.line("\n4. The leg map and forward kinematics of both platforms, solved without it");
+    out.add(super::verify(&d.verification, from, to));
+    out
+}
+
+/// The steps alone.
+#[must_use]
+pub fn derivation_steps(d: &DerivationRecord) -> Sheet {
     let mut out = Sheet::new();
     let numbers = if d.exact { "exact numbers" } else { "the numbers that the doubles of the joints give" };
     say!(out, "\nderivation, with {numbers}\n");
     out.line("1. Four joints in one plane at every pose: their Cayley-Menger determinant D vanishes.");
-    out.line("   One row of A and c for each moved leg (Rojas, Borras, Thomas 2010, eq. 7); the other legs keep their lengths.");
+    out.line(
+        "   One row of A and c for each moved leg (Rojas, Borras, Thomas 2010, eq. 7); the other legs keep their lengths.",
+    );
     for step in &d.moves {
         coplanar(&mut out, step);
     }
     one_at_a_time(&mut out, d);
     out.line("\n3. det A");
     determinant(&mut out, d);
-    out.line("\n4. The leg map and forward kinematics of both platforms, solved without it");
-    out.add(super::verify(&d.verification, from, to));
     out
 }
 
@@ -42,11 +51,8 @@ fn row(step: &LegSlideRecord) -> String {
 
 fn coplanar(out: &mut Sheet, step: &LegSlideRecord) {
     let LegSlideRecord { leg, ends: [x, y], moved, fixed, between: [a, b], .. } = step;
-    say!(
-        out,
-        "\n   leg {leg}: {moved} = {x} + {} ({y} - {x}); {x}, {y}, {moved} and {fixed} in one plane",
-        text(&step.share)
-    );
+    let place = combination([("1".into(), x.clone()), (text(&step.share), format!("({y} - {x})"))], "0");
+    say!(out, "\n   leg {leg}: {moved} = {place}; {x}, {y}, {moved} and {fixed} in one plane");
     let (zero, one, d) = ("0".to_owned(), "1".to_owned(), text(&step.square));
     let [to_x, to_y] = step.squares_to_ends.each_ref().map(text);
     let (s_x, s_y, s) = (format!("s{a}"), format!("s{b}"), format!("s{leg}'"));

@@ -38,7 +38,7 @@ pub use calibrate::calibrate;
 pub use check::check;
 pub use compare::compare;
 pub use components::components;
-pub use derivation::derivation;
+pub use derivation::{derivation, derivation_steps};
 pub use document::{document, heading, words};
 pub use drives::drives;
 pub use family::family;

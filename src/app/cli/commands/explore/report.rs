@@ -4,11 +4,13 @@ use std::fmt::Write as _;
 
 use super::{MachineFiles, Results, Verified, folder};
 use ask::OptimizeEvidence;
+use ask::equivalents::Original;
 use ask::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
 use files::export::{PART_COLUMNS, PartLine};
 use fk::{Completeness, FkSolutions};
-use records::{AssessAnswer, LengthsOrigin};
+use records::{AssessAnswer, DerivationRecord, LengthsOrigin};
 use sheet::{Sheet, Table, answers, left, markdown_escaped as plain};
+use synthesis::Pattern;
 
 /// The whole report. Writing to a string cannot fail, so the results of `write!` are dropped.
 pub(super) fn markdown(r: &Results, headline: &[String]) -> String {
@@ -159,6 +161,18 @@ fn verification(out: &mut String, r: &Results, v: &Verified) {
         v.record.verdict.name().replace('_', " "),
         folder::VERIFY
     );
+    if let Some(steps) = derivation(r, v) {
+        let steps = answers::derivation_steps(&steps).markdown();
+        let _ = writeln!(out, "## How the leg map follows\n{steps}");
+    }
+}
+
+/// The steps to the platform without shared joints, where that is what was found.
+fn derivation(r: &Results, v: &Verified) -> Option<DerivationRecord> {
+    r.search.offsets()?;
+    let original = Original::of(&r.design)?;
+    let steps = original.derivation(&Pattern::new([false; 6], [1; 6])?, r.search.optimised()?)?;
+    Some(DerivationRecord::new(&steps, &original, v.record.clone()))
 }
 
 /// What the search found.
