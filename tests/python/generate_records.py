@@ -76,8 +76,23 @@ class Types:
         definitions = schema["$defs"]
         root = schema["$ref"].rsplit("/", 1)[1]
         renamed = {name: answer if name == root else self.name_of(name) for name in definitions}
+        taken = set()
+        for name, body in definitions.items():
+            plain, number = renamed[name].rstrip("0123456789"), 2
+            while renamed[name] in taken or self.clashes(renamed[name], body, definitions, renamed):
+                renamed[name], number = f"{plain}{number}", number + 1
+            taken.add(renamed[name])
         for name, body in definitions.items():
             self.define(renamed[name], body, definitions, renamed)
+
+    def clashes(self, name, body, definitions, renamed):
+        """Whether another record has the name: one with a field in common that is of another kind."""
+        known = self.classes.get(name)
+        if known is None or known[1] is None or "properties" not in body:
+            return False
+        fields = {}
+        self.fields_of(body, definitions, renamed, fields, True, set())
+        return any(key in known[1] and known[1][key][0] != kind for key, (kind, _, _) in fields.items())
 
     def define(self, name, body, definitions, renamed):
         consts = self.consts(body)

@@ -482,9 +482,9 @@ class CertificateRecord(Record):
     #: A power of two, design units.
     unit: Union[float, None]
     #: The centre.
-    centre: Union[ComplexRecord3, ComplexRecord2, None]
+    centre: Union[ComplexRecord4, ComplexRecord3, None]
     #: To be added to the centre.
-    centre_low: Union[ComplexRecord3, None]
+    centre_low: Union[ComplexRecord4, None]
     #: One root lies within this distance of the centre.
     radius: Union[float, None]
     #: No other root lies within this distance.
@@ -719,12 +719,21 @@ class ComplexRecord2(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
+    re: tuple[tuple[Union[float, None], ...], ...]
+    #: Imaginary parts.
+    im: tuple[tuple[Union[float, None], ...], ...]
+
+
+class ComplexRecord3(Record):
+    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
+
+    #: Real parts.
     re: tuple[Union[float, None], ...]
     #: Imaginary parts.
     im: tuple[Union[float, None], ...]
 
 
-class ComplexRecord3(Record):
+class ComplexRecord4(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
@@ -3916,9 +3925,9 @@ class SolutionRecord(Record):
     """One pose with its evidence."""
 
     #: Rotation matrix, rows.
-    R: ComplexRecord
+    R: ComplexRecord2
     #: Position, base frame, design units.
-    p: ComplexRecord2
+    p: ComplexRecord3
     #: Null: undecided.
     real: Union[bool, None]
     #: Whether there is a certificate.
@@ -3932,7 +3941,7 @@ class SolutionRecord(Record):
     #: Estimate of the condition number.
     condition: Union[float, None]
     #: (e, g), scalar part of e first, g = p e in design units, `max |e_k| = 1`.
-    dual_quaternion: Union[ComplexRecord3, None]
+    dual_quaternion: Union[ComplexRecord4, None]
     #: The pose in real numbers, where it is real.
     real_pose: Union[RealPoseRecord, None]
 
