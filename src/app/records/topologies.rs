@@ -23,7 +23,7 @@ pub struct TopologiesAnswer {
     pub members: u64,
     /// The topologies.
     pub topologies: Vec<TopologyRecord>,
-    /// What equivalent rearrangement can do for each, with `--rearrangements`.
+    /// The fewest shared joints of each by equivalent rearrangement, with `--rearrangements`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rearrangements: Option<Vec<RearrangementRecord>>,
 }

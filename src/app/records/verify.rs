@@ -140,7 +140,7 @@ impl From<&Sample> for SampleRecord {
     }
 }
 
-/// What forward kinematics found for one design at one set of lengths.
+/// Poses of one design at one set of lengths, by forward kinematics.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SolvedSampleRecord {
     /// The method.

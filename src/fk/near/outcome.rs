@@ -82,7 +82,7 @@ pub enum NearOutcome {
     },
 }
 
-/// What came of following a pose.
+/// Outcome of following a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",

@@ -77,7 +77,7 @@ impl CoupledStatus {
     }
 }
 
-/// What is known of the pose for lengths of drives.
+/// Knowledge of the pose for lengths of drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",

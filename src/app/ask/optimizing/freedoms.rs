@@ -109,7 +109,7 @@ impl ConflictFreedom {
     }
 }
 
-/// What came of a search with a freedom more.
+/// Outcome of a search with a freedom more.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FreedomOutcome {
     /// A platform was found that meets all requirements with their reserves, proved by [`Design::assess`].
@@ -144,7 +144,7 @@ impl FreedomOutcome {
     }
 }
 
-/// What came of a search with a freedom more.
+/// Word for the outcome of a search with a freedom more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FreedomWord {

@@ -3958,7 +3958,7 @@ class SolvedBudgetRecord(Record):
 
 
 class SolvedSampleRecord(Record):
-    """What forward kinematics found for one design at one set of lengths."""
+    """Poses of one design at one set of lengths, by forward kinematics."""
 
     #: The method.
     method: Method

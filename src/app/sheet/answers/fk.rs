@@ -207,7 +207,7 @@ fn numbered(s: &SolvedRecord) -> impl Iterator<Item = (usize, &SolutionRecord)> 
     (1..).zip(s.solution_set.witness_points().iter().chain(&s.solutions))
 }
 
-/// What stands before the reason.
+/// The words before the reason.
 fn completeness(s: &SolvedRecord) -> &'static str {
     let moves = matches!(s.solution_set, SolutionSetRecord::PositiveDimensional { .. });
     let as_written =
@@ -243,7 +243,7 @@ fn real_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
     );
 }
 
-/// Where a multiple pose may be, with the number of paths that end there.
+/// Places where a multiple pose may be, with the number of paths that end there.
 fn unproved_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
     let (pose, angles) = shown(r);
     say!(
@@ -276,7 +276,7 @@ fn beyond_limits(out: &mut Sheet, answer: &FkOneAnswer, before: &str) {
     }
 }
 
-/// What a theorem says of symmetric tips.
+/// The theorem about symmetric tips, in words.
 fn symmetric(out: &mut Sheet, answer: &FkOneAnswer) {
     let Some(count) = answer.symmetric_finite else { return };
     let certified = answer.solved.solutions.iter().filter(|s| s.certified).count();

@@ -49,7 +49,7 @@ fn catalogue(list: &[TopologyRecord]) -> Table {
     table
 }
 
-/// What equivalent rearrangement can do for each.
+/// The fewest shared joints of each, by equivalent rearrangement.
 fn rearrangements(list: &[RearrangementRecord]) -> Table {
     let mut table = Table::new([
         left("id", 4),

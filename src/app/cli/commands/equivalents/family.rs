@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::commands::verify::failure_of;
+use crate::app::cli::commands::verify::compared;
 use crate::app::cli::commands::{GENERAL, NEAREST};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -12,10 +12,10 @@ use crate::app::cli::output::Answer;
 use ::files::design::Share;
 use ask::Design;
 use ask::equivalents::{Original, Origins};
-use ask::{SAMPLES, leg_map, sample_plan};
+use ask::{SAMPLES, leg_map};
 use fk::FkOptions;
 use platform::manipulator::Octahedral;
-use records::{DerivationRecord, FamilyAnswer, FramesRecord, InstanceRecord, VerifyAnswer};
+use records::{DerivationRecord, FamilyAnswer, InstanceRecord};
 use sheet::Sheet;
 use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
@@ -169,10 +169,7 @@ fn explain(
 ) -> Result<DerivationRecord, Failure> {
     let steps = original.derivation(pattern, built);
     let steps = steps.ok_or_else(|| Failure::internal("an edge of the octahedral platform has no length"))?;
-    let plan = sample_plan(&original.design, SAMPLES, context.seed());
     let options = FkOptions::new().seed(context.seed());
-    let found = verify::verify(original.design.manipulator(), built.manipulator(), &plan, &options)
-        .map_err(|e| failure_of(&e))?;
-    let verification = VerifyAnswer::new(&found, &plan, FramesRecord::default());
+    let (_, verification) = compared([&original.design, built], SAMPLES, &options)?;
     Ok(DerivationRecord::new(&steps, original, verification))
 }

@@ -41,10 +41,7 @@ pub(crate) fn run(args: &EquivalentsMapArgs, context: &mut Context) -> Result<An
         _ => Exit::No,
     };
     let legs = LegCorrespondence::between(from.manipulator(), &second.manipulator);
-    let lengths = match args.lengths.as_deref() {
-        Some(text) => Some(mapped(text, [&from, &to], &outcome)?),
-        None => None,
-    };
+    let lengths = args.lengths.as_deref().map(|text| mapped(text, [&from, &to], &outcome)).transpose()?;
     let (map, correspondence) = ((&outcome).into(), (&legs).into());
     let record = MapAnswer { map, correspondence, lengths, frames: second.record() };
     let sheet = sheet::answers::map(&record, &from.name, &to.name);

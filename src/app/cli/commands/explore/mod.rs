@@ -32,19 +32,19 @@ use ask::equivalents::Original;
 use ask::exporting::octahedral_of_controllers;
 use ask::optimizing::{EXTENSION, RESERVE_PERCENT, with_default_reserve};
 use ask::rounding::DesignOnHoles;
-use ask::{FreedomWord, OptimizeEvidence, SAMPLES, sample_plan};
+use ask::{FreedomWord, OptimizeEvidence, SAMPLES};
 use fk::{self, FkOptions, FkSolutions, PoseCounting};
 use machine::manufacture::NoRounding;
 use machine::requirements::KeptSymmetry;
 use platform::manipulator::{LegLengths, Octahedral};
 use records::{
     AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
-    ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
-    LengthsOrigin, OnHolesRecord, OptimizeAnswer, OptimizedRecord, PoseTotalsRecord, PriceRecord,
-    ProvenanceRecord, RoundAnswer, VerifyAnswer,
+    ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, LengthsOrigin,
+    OnHolesRecord, OptimizeAnswer, OptimizedRecord, PoseTotalsRecord, PriceRecord, ProvenanceRecord,
+    RoundAnswer, VerifyAnswer,
 };
 use synthesis::{Family, FamilyMember};
-use verify::{VerdictWord, Verification, verify};
+use verify::{VerdictWord, Verification};
 
 /// Arguments of `explore`.
 #[derive(Debug, clap::Args)]
@@ -578,12 +578,9 @@ fn verification(
     provenance: &ProvenanceRecord,
     folder: &mut Folder,
 ) -> Result<Verified, Failure> {
-    let plan = sample_plan(design, samples, options.seed);
-    let found = verify(design.manipulator(), new.manipulator(), &plan, options)
-        .map_err(|e| verify_command::failure_of(&e))?;
-    let record = VerifyAnswer::new(&found, &plan, FramesRecord::default());
+    let (found, record) = verify_command::compared([design, new], samples, options)?;
     folder.keep(folder::VERIFY, document(&record, provenance.clone(), &[])?);
-    Ok(Verified { found, record, samples: plan.count })
+    Ok(Verified { found, record, samples })
 }
 
 /// The poses at the design's own lengths, or at those of its home pose.

@@ -1,6 +1,5 @@
 //! `equipod equivalents move DESIGN --search`: what was found.
 
-use ::files::design::Share;
 use std::path::Path;
 
 use super::naming::{family_names, moved_design};
@@ -9,6 +8,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::output::Answer;
+use ::files::design::Share;
 use ask::Design;
 use records::{
     AssessAnswer, CandidateRecord, DesignRecord, DesignRoleWord, HoleRecord, MoveAnswer, MoveSearchAnswer,

@@ -7,7 +7,6 @@ mod render;
 mod request;
 pub(in crate::app::cli::commands) mod wishes;
 
-use ::files::design::Share;
 use std::path::PathBuf;
 
 use crate::app::cli::context::Context;
@@ -15,6 +14,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
+use ::files::design::Share;
 use ask::Design;
 use naming::{Meant, family_names, list_families, moved_design, resolve};
 use platform::manipulator::Body;

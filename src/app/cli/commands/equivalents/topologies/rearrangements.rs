@@ -1,4 +1,4 @@
-//! What equivalent rearrangement can do for the topologies that are listed.
+//! The fewest shared joints of the topologies that are listed, by equivalent rearrangement.
 
 use std::path::Path;
 
