@@ -31,6 +31,7 @@ mod judge;
 mod near;
 mod newton;
 mod octic;
+mod pentapod;
 mod real_points;
 mod solutions;
 pub mod solve;
@@ -52,6 +53,7 @@ pub use near::NearNumbers;
 use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, NearWord, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
+pub use pentapod::{LineClass, LinePose, LinePoses, NoLinePoses, count_line_poses, line_class, line_poses};
 pub use solutions::{
     FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
 };

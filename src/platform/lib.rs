@@ -12,4 +12,5 @@
 
 pub mod geom;
 pub mod manipulator;
+pub mod pentapod;
 pub mod topology;

@@ -30,6 +30,7 @@ mod map_deviation;
 mod moves;
 mod nearest;
 mod pattern;
+mod pentapod;
 pub mod rearrangement;
 pub mod relocate;
 pub mod singularity;
@@ -52,5 +53,6 @@ pub(crate) use nearest::hexagon_orders;
 pub use nearest::{
     LegEnd, LengthDeviation, NearestOctahedral, NearestOptions, length_deviation, nearest_octahedral,
 };
+pub use pentapod::{DecouplingLeg, LineLocus, LinePolynomial};
 pub use pattern::{InstantiateError, ParsePatternError, Pattern, joint_free};
 pub use platform::topology::Topology;

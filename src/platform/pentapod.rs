@@ -1,0 +1,140 @@
+//! Five legs between two bodies, with exact joints.
+//!
+//! A pentapod whose joints of one body lie on a line is *linear*: its legs determine where the line is, and the body
+//! turns freely about it (Borras, Thomas, Torras 2011; Nawratil, Schicho 2015). The line is `o + mu d` in the frame of
+//! its body, `o` the joint of leg 1; in the frame of the other body it is `p + mu v` with `v . v = d . d`, so that the
+//! leg from `a` to the joint at `mu` has the squared length
+//!
+//! ```text
+//! s = P + 2 mu Q + mu^2 d.d - 2 a.p - 2 mu a.v + a.a,    P = p.p,  Q = p.v
+//! ```
+//!
+//! which is linear in the eight numbers `(P, Q, p, v)`.
+
+use crate::manipulator::Body;
+use num::exact::{ExactVector, Rational, rank, rational};
+
+/// A point with rational coordinates.
+pub type RationalPoint = [Rational; 3];
+
+/// Numbers in which the squared length of a leg to a line is linear: `P, Q, p, v`.
+pub const LINE_NUMBERS: usize = 8;
+
+/// The ends of five legs, each in the frame of its body, as the rational numbers they are.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pentapod {
+    /// Ends on the base, in leg order.
+    pub base: [RationalPoint; 5],
+    /// Ends on the platform, in leg order.
+    pub platform: [RationalPoint; 5],
+}
+
+/// A pentapod whose joints of one body lie on a line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LinearPentapod {
+    /// The body with the line.
+    pub body: Body,
+    /// The joint of leg 1.
+    pub origin: RationalPoint,
+    /// From the joint of leg 1 to the joint farthest from it.
+    pub direction: RationalPoint,
+    /// Where the joint of each leg is on the line: `o + mu d`.
+    pub marks: [Rational; 5],
+    /// The ends on the other body.
+    pub others: [RationalPoint; 5],
+}
+
+/// `x . y`.
+pub fn dot(x: &RationalPoint, y: &RationalPoint) -> Rational {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+fn difference(x: &RationalPoint, y: &RationalPoint) -> RationalPoint {
+    std::array::from_fn(|k| &x[k] - &y[k])
+}
+
+/// `(1, x)` of each point.
+fn homogeneous<'a>(points: impl IntoIterator<Item = &'a RationalPoint>) -> Vec<ExactVector> {
+    let one = || std::iter::once(Rational::from_integer(1.into()));
+    points.into_iter().map(|x| one().chain(x.iter().cloned()).collect()).collect()
+}
+
+/// The dimension of the flat that the points span: 0 a point, 1 a line, 2 a plane, 3 space.
+fn flat_dimension<'a>(points: impl IntoIterator<Item = &'a RationalPoint>) -> usize {
+    rank(&homogeneous(points)).saturating_sub(1)
+}
+
+impl Pentapod {
+    /// Joints given as doubles, which are rational numbers; `None` when a coordinate is not finite.
+    #[must_use]
+    pub fn from_doubles(base: &[[f64; 3]; 5], platform: &[[f64; 3]; 5]) -> Option<Self> {
+        let point = |x: &[f64; 3]| Some([rational(x[0])?, rational(x[1])?, rational(x[2])?]);
+        let all = |points: &[[f64; 3]; 5]| {
+            let list: Option<Vec<RationalPoint>> = points.iter().map(point).collect();
+            list?.try_into().ok()
+        };
+        Some(Self { base: all(base)?, platform: all(platform)? })
+    }
+
+    /// The ends on a body.
+    #[must_use]
+    pub fn ends(&self, body: Body) -> &[RationalPoint; 5] {
+        body.of((&self.base, &self.platform))
+    }
+
+    /// The dimension of the flat that the ends of these legs, counted from 0, span on a body.
+    #[must_use]
+    pub fn dimension(&self, body: Body, legs: &[usize]) -> usize {
+        flat_dimension(legs.iter().map(|leg| &self.ends(body)[*leg]))
+    }
+
+    /// The pentapod about the line of one of its bodies, the platform first; `None` where neither has all joints on
+    /// one, or all at one point.
+    #[must_use]
+    pub fn linear(&self) -> Option<LinearPentapod> {
+        let body = [Body::Platform, Body::Base].into_iter().find(|body| flat_dimension(self.ends(*body)) == 1)?;
+        let ends = self.ends(body);
+        let origin = ends[0].clone();
+        let from_origin = ends.each_ref().map(|end| difference(end, &origin));
+        let direction = from_origin.iter().max_by_key(|x| dot(x, x))?.clone();
+        let square = dot(&direction, &direction);
+        let marks = from_origin.each_ref().map(|x| dot(x, &direction) / &square);
+        Some(LinearPentapod { body, origin, direction, marks, others: self.ends(body.other()).clone() })
+    }
+}
+
+impl LinearPentapod {
+    /// `d . d`.
+    #[must_use]
+    pub fn square(&self) -> Rational {
+        dot(&self.direction, &self.direction)
+    }
+
+    /// The coefficients of `(P, Q, p, v)` in the squared length of each leg.
+    #[must_use]
+    pub fn rows(&self) -> [ExactVector; 5] {
+        let integer = |x: i64| Rational::from_integer(x.into());
+        std::array::from_fn(|i| {
+            let (mu, a) = (&self.marks[i], &self.others[i]);
+            let mut row = vec![integer(1), integer(2) * mu];
+            row.extend(a.iter().map(|x| integer(-2) * x));
+            row.extend(a.iter().map(|x| integer(-2) * mu * x));
+            row
+        })
+    }
+
+    /// What is left of the squared length: `mu^2 d.d + a.a`.
+    #[must_use]
+    pub fn constants(&self) -> [Rational; 5] {
+        let square = self.square();
+        std::array::from_fn(|i| {
+            &self.marks[i] * &self.marks[i] * &square + dot(&self.others[i], &self.others[i])
+        })
+    }
+
+    /// The dimension of the flat that the ends on the other body span.
+    #[must_use]
+    pub fn other_dimension(&self) -> usize {
+        flat_dimension(&self.others)
+    }
+}
