@@ -34,6 +34,7 @@ mod octic;
 mod pentapod;
 mod real_points;
 mod solutions;
+mod solvability;
 pub mod solve;
 #[cfg(feature = "lab")]
 mod sylvester;
@@ -57,6 +58,7 @@ pub use pentapod::{LineClass, LinePose, LinePoses, NoLinePoses, count_line_poses
 pub use solutions::{
     FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
 };
+pub use solvability::{PlacedFirst, Solvability, solvability};
 #[cfg(feature = "lab")]
 pub use sylvester::Sylvester;
 #[cfg(feature = "lab")]

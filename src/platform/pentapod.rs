@@ -29,6 +29,14 @@ pub struct Pentapod {
     pub platform: [RationalPoint; 5],
 }
 
+impl Default for Pentapod {
+    /// All ends in the origins.
+    fn default() -> Self {
+        let zero = || std::array::from_fn(|_| std::array::from_fn(|_| Rational::from_integer(0.into())));
+        Self { base: zero(), platform: zero() }
+    }
+}
+
 /// A pentapod whose joints of one body lie on a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LinearPentapod {
@@ -92,8 +100,16 @@ impl Pentapod {
     /// one, or all at one point.
     #[must_use]
     pub fn linear(&self) -> Option<LinearPentapod> {
-        let body = [Body::Platform, Body::Base].into_iter().find(|body| flat_dimension(self.ends(*body)) == 1)?;
+        [Body::Platform, Body::Base].into_iter().find_map(|body| self.linear_on(body))
+    }
+
+    /// The same about a line of this body.
+    #[must_use]
+    pub fn linear_on(&self, body: Body) -> Option<LinearPentapod> {
         let ends = self.ends(body);
+        if flat_dimension(ends) != 1 {
+            return None;
+        }
         let origin = ends[0].clone();
         let from_origin = ends.each_ref().map(|end| difference(end, &origin));
         let direction = from_origin.iter().max_by_key(|x| dot(x, x))?.clone();

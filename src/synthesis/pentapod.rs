@@ -13,13 +13,13 @@
 
 use std::collections::BTreeMap;
 
-use num::exact::{ExactVector, Rational};
+use num::exact::{ExactVector, Rational, rank};
 use num_traits::{One, Zero};
 use platform::manipulator::Body;
-use platform::pentapod::{LINE_NUMBERS, LinearPentapod, Pentapod};
+use platform::pentapod::{LINE_NUMBERS, LinearPentapod, Pentapod, RationalPoint};
 
 /// Exponents of `p_x, p_y, p_z, v_x, v_y, v_z`.
-pub type LineExponents = [u8; 6];
+type LineExponents = [u8; 6];
 
 /// A polynomial in the position and the direction of the line.
 pub type LinePolynomial = BTreeMap<LineExponents, Rational>;
@@ -265,6 +265,44 @@ impl DecouplingLeg {
     }
 }
 
+/// Poses at which [`independent_somewhere`] looks.
+const POSES: usize = 8;
+
+/// Whether the lines of five legs are independent at a pose that is drawn from the seed: then they are at almost every
+/// pose. `false`: they are dependent at all poses that were tried, which proves nothing.
+#[must_use]
+pub fn independent_somewhere(p: &Pentapod, seed: u64) -> bool {
+    let mut rng = num::Rng::new(seed);
+    let mut draw = || integer(rng.uniform(-9.0, 10.0).floor() as i64);
+    (0..POSES).any(|_| {
+        let [w, x, y, z] = [draw() + integer(20), draw(), draw(), draw()];
+        let position = [draw(), draw(), draw()];
+        let two = integer(2);
+        let norm = &w * &w + &x * &x + &y * &y + &z * &z;
+        let turned = |b: &RationalPoint| -> RationalPoint {
+            // b + 2 q x (q x b + w b) / norm
+            let q = [x.clone(), y.clone(), z.clone()];
+            let inner = cross(&q, b);
+            let inner = std::array::from_fn(|k| &inner[k] + &w * &b[k]);
+            let outer = cross(&q, &inner);
+            std::array::from_fn(|k| &b[k] + &two * &outer[k] / &norm + &position[k])
+        };
+        let rows: Vec<ExactVector> = (0..5)
+            .map(|leg| {
+                let (a, b) = (&p.base[leg], turned(&p.platform[leg]));
+                let along = std::array::from_fn(|k| &b[k] - &a[k]);
+                along.iter().cloned().chain(cross(a, &along)).collect()
+            })
+            .collect();
+        rank(&rows) == 5
+    })
+}
+
+fn cross(x: &RationalPoint, y: &RationalPoint) -> RationalPoint {
+    let minor = |i: usize, j: usize| &x[i] * &y[j] - &x[j] * &y[i];
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -319,6 +357,9 @@ mod tests {
         let p = five(&base, [0.0, 0.0, 0.0, 0.0, 1.0]);
         assert!(num::exact::relations(&p.rows()).is_empty());
         assert!(LineLocus::of(&p).everywhere);
+        let line = |marks: [f64; 5]| Pentapod::from_doubles(&base, &marks.map(|x| [x, 0.0, 0.0])).unwrap();
+        assert!(!independent_somewhere(&line([0.0, 0.0, 0.0, 0.0, 1.0]), 1));
+        assert!(independent_somewhere(&line([0.0, 1.0, 3.0, 4.0, 6.0]), 1));
         assert_eq!(LineLocus::of(&five(&base, [0.0, 1.0, 3.0, 4.0, 6.0])).family(), "cubic");
         // marks that are an affine function of the joints of a plane
         let plane = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 3.0, 0.0], [-1.0, 2.0, 0.0], [3.0, 2.0, 0.0]];

@@ -9,7 +9,7 @@ use files::design::Workspace;
 use fk::solve::pose_count::{
     CommonPoints, CountOptions, PoseCount, count_common_points, count_generic_poses,
 };
-use fk::{Theorem, pose_bound};
+use fk::{Solvability, Theorem, pose_bound, solvability};
 use machine::requirements::{
     AssessOptions, AssessStage, LeastConditioning, MarginBound, MarginProof, Requirements, RodRegularity,
     Terms, least_conditioning, least_rod_conditioning, prove_telling, regular_rods,
@@ -44,6 +44,8 @@ pub struct CheckReport {
     pub common_points: Option<CommonPoints>,
     /// The theorem with the smallest bound on the isolated finite poses, for all lengths.
     pub pose_bound: Theorem,
+    /// In which steps the poses can be found.
+    pub solvability: Solvability,
     /// The line that fits the joints of each body best; `None` where they are in one place.
     pub best_lines: [Option<BestLine>; 2],
     /// The home pose that the design states, where it is singular.
@@ -350,6 +352,7 @@ impl Design {
             pose_count,
             common_points,
             pose_bound,
+            solvability: solvability(m),
             best_lines: Body::BOTH.map(|body| BestLine::of(m.joints(body))),
             singular_home: self.singular_home(),
         })

@@ -37,6 +37,8 @@ mod moving;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub mod optimizing;
 #[cfg(feature = "files")]
+mod pentapod;
+#[cfg(feature = "files")]
 pub mod presets;
 #[cfg(feature = "files")]
 mod reaching;
@@ -71,6 +73,8 @@ pub use optimizing::{
     FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, FreedomWord, OpenedFreedom, OptimizeEvidence,
     OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, SearchedDrive,
 };
+#[cfg(feature = "files")]
+pub use pentapod::{HeldLine, PentapodReport, about_five_legs};
 #[cfg(feature = "files")]
 pub use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
 #[cfg(feature = "files")]

@@ -10,7 +10,7 @@ use super::diagnostic;
 use super::failure::Failure;
 use super::files;
 use super::rows;
-use ::files::design::{Format, Warning};
+use ::files::design::{FiveLegs, Format, Warning, parse_five_legs};
 use ask::Design;
 use ask::design::{DesignOrViolations, parse, parse_ideal, parse_with_cranks};
 use machine::coupled::CoupledLegs;
@@ -197,21 +197,54 @@ impl Context {
         CoupledLegs::new(design.manipulator(), &design.hardware, &home).map(Some).map_err(refused)
     }
 
+    /// A design of six legs, or of five, for commands that know what to do with both: `read` reads the former.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub(crate) fn load_six_or_five(
+        &mut self,
+        path: &Path,
+        read: fn(&str, Format) -> DesignOrViolations,
+    ) -> Result<SixOrFive, Failure> {
+        let text = files::read_text(path)?;
+        match parse_five_legs(&text, format_of(path, &text)) {
+            None => self.design_of(path, text, read).map(|read| SixOrFive::Six(Box::new(read.design))),
+            Some(Ok((five, warnings))) => {
+                self.warn(path, &text, warnings);
+                self.designs.push((five.name.clone(), path.display().to_string()));
+                Ok(SixOrFive::Five(Box::new(five)))
+            }
+            Some(Err(violations)) => Err(Failure::bad_design(files::shown(path), text, violations)),
+        }
+    }
+
+    fn warn(&mut self, path: &Path, text: &str, warnings: Vec<Warning>) {
+        for warning in warnings {
+            if !self.quiet {
+                diagnostic::print_warning(&files::shown(path), text, &warning);
+            }
+            self.warnings.push(FileWarning { path: path.display().to_string(), warning });
+        }
+    }
+
     fn read_design(
         &mut self,
         path: &Path,
         read: fn(&str, Format) -> DesignOrViolations,
     ) -> Result<ReadDesign, Failure> {
         let text = files::read_text(path)?;
-        let shown = files::shown(path);
+        self.design_of(path, text, read)
+    }
+
+    fn design_of(
+        &mut self,
+        path: &Path,
+        text: String,
+        read: fn(&str, Format) -> DesignOrViolations,
+    ) -> Result<ReadDesign, Failure> {
         match read(&text, format_of(path, &text)) {
             Ok((mut design, warnings)) => {
-                for warning in warnings {
-                    if !self.quiet {
-                        diagnostic::print_warning(&shown, &text, &warning);
-                    }
-                    self.warnings.push(FileWarning { path: path.display().to_string(), warning });
-                }
+                self.warn(path, &text, warnings);
                 let mut poses = None;
                 if let Some(trajectory) = &mut design.workspace.trajectory {
                     // the name is relative to the folder of the design
@@ -224,9 +257,16 @@ impl Context {
                 self.designs.push((design.name.clone(), path.display().to_string()));
                 Ok(ReadDesign { design, text, poses })
             }
-            Err(violations) => Err(Failure::bad_design(shown, text, violations)),
+            Err(violations) => Err(Failure::bad_design(files::shown(path), text, violations)),
         }
     }
+}
+
+/// A design by the number of its legs.
+#[derive(Debug)]
+pub(crate) enum SixOrFive {
+    Six(Box<Design>),
+    Five(Box<FiveLegs>),
 }
 
 /// A design with the texts that it was read from.

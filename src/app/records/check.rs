@@ -9,7 +9,7 @@ use super::{NamedPoints, Number, PoseRecord};
 use ask::CheckReport;
 use ask::Design;
 use files::design::{DesignExactness, Exactness};
-use fk::Theorem;
+use fk::{Solvability, Theorem};
 use fk::solve::pose_count::CommonPoints;
 use platform::geom::BestLine;
 use platform::manipulator::{Body, LegLengths, Level};
@@ -67,6 +67,9 @@ pub struct CheckAnswer {
     pub common_points: Option<CommonPoints>,
     /// How many isolated finite poses no lengths exceed, by a theorem.
     pub pose_bound: PoseBoundRecord,
+    /// In which steps the poses can be found: whether by quadratic equations alone, and which part of the platform can
+    /// be placed before the rest.
+    pub solvability: Solvability,
     /// The line that fits the joints of each body best, base first: a body whose joints all lie on one turns about it.
     /// A body with its joints in one place has none.
     pub best_lines: Vec<BestLineRecord>,
@@ -135,6 +138,7 @@ impl From<&CheckReport> for CheckAnswer {
             pose_count: (&c.pose_count).into(),
             common_points: c.common_points,
             pose_bound: c.pose_bound.into(),
+            solvability: c.solvability.clone(),
             best_lines: Body::BOTH.into_iter().zip(c.best_lines).filter_map(BestLineRecord::of).collect(),
             singular_values: c.conditioning.leg_vectors.map(Number),
             jacobian_inverse_condition: c.conditioning,

@@ -8,7 +8,7 @@ use super::{
     AssessAnswer, CalibrateAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer, ComponentsAnswer,
     ConvertAnswer, Document, DrivesAnswer, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer,
     HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer,
-    NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer,
+    NearestAnswer, NewAnswer, OptimizeAnswer, PentapodAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer,
     SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer,
     ViewAnswer,
 };
@@ -46,6 +46,7 @@ const ANSWERS: Table = &[
     ("motion", Document::<MotionAnswer>::json_schema),
     ("new", Document::<NewAnswer>::json_schema),
     ("optimize", Document::<OptimizeAnswer>::json_schema),
+    ("pentapod", Document::<PentapodAnswer>::json_schema),
     ("plot", Document::<PlotAnswer>::json_schema),
     ("plot-locus", Document::<LocusAnswer>::json_schema),
     ("report", Document::<ReportAnswer>::json_schema),

@@ -6,6 +6,7 @@
 
 mod construction;
 mod edit;
+mod five_legs;
 #[cfg(test)]
 mod fixtures;
 mod json_text;
@@ -30,6 +31,7 @@ use construction::{Constructions, WrittenNumber};
 pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
 pub use construction::{InvalidShare, Origin, Share};
 pub use edit::{JointError, Written};
+pub use five_legs::{FiveLegs, parse_five_legs};
 pub use keys::SCHEMA;
 pub use likeness::{likeness, nearest_word};
 pub use masses::JudgedForces;

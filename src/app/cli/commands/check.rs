@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
+use super::pentapod;
+use crate::app::cli::context::{Context, SixOrFive};
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use ask::CheckReport;
+use ask::design::parse;
 use records::CheckAnswer;
 
 /// Arguments of `check`.
@@ -18,7 +20,10 @@ pub(crate) struct CheckArgs {
 
 /// Decides and explains.
 pub(crate) fn run(args: &CheckArgs, context: &mut Context) -> Result<Answer, Failure> {
-    let design = context.load(&args.design)?;
+    let design = match context.load_six_or_five(&args.design, parse)? {
+        SixOrFive::Six(design) => design,
+        SixOrFive::Five(five) => return Ok(pentapod::check(&five, context)),
+    };
     let m = design.manipulator();
     let found = design.check_with(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
     let answer = CheckAnswer::from(&found);

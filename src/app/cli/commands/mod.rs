@@ -29,6 +29,7 @@ mod limits;
 mod motion;
 mod new;
 mod optimize;
+mod pentapod;
 mod plot;
 mod report;
 mod shell;

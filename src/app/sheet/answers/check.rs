@@ -90,6 +90,7 @@ fn pose_count(out: &mut Sheet, answer: &CheckAnswer) {
         );
     }
     say!(out, "  proved for all lengths: {}", bound.theorem);
+    say!(out, "  in steps: {}", answer.solvability.sentence());
 }
 
 fn sum(coefficients: &[Number; 6], letter: char) -> String {

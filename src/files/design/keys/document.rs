@@ -187,7 +187,7 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     Some(design)
 }
 
-fn required<'a>(
+pub(super) fn required<'a>(
     report: &mut Findings<'_>,
     root: &Node,
     entries: &'a [Entry],
@@ -204,7 +204,11 @@ fn required<'a>(
 
 /// `legs` belongs at the top level. Written below a table header TOML counts it to that table; there it
 /// cannot be a joint (it holds pairs of names), so that the meaning is clear: it is taken with a warning.
-fn legs_entry<'a>(report: &mut Findings<'_>, root: &Node, entries: &'a [Entry]) -> Option<&'a Entry> {
+pub(super) fn legs_entry<'a>(
+    report: &mut Findings<'_>,
+    root: &Node,
+    entries: &'a [Entry],
+) -> Option<&'a Entry> {
     if find(entries, "legs").is_none() {
         for table in ["base", "platform"] {
             let inner = find(entries, table).and_then(|e| match &e.node.value {
@@ -222,14 +226,19 @@ fn legs_entry<'a>(report: &mut Findings<'_>, root: &Node, entries: &'a [Entry]) 
 }
 
 fn lengths(found: &mut FoundKey<'_, '_>) -> Option<LegLengths> {
+    LegLengths::try_new(numbers_of_legs::<6>(found)?).ok()
+}
+
+/// A length for each leg, those that are negative with a violation each.
+pub(super) fn numbers_of_legs<const N: usize>(found: &mut FoundKey<'_, '_>) -> Option<[f64; N]> {
     let (report, node) = (&mut *found.report, &found.entry.node);
-    let l = numbers::<6>(report, node, "`lengths`", Code::LengthCount, "leg lengths, one for each leg");
+    let l = numbers::<N>(report, node, "`lengths`", Code::LengthCount, "leg lengths, one for each leg");
     for (i, x) in elements(node).enumerate().filter(|(_, x)| *x < 0.0 && x.is_finite()) {
         let message = format!("the length of leg {} is {x}", i + 1);
         let help = "leg lengths are not negative";
         report.refuse(Code::NegativeLength, &element_span(node, i), message, help);
     }
-    LegLengths::try_new(l?).ok()
+    l
 }
 
 fn manipulator(

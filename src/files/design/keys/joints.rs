@@ -155,13 +155,31 @@ pub(super) fn legs(
     base: &NamedJoints,
     platform: &NamedJoints,
 ) -> Option<Legs> {
-    let help = "write six pairs: legs = [[\"A1\", \"B1\"], [\"A2\", \"B2\"], ...]";
+    let pairs = pairs::<6>(report, entry, base, platform)?;
+    for (body, used) in [(base, pairs.map(|p| p.0)), (platform, pairs.map(|p| p.1))] {
+        check_use(report, body, used);
+    }
+    Some(Legs { pairs })
+}
+
+/// The joints that so many legs name.
+pub(super) fn pairs<const N: usize>(
+    report: &mut Findings<'_>,
+    entry: &Entry,
+    base: &NamedJoints,
+    platform: &NamedJoints,
+) -> Option<[(usize, usize); N]> {
+    let five = "; `equipod check` and `equipod fk` take designs of five legs";
+    let help = format!(
+        "write six pairs: legs = [[\"A1\", \"B1\"], [\"A2\", \"B2\"], ...]{}",
+        if number_of_legs(entry) == Some(5) { five } else { "" }
+    );
     let Value::Array(list) = &entry.node.value else {
         let message = format!("`legs` is {}, not an array of pairs", entry.node.value.kind());
         report.refuse(Code::WrongType, &entry.node.span, message, help);
         return None;
     };
-    if list.len() != 6 {
+    if list.len() != N {
         let message = format!("there are {} legs instead of six", list.len());
         report.refuse(Code::LegCount, &entry.key_span, message, help);
     }
@@ -169,11 +187,12 @@ pub(super) fn legs(
         list.iter().enumerate().map(|(i, node)| pair(report, i, node, base, platform)).collect();
     warn_coincident_legs(report, list, &pairs, base, platform);
     let pairs: Vec<(usize, usize)> = pairs.into_iter().collect::<Option<_>>()?;
-    let pairs: [(usize, usize); 6] = pairs.try_into().ok()?;
-    for (body, used) in [(base, pairs.map(|p| p.0)), (platform, pairs.map(|p| p.1))] {
-        check_use(report, body, used);
-    }
-    Some(Legs { pairs })
+    pairs.try_into().ok()
+}
+
+/// How many legs a list has; `None` where it is no list.
+pub(super) fn number_of_legs(entry: &Entry) -> Option<usize> {
+    if let Value::Array(list) = &entry.node.value { Some(list.len()) } else { None }
 }
 
 /// One leg.

@@ -8,6 +8,7 @@ mod constructions;
 mod cranks;
 mod document;
 mod envelope;
+mod five_legs;
 mod found;
 mod hardware;
 mod holes;
@@ -28,6 +29,7 @@ mod workspace;
 use serde_json::{Map, Value as Json};
 
 pub(super) use document::design;
+pub(super) use five_legs::{five_legs, has_five_legs};
 pub use found::{check_keys, nearest_help, number, shown, table, text};
 pub(super) use kind::{KeyForm, KeyKind, KeyShape};
 pub use schema::SCHEMA;

@@ -13,12 +13,14 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use crate::app::cli::context::Context;
+use super::pentapod;
+use crate::app::cli::context::{Context, SixOrFive};
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ask::Design;
+use ask::design::parse_with_cranks;
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use platform::geom::Pose;
 use platform::manipulator::{LegLengths, Manipulator};
@@ -34,8 +36,8 @@ use self::lengths::GivenLengths;
 pub(crate) struct FkArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
-    /// Six lengths, or a table with six columns (`-` for standard input) and times where it has them; those of the
-    /// design when absent
+    /// Six lengths, or a table with six columns (`-` for standard input) and times where it has them, or five lengths
+    /// for a design of five legs; those of the design when absent
     #[arg(long, value_name = "L1,..,L6|FILE")]
     lengths: Option<String>,
     /// Six angles of cranks in degrees, or a table with six columns (`-` for standard input), where the legs are rods
@@ -91,7 +93,16 @@ impl MethodArg {
 /// Solves one problem or one for each row.
 pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let method = args.method.method();
-    let design = context.load_with_cranks(&args.design)?;
+    let design = match context.load_six_or_five(&args.design, parse_with_cranks)? {
+        SixOrFive::Six(design) => *design,
+        SixOrFive::Five(five) => {
+            let only = "it is for designs of six legs";
+            for option in ["angles", "method", "between", "threads", "near", "csv"] {
+                context.no_effect(option, only)?;
+            }
+            return pentapod::fk(&five, args.lengths.as_deref(), context);
+        }
+    };
     if let Some(platform) = Context::cranks_of(&design)? {
         return cranks::run(args, (&design, &platform), context);
     }

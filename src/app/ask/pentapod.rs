@@ -1,0 +1,75 @@
+//! Five legs: do they hold a line, where is it for given lengths, where do they lose it, and which sixth leg decouples?
+
+use files::design::FiveLegs;
+use fk::{LineClass, LinePoses, NoLinePoses, count_line_poses, line_class, line_poses};
+use platform::pentapod::LinearPentapod;
+use synthesis::{DecouplingLeg, LineLocus, independent_somewhere};
+
+/// The legs hold a line of one body.
+#[derive(Debug, Clone)]
+pub struct HeldLine {
+    /// The line.
+    pub line: LinearPentapod,
+    /// What its poses are found by; `None` where the legs are dependent.
+    pub class: Option<LineClass>,
+    /// Poses of the line, real and complex, for lengths drawn from the seed; `None` where they were not counted.
+    pub generic_poses: Option<usize>,
+    /// Where the legs lose their hold.
+    pub locus: LineLocus,
+}
+
+/// The answer about a design of five legs.
+#[derive(Debug, Clone)]
+pub struct PentapodReport {
+    /// The design.
+    pub design: FiveLegs,
+    /// The line that the legs hold; `None` where no body has all its joints on one.
+    pub held: Option<HeldLine>,
+    /// Whether the five legs are dependent at every pose: decided exactly where they hold a line; else `Some(false)` is
+    /// proved by a pose, and `None` says that no such pose was found.
+    pub architecturally_singular: Option<bool>,
+    /// The sixth legs with which the platform is solved in steps.
+    pub sixth_legs: Vec<DecouplingLeg>,
+    /// The lengths asked about.
+    pub lengths: Option<[f64; 5]>,
+    /// The poses of the line for them.
+    pub poses: Option<Result<LinePoses, NoLinePoses>>,
+}
+
+/// What five legs hold, and, where lengths are given, all poses of the line that they hold.
+///
+/// ```
+/// use equipod::methods::ask::about_five_legs;
+/// use equipod::methods::design::{Format, parse_five_legs};
+/// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
+/// let text = std::fs::read_to_string("designs/pentapods/line-plane.toml")?;
+/// let (design, _) = parse_five_legs(&text, Format::Toml).ok_or("other legs")?.map_err(|why| why[0].to_string())?;
+/// let report = about_five_legs(&design, design.lengths, 1);
+/// assert_eq!(report.architecturally_singular, Some(false));
+/// let poses = report.poses.ok_or("no lengths")??;
+/// assert_eq!((poses.counted, poses.poses.iter().filter(|pose| pose.real).count()), (8, 4));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn about_five_legs(design: &FiveLegs, lengths: Option<[f64; 5]>, seed: u64) -> PentapodReport {
+    let p = &design.pentapod;
+    let held = p.linear().map(|line| HeldLine {
+        class: line_class(&line),
+        generic_poses: count_line_poses(&line, seed).ok(),
+        locus: LineLocus::of(&line),
+        line,
+    });
+    let architecturally_singular = match &held {
+        Some(held) => Some(held.locus.everywhere),
+        None => independent_somewhere(p, seed).then_some(false),
+    };
+    let poses = held.as_ref().zip(lengths).map(|(held, lengths)| line_poses(&held.line, &lengths));
+    PentapodReport {
+        design: design.clone(),
+        held,
+        architecturally_singular,
+        sixth_legs: DecouplingLeg::all(p),
+        lengths,
+        poses,
+    }
+}

@@ -1,0 +1,72 @@
+//! Designs of five legs, for `equipod check` and `equipod fk`.
+
+use crate::app::cli::context::Context;
+use crate::app::cli::exit::Exit;
+use crate::app::cli::failure::Failure;
+use crate::app::cli::output::Answer;
+use ask::{PentapodReport, about_five_legs};
+use ::files::design::FiveLegs;
+use records::PentapodAnswer;
+
+fn answered(exit: Exit, report: &PentapodReport) -> Answer {
+    let answer = PentapodAnswer::from(report);
+    let sheet = sheet::answers::pentapod(&answer, &report.design.units);
+    Answer::new(exit, answer, sheet)
+}
+
+/// Whether the legs are dependent at every pose, what they hold, and where they lose it.
+pub(super) fn check(design: &FiveLegs, context: &Context) -> Answer {
+    let report = about_five_legs(design, None, context.seed());
+    let exit = match report.architecturally_singular {
+        Some(false) => Exit::Yes,
+        Some(true) => Exit::No,
+        None => Exit::Inconclusive,
+    };
+    answered(exit, &report)
+}
+
+/// All poses of the line that the legs hold.
+///
+/// # Errors
+/// No lengths; legs that hold no line.
+pub(super) fn fk(design: &FiveLegs, lengths: Option<&str>, context: &Context) -> Result<Answer, Failure> {
+    let lengths = match lengths {
+        None => design.lengths,
+        Some(text) => Some(five(text).map_err(|why| {
+            Failure::refused("fk::bad_lengths", format!("--lengths: {why}"))
+                .with_help("give five lengths separated by commas")
+        })?),
+    };
+    let Some(lengths) = lengths else {
+        return Err(Failure::refused(
+            "fk::no_lengths",
+            "the design has no `lengths` and --lengths was not given",
+        )
+        .with_help("give --lengths l1,l2,l3,l4,l5"));
+    };
+    let report = about_five_legs(design, Some(lengths), context.seed());
+    let exit = match &report.poses {
+        Some(Ok(_)) => Exit::Yes,
+        Some(Err(_)) => Exit::Inconclusive,
+        None => {
+            let message = format!(
+                "{}: no body has all its joints on a line, so that the poses for five lengths are a curve",
+                design.name
+            );
+            return Err(Failure::refused("fk::five_legs", message)
+                .with_help("add a sixth leg; `equipod check` says which ones decouple the platform"));
+        }
+    };
+    Ok(answered(exit, &report))
+}
+
+fn five(text: &str) -> Result<[f64; 5], String> {
+    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+    let fields: [&str; 5] =
+        fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of five", f.len()))?;
+    let mut values = [0.0; 5];
+    for (i, field) in fields.iter().enumerate() {
+        values[i] = field.parse().map_err(|_| format!("value {}, `{field}`, is not a number", i + 1))?;
+    }
+    Ok(values)
+}
