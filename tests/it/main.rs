@@ -69,6 +69,7 @@ mod optimize_doors;
 mod optimize_options;
 mod optimizer_evidence;
 mod papers;
+mod pentapod;
 mod pose_count;
 mod presets;
 mod rearrangements;

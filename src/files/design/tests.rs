@@ -108,7 +108,7 @@ fn legs_and_triangles() {
     all.push_str(&refusals(&text, Format::Toml));
     assert_eq!(
         all,
-        r#"4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]
+        r#"4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]; `equipod check` and `equipod fk` take designs of five legs
 4 design::coincident_legs: legs 1 and 6 join the same two points | give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid
 4:80 design::missing_joint: leg 6 names `P9`, which is not a joint of the base | add `P9 = [x, y, z]` to [base]
 4:86 design::missing_joint: leg 6 names `X`, which is not a joint of the platform | add `X = [x, y, z]` to [platform]
