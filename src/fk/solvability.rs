@@ -49,7 +49,11 @@ impl Solvability {
     /// One sentence.
     #[must_use]
     pub fn sentence(&self) -> String {
-        let chain = if self.quadratic { "quadratically solvable: a chain of quadratic equations gives all poses" } else { "" };
+        let chain = if self.quadratic {
+            "quadratically solvable: a chain of quadratic equations gives all poses"
+        } else {
+            ""
+        };
         let parts = self.placed_first.iter().map(|part| match part {
             PlacedFirst::Line { body, legs, class, other_ends_in_plane } => {
                 let by = class.map_or("an equation", |class| match class {
@@ -68,7 +72,11 @@ impl Solvability {
         });
         let all: Vec<String> =
             Some(chain.to_owned()).filter(|c| !c.is_empty()).into_iter().chain(parts).collect();
-        if all.is_empty() { "no five legs end on a line and no three meet in a joint: all legs are solved together".into() } else { all.join("; ") }
+        if all.is_empty() {
+            "no five legs end on a line and no three meet in a joint: all legs are solved together".into()
+        } else {
+            all.join("; ")
+        }
     }
 }
 
@@ -82,7 +90,10 @@ fn fractions(m: &Manipulator) -> Option<[[RationalPoint; 2]; 6]> {
     let ends: Vec<[RationalPoint; 2]> = match m.joint_knowledge() {
         JointKnowledge::Doubles => {
             let point = |p: nalgebra::Point3<f64>| Some([rational(p.x)?, rational(p.y)?, rational(p.z)?]);
-            m.legs().iter().map(|leg| Some([point(leg.base)?, point(leg.platform)?])).collect::<Option<_>>()?
+            m.legs()
+                .iter()
+                .map(|leg| Some([point(leg.base)?, point(leg.platform)?]))
+                .collect::<Option<_>>()?
         }
         JointKnowledge::Exact => {
             let point = |p: &platform::manipulator::SurdPoint| -> Option<RationalPoint> {
@@ -122,7 +133,12 @@ pub fn solvability(m: &Manipulator) -> Solvability {
                     line_class(&pentapod.linear_on(body)?)
                 });
                 let other_ends_in_plane = flat_dimension(five.iter().map(|leg| &others[*leg])) == 2;
-                placed_first.push(PlacedFirst::Line { body, legs: counted(&five), class, other_ends_in_plane });
+                placed_first.push(PlacedFirst::Line {
+                    body,
+                    legs: counted(&five),
+                    class,
+                    other_ends_in_plane,
+                });
             }
             for i in 0..6 {
                 let at_joint: Vec<usize> = (0..6).filter(|leg| dimension(&[i, *leg]) == 0).collect();
@@ -150,7 +166,8 @@ mod tests {
     fn platform_on_line(marks: [f64; 5]) -> Manipulator {
         let ends = marks.map(|x| [x, 0., 0.]);
         let all = [ends[0], ends[1], ends[2], ends[3], ends[4], [2., 3., 1.]];
-        let legs = std::array::from_fn(|i| Leg { base: Point3::from(BASE[i]), platform: Point3::from(all[i]) });
+        let legs =
+            std::array::from_fn(|i| Leg { base: Point3::from(BASE[i]), platform: Point3::from(all[i]) });
         Manipulator::from_legs(legs).unwrap()
     }
 

@@ -1,7 +1,7 @@
 //! Five legs between two bodies, with exact joints.
 //!
 //! A pentapod whose joints of one body lie on a line is *linear*: its legs determine where the line is, and the body
-//! turns freely about it (Borras, Thomas, Torras 2011; Nawratil, Schicho 2015). The line is `o + mu d` in the frame of
+//! turns freely about it (Borras, Thomas 2009; Nawratil, Schicho 2015). The line is `o + mu d` in the frame of
 //! its body, `o` the joint of leg 1; in the frame of the other body it is `p + mu v` with `v . v = d . d`, so that the
 //! leg from `a` to the joint at `mu` has the squared length
 //!

@@ -53,6 +53,6 @@ pub(crate) use nearest::hexagon_orders;
 pub use nearest::{
     LegEnd, LengthDeviation, NearestOctahedral, NearestOptions, length_deviation, nearest_octahedral,
 };
-pub use pentapod::{DecouplingLeg, LineLocus, LinePolynomial, independent_somewhere};
 pub use pattern::{InstantiateError, ParsePatternError, Pattern, joint_free};
+pub use pentapod::{DecouplingLeg, LineLocus, LinePolynomial, independent_somewhere};
 pub use platform::topology::Topology;

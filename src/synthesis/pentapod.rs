@@ -73,7 +73,8 @@ impl LineLocus {
     pub fn value(&self, position: &[f64; 3], direction: &[f64; 3]) -> f64 {
         let term = |(exponents, c): (&LineExponents, &Rational)| {
             let unknowns = position.iter().chain(direction);
-            num::exact::nearest(c) * unknowns.zip(exponents).map(|(x, e)| x.powi(i32::from(*e))).product::<f64>()
+            num::exact::nearest(c)
+                * unknowns.zip(exponents).map(|(x, e)| x.powi(i32::from(*e))).product::<f64>()
         };
         self.polynomial.iter().map(term).sum()
     }
@@ -104,7 +105,11 @@ fn gradients() -> [[LinePolynomial; LINE_NUMBERS]; 3] {
         }
         row
     };
-    [row([1, 0], Some((p, -2)), None), row([0, 1], Some((v, -1)), Some((p, -1))), row([0, 0], None, Some((v, 2)))]
+    [
+        row([1, 0], Some((p, -2)), None),
+        row([0, 1], Some((v, -1)), Some((p, -1))),
+        row([0, 0], None, Some((v, 2))),
+    ]
 }
 
 fn add(to: &mut LinePolynomial, x: &LinePolynomial, factor: &Rational) {
@@ -140,9 +145,14 @@ fn determinant(legs: &[ExactVector; 5]) -> LinePolynomial {
                 // rows 5, 6, 7 and columns i, j, k, counted from 0
                 let sign = if (5 + 6 + 7 + i + j + k) % 2 == 0 { 1 } else { -1 };
                 let columns = [i, j, k];
-                for (order, parity) in
-                    [([0, 1, 2], 1), ([1, 2, 0], 1), ([2, 0, 1], 1), ([0, 2, 1], -1), ([1, 0, 2], -1), ([2, 1, 0], -1)]
-                {
+                for (order, parity) in [
+                    ([0, 1, 2], 1),
+                    ([1, 2, 0], 1),
+                    ([2, 0, 1], 1),
+                    ([0, 2, 1], -1),
+                    ([1, 0, 2], -1),
+                    ([2, 1, 0], -1),
+                ] {
                     let entry = |row: usize| &rows[row][columns[order[row]]];
                     let term = product(&product(entry(0), entry(1)), entry(2));
                     add(&mut out, &term, &(&minor * integer(sign * parity)));
@@ -331,7 +341,11 @@ mod tests {
         let mut rng = Rng::new(5);
         for planar in [true, false] {
             let base: [[f64; 3]; 5] = std::array::from_fn(|_| {
-                [rng.uniform(-3.0, 3.0), rng.uniform(-3.0, 3.0), if planar { 0.0 } else { rng.uniform(-1.0, 1.0) }]
+                [
+                    rng.uniform(-3.0, 3.0),
+                    rng.uniform(-3.0, 3.0),
+                    if planar { 0.0 } else { rng.uniform(-1.0, 1.0) },
+                ]
             });
             let marks = [0.0, 3.0, 1.0, 5.0, -2.0];
             let locus = LineLocus::of(&five(&base, marks));
@@ -372,7 +386,8 @@ mod tests {
     fn sixth_legs_go_to_lines_and_joints() {
         let base = [[0.0, 0.0, 0.0], [4.0, 0.0, 1.0], [6.0, 3.0, 0.0], [3.0, 6.0, 2.0], [-1.0, 5.0, 0.0]];
         let line = [0.0, 1.0, 3.0, 4.0, 6.0].map(|x| [x, 0.0, 0.0]);
-        let legs = |platform: &[[f64; 3]; 5]| DecouplingLeg::all(&Pentapod::from_doubles(&base, platform).unwrap());
+        let legs =
+            |platform: &[[f64; 3]; 5]| DecouplingLeg::all(&Pentapod::from_doubles(&base, platform).unwrap());
         assert_eq!(legs(&line), [DecouplingLeg::OffTheLine { body: Body::Platform }]);
         let mut four = line;
         four[4] = [1.0, 2.0, 0.0];

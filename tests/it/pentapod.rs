@@ -14,9 +14,12 @@ fn answer(arguments: &[&str]) -> (Option<i32>, Value) {
 /// The file with its two bodies exchanged, so that the base has the line.
 fn exchanged(folder: &tempfile::TempDir) -> String {
     let text = std::fs::read_to_string(LINE_PLANE).unwrap();
-    let text = text.replace("[base]", "[swap]").replace("[platform]", "[base]").replace("[swap]", "[platform]");
+    let text =
+        text.replace("[base]", "[swap]").replace("[platform]", "[base]").replace("[swap]", "[platform]");
     let legs = (1..6).map(|i| format!("[\"B{i}\", \"A{i}\"]")).collect::<Vec<_>>().join(", ");
-    let lines = text.lines().map(|line| if line.starts_with("legs") { format!("legs = [{legs}]") } else { line.into() });
+    let lines = text
+        .lines()
+        .map(|line| if line.starts_with("legs") { format!("legs = [{legs}]") } else { line.into() });
     let path = folder.path().join("exchanged.toml");
     std::fs::write(&path, lines.collect::<Vec<_>>().join("\n")).unwrap();
     path.to_str().unwrap().to_owned()
@@ -32,10 +35,10 @@ fn five_legs_hold_a_line_and_its_poses_have_the_lengths() {
     for pose in doc["poses"]["poses"].as_array().unwrap().iter().filter(|pose| pose["real"] == true) {
         for i in 0..5 {
             let mark = number(&doc["line"]["marks"][i]) * number(&doc["line"]["length"]);
-            let end = |k: usize| {
-                number(&pose["position"]["re"][k]) + mark * number(&pose["direction"]["re"][k])
-            };
-            let length = ((end(0) - base[i][0]).powi(2) + (end(1) - base[i][1]).powi(2) + end(2).powi(2)).sqrt();
+            let end =
+                |k: usize| number(&pose["position"]["re"][k]) + mark * number(&pose["direction"]["re"][k]);
+            let length =
+                ((end(0) - base[i][0]).powi(2) + (end(1) - base[i][1]).powi(2) + end(2).powi(2)).sqrt();
             assert!((length - number(&doc["lengths"][i])).abs() < 1e-11, "{length}");
         }
     }
@@ -51,11 +54,16 @@ fn check_names_the_class_the_locus_and_the_sixth_legs() {
     let (code, doc) = answer(&["check", LINE_PLANE]);
     assert_eq!((code, &doc["architecturally_singular"]), (Some(0), &false.into()));
     let locus = &doc["line"]["singular_poses"];
-    assert_eq!((&locus["degree"], &locus["degree_in_position"], &locus["family"]), (&3.into(), &2.into(), &"cubic".into()));
+    assert_eq!(
+        (&locus["degree"], &locus["degree_in_position"], &locus["family"]),
+        (&3.into(), &2.into(), &"cubic".into())
+    );
     assert_eq!(doc["sixth_legs"], serde_json::json!([{ "case": "off_the_line", "body": "platform" }]));
     // five joints of the base on a line as well: two lines hold nothing
     let text = std::fs::read_to_string(LINE_PLANE).unwrap();
-    let flat = text.replace("60.0, 0.0]\nA4 = [60.0, 120.0", "0.0, 0.0]\nA4 = [60.0, 0.0").replace("-20.0, 100.0", "-20.0, 0.0");
+    let flat = text
+        .replace("60.0, 0.0]\nA4 = [60.0, 120.0", "0.0, 0.0]\nA4 = [60.0, 0.0")
+        .replace("-20.0, 100.0", "-20.0, 0.0");
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("flat.toml");
     std::fs::write(&path, flat).unwrap();
@@ -74,8 +82,12 @@ fn five_legs_without_a_line_have_a_curve_of_poses_and_other_commands_want_six_le
     std::fs::write(&path, text.replace("B5 = [120.0, 0.0", "B5 = [120.0, \"7/3\"")).unwrap();
     let path = path.to_str().unwrap();
     let (code, doc) = answer(&["check", path]);
-    assert_eq!((code, &doc["line"], &doc["architecturally_singular"]), (Some(0), &Value::Null, &false.into()));
-    let to_the_line = serde_json::json!([{ "case": "to_the_line", "body": "platform", "legs": [1, 2, 3, 4] }]);
+    assert_eq!(
+        (code, &doc["line"], &doc["architecturally_singular"]),
+        (Some(0), &Value::Null, &false.into())
+    );
+    let to_the_line =
+        serde_json::json!([{ "case": "to_the_line", "body": "platform", "legs": [1, 2, 3, 4] }]);
     assert_eq!(doc["sixth_legs"], to_the_line);
     let (code, doc) = answer(&["fk", path]);
     assert_eq!((code, &doc["error"]["code"]), (Some(2), &"fk::five_legs".into()));
@@ -103,7 +115,10 @@ fn six_legs_say_in_which_steps_they_are_solved() {
     std::fs::write(&path, six).unwrap();
     let (_, doc) = answer(&["check", path.to_str().unwrap()]);
     let part = &doc["solvability"]["placed_first"][0];
-    assert_eq!((&part["part"], &part["class"], &part["other_ends_in_plane"]), (&"line".into(), &"quartic".into(), &true.into()));
+    assert_eq!(
+        (&part["part"], &part["class"], &part["other_ends_in_plane"]),
+        (&"line".into(), &"quartic".into(), &true.into())
+    );
     // each pose of the line has two turns
     assert_eq!(doc["pose_count"]["finite"], 16);
 }

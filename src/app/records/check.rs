@@ -9,8 +9,8 @@ use super::{NamedPoints, Number, PoseRecord};
 use ask::CheckReport;
 use ask::Design;
 use files::design::{DesignExactness, Exactness};
-use fk::{Solvability, Theorem};
 use fk::solve::pose_count::CommonPoints;
+use fk::{Solvability, Theorem};
 use platform::geom::BestLine;
 use platform::manipulator::{Body, LegLengths, Level};
 use synthesis::singularity::{

@@ -136,7 +136,10 @@ impl From<&PentapodReport> for PentapodAnswer {
                     .locus
                     .polynomial
                     .iter()
-                    .map(|(exponents, c)| LineTermRecord { exponents: *exponents, coefficient: c.to_string() })
+                    .map(|(exponents, c)| LineTermRecord {
+                        exponents: *exponents,
+                        coefficient: c.to_string(),
+                    })
                     .collect(),
             },
         });

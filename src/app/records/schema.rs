@@ -8,9 +8,9 @@ use super::{
     AssessAnswer, CalibrateAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer, ComponentsAnswer,
     ConvertAnswer, Document, DrivesAnswer, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer,
     HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer,
-    NearestAnswer, NewAnswer, OptimizeAnswer, PentapodAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer,
-    SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer,
-    ViewAnswer,
+    NearestAnswer, NewAnswer, OptimizeAnswer, PentapodAnswer, PlotAnswer, PresetsAnswer, ReportAnswer,
+    RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer,
+    VerifyAnswer, ViewAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own names, those of a group as

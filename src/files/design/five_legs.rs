@@ -26,6 +26,9 @@ pub struct FiveLegs {
     pub rounded: bool,
 }
 
+/// A design of five legs with its warnings, or all violations of its text.
+pub type FiveLegsOrViolations = Result<(FiveLegs, Vec<Warning>), Vec<Violation>>;
+
 /// Reads a design of five legs; `None` where the text lists another number of legs, or cannot be read at all.
 ///
 /// ```
@@ -39,7 +42,7 @@ pub struct FiveLegs {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn parse_five_legs(text: &str, format: Format) -> Option<Result<(FiveLegs, Vec<Warning>), Vec<Violation>>> {
+pub fn parse_five_legs(text: &str, format: Format) -> Option<FiveLegsOrViolations> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut report = Findings::new(text);
     let root = tree::read(text, format, &mut report)?;

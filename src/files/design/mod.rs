@@ -31,7 +31,7 @@ use construction::{Constructions, WrittenNumber};
 pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
 pub use construction::{InvalidShare, Origin, Share};
 pub use edit::{JointError, Written};
-pub use five_legs::{FiveLegs, parse_five_legs};
+pub use five_legs::{FiveLegs, FiveLegsOrViolations, parse_five_legs};
 pub use keys::SCHEMA;
 pub use likeness::{likeness, nearest_word};
 pub use masses::JudgedForces;

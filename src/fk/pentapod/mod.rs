@@ -72,7 +72,9 @@ impl LineClass {
 #[non_exhaustive]
 pub enum NoLinePoses {
     /// One of the five lengths follows from the others, or contradicts them, whatever the pose is.
-    #[error("the five legs are dependent: one length follows from the others, so that they do not hold the line")]
+    #[error(
+        "the five legs are dependent: one length follows from the others, so that they do not hold the line"
+    )]
     Dependent,
     /// The poses of the line for these lengths were not seen to be finitely many.
     #[error("the poses of the line for these lengths were not found to be finitely many")]

@@ -22,9 +22,7 @@ struct Monomials(Vec<Exponents>);
 
 impl Monomials {
     fn up_to(degree: u8) -> Self {
-        let of = |d: u8| {
-            (0..=d).rev().flat_map(move |i| (0..=d - i).rev().map(move |j| [i, j, d - i - j]))
-        };
+        let of = |d: u8| (0..=d).rev().flat_map(move |i| (0..=d - i).rev().map(move |j| [i, j, d - i - j]));
         Self((0..=degree).rev().flat_map(of).collect())
     }
 
@@ -104,7 +102,7 @@ impl Span {
     }
 
     /// The combination of monomials left over that a polynomial is equal to.
-    fn normal_form(&self, row: Vec<Rational>, basis: &[usize]) -> ExactVector {
+    fn normal_form(&self, row: &[Rational], basis: &[usize]) -> ExactVector {
         let common = row.iter().fold(BigInt::one(), |l, x| l.lcm(x.denom()));
         let mut factor = Rational::from_integer(common.clone());
         let mut row: Vec<BigInt> = row.iter().map(|x| x.numer() * (&common / x.denom())).collect();
@@ -124,7 +122,9 @@ impl Span {
                 }
                 let divisor = row.iter().fold(factor.numer().clone(), |g, x| g.gcd(x));
                 if !divisor.is_one() {
-                    row.iter_mut().for_each(|x| *x /= &divisor);
+                    for x in &mut row {
+                        *x /= &divisor;
+                    }
                     factor /= Rational::from_integer(divisor);
                 }
             }
@@ -187,7 +187,7 @@ impl Quotient {
                 row[self.span.monomials.index(exponents)] += x * Rational::from_integer((*c).into());
             }
         }
-        self.span.normal_form(row, &self.basis)
+        self.span.normal_form(&row, &self.basis)
     }
 
     fn one(&self) -> ExactVector {
@@ -195,7 +195,7 @@ impl Quotient {
         if let Some(last) = row.last_mut() {
             *last = Rational::one();
         }
-        self.span.normal_form(row, &self.basis)
+        self.span.normal_form(&row, &self.basis)
     }
 
     /// The zeros by the values of `c . t`; `None` where these do not tell them apart.

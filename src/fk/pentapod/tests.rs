@@ -46,7 +46,10 @@ fn classes_of_planes_are_those_of_the_closed_form_and_of_the_count() {
     // equal x, equal mark: joints 2 and 3 stay apart
     assert_eq!(line_class(&p), Some(LineClass::Cubic));
     assert_eq!(count_line_poses(&p, 1), Ok(6));
-    let space = five(&[[0.0, 0.0, 1.0], [2.0, 0.5, 0.0], [1.0, 3.0, -1.0], [-1.0, 2.0, 2.0], [3.0, 2.0, 0.5]], [0.0, 3.0, 1.0, 4.0, -2.0]);
+    let space = five(
+        &[[0.0, 0.0, 1.0], [2.0, 0.5, 0.0], [1.0, 3.0, -1.0], [-1.0, 2.0, 2.0], [3.0, 2.0, 0.5]],
+        [0.0, 3.0, 1.0, 4.0, -2.0],
+    );
     assert_eq!(line_class(&space), Some(LineClass::Octic));
     assert_eq!(count_line_poses(&space, 1), Ok(8));
 }

@@ -4,8 +4,8 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
-use ask::{PentapodReport, about_five_legs};
 use ::files::design::FiveLegs;
+use ask::{PentapodReport, about_five_legs};
 use records::PentapodAnswer;
 
 fn answered(exit: Exit, report: &PentapodReport) -> Answer {

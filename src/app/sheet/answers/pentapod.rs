@@ -32,13 +32,20 @@ pub fn pentapod(answer: &PentapodAnswer, units: &str) -> Sheet {
             "{}: five independent legs leave one freedom; no body has all its joints on a line, so that the poses for given lengths are a curve",
             answer.name
         ),
-        (None, None) => say!(out, "{}: not decided: the five legs are dependent at all poses tried", answer.name),
+        (None, None) => {
+            say!(out, "{}: not decided: the five legs are dependent at all poses tried", answer.name)
+        }
     }
     if answer.rounded_joints {
         out.line("joints that are no fractions are taken as their nearest doubles");
     }
     if let Some(line) = &answer.line {
-        say!(out, "joints on the line, in units of {} {units}: {}", line.length.0, listed(line.marks.map(|x| x.0), 6));
+        say!(
+            out,
+            "joints on the line, in units of {} {units}: {}",
+            line.length.0,
+            listed(line.marks.map(|x| x.0), 6)
+        );
         if let Some(class) = line.class {
             say!(out, "the line is found by {}", equation(class));
         }
@@ -136,7 +143,11 @@ fn poses(out: &mut Sheet, answer: &PentapodAnswer, units: &str) {
     say!(out, "\nposes of the line for these lengths: {}, of which {} real", found.counted, found.real);
     out.line("counted and enclosed in exact arithmetic; the turn about the line is free");
     for pose in found.poses.iter().filter(|pose| pose.real) {
-        let twice = if pose.multiplicity > 1 { format!("  counts {} times", pose.multiplicity) } else { String::new() };
+        let twice = if pose.multiplicity > 1 {
+            format!("  counts {} times", pose.multiplicity)
+        } else {
+            String::new()
+        };
         say!(
             out,
             "  joint of leg 1 at {} {units}  direction {}{twice}",
