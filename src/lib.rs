@@ -276,6 +276,12 @@ pub mod methods {
     pub mod page {
         pub use crate::app::page::*;
     }
+    /// Five legs between two bodies, and the line that they hold.
+    pub mod pentapod {
+        #[cfg(feature = "files")]
+        pub use ::ask::{HeldLine, PentapodReport, about_five_legs};
+        pub use ::platform::pentapod::*;
+    }
     /// Pictures: values in, SVG text out.
     #[cfg(feature = "files")]
     pub mod plot {

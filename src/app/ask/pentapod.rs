@@ -39,8 +39,8 @@ pub struct PentapodReport {
 /// What five legs hold, and, where lengths are given, all poses of the line that they hold.
 ///
 /// ```
-/// use equipod::methods::ask::about_five_legs;
 /// use equipod::methods::design::{Format, parse_five_legs};
+/// use equipod::methods::pentapod::about_five_legs;
 /// # std::env::set_current_dir("../../..").unwrap(); // the designs are at the top
 /// let text = std::fs::read_to_string("designs/pentapods/line-plane.toml")?;
 /// let (design, _) = parse_five_legs(&text, Format::Toml).ok_or("other legs")?.map_err(|why| why[0].to_string())?;

@@ -129,6 +129,11 @@ impl CellTable {
         number(cell, self.decimal)
     }
 
+    /// A number as a cell of this table has it.
+    pub(super) fn shown(&self, x: f64) -> String {
+        format!("{x:?}").replace('.', &self.decimal.to_string())
+    }
+
     /// The cell with a point for the decimals, where it is a number.
     pub(super) fn with_point(&self, cell: &str) -> String {
         match number(cell, self.decimal) {

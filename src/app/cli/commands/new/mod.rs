@@ -214,6 +214,10 @@ fn bad_points(shown: &str, why: &InvalidPointTable) -> Failure {
             "new::bad_mjcf",
             "legs are slide joints between a joint of the base and one of the platform, or spatial tendons from a site of the base to one of the platform",
         ),
+        InvalidPointTable::Model(_) => (
+            "new::bad_model",
+            "write the twelve joint centres as a table: a row for each leg, x, y, z of its base end and of its platform end, each in the frame of its body or both at home",
+        ),
         InvalidPointTable::Step => (
             "new::bad_step",
             "measure the twelve joint centres in the CAD program and write them as a table: a row for each leg, x, y, z of its base end and of its platform end",

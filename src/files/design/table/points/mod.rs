@@ -1,5 +1,8 @@
 //! The twelve ends of the legs out of a table, however its rows and columns are arranged.
 
+mod lists;
+mod polar;
+
 use nalgebra::Point3;
 use thiserror::Error;
 
@@ -14,6 +17,14 @@ use platform::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
 
 /// Rows have at least so many numbers: the joints of a flat body are often given by x and y alone.
 const LEAST_NUMBERS: usize = 2;
+
+/// Root elements of models that are not read, and what these are called.
+const MODELS: [(&str, &str); 4] = [
+    ("<robot", "URDF (ROS), whose joints make no closed loops"),
+    ("<sdf", "SDF (Gazebo)"),
+    ("<SimMechanics", "Simscape Multibody XML"),
+    ("<COLLADA", "COLLADA"),
+];
 
 /// The ends of the six legs as a table has them.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +57,9 @@ pub enum InvalidPointTable {
     /// It is an exchange file of a CAD program (ISO 10303-21), which is not read.
     #[error("this is a STEP file, and assemblies are not read")]
     Step,
+    /// It is a model of another program, which is not read; its name.
+    #[error("this is a model of {0}, and such models are not read")]
+    Model(&'static str),
     /// The points make no manipulator.
     #[error(transparent)]
     Manipulator(#[from] InvalidManipulator),
@@ -56,7 +70,7 @@ impl PointTable {
     ///
     /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one
     /// point belong to the body that a cell, a title above them or their name says, else the first six to the base.
-    /// Settings of `genhexkins` and models of `MuJoCo` are read too.
+    /// Lists of Python, C, MATLAB, JSON and YAML, settings of `genhexkins` and models of `MuJoCo` are read too.
     ///
     /// # Errors
     /// [`InvalidPointTable`].
@@ -65,6 +79,9 @@ impl PointTable {
         if text.trim_start().starts_with("ISO-10303-21") {
             return Err(InvalidPointTable::Step);
         }
+        if let Some((_, name)) = MODELS.iter().find(|(root, _)| text.contains(root) && mjcf::is_xml(&text)) {
+            return Err(InvalidPointTable::Model(name));
+        }
         if mjcf::is_xml(&text) {
             return mjcf::read(&text).map_err(InvalidPointTable::Mjcf);
         }
@@ -72,8 +89,12 @@ impl PointTable {
             let HexapodPins { legs, home, guesses } = pins?;
             return Ok(Self { legs, names: None, units: None, home, guesses });
         }
+        if let Some(listed) = lists::read(&text) {
+            return listed;
+        }
         let mut sheet = CellTable::read(bytes, LEAST_NUMBERS)?;
         let mut guesses = std::mem::take(&mut sheet.guesses);
+        polar::to_coordinates(&mut sheet, &text, &mut guesses)?;
         let rows = data_rows(&sheet, &mut guesses)?;
         let columns = match sheet.header.as_ref().and_then(|h| PointColumns::named(h, &mut guesses)) {
             Some(columns) => columns,
@@ -104,27 +125,40 @@ impl PointTable {
     /// When one body is all above the other the table has both in one frame, as a drawing has them: the platform frame
     /// is then put at the mean height of the platform joints.
     fn part_frames(&mut self) {
-        let heights = |body: Body| self.legs.map(|leg| leg.end(body).z);
-        let range = |z: [f64; 6]| {
-            (z.into_iter().fold(f64::INFINITY, f64::min), z.into_iter().fold(f64::NEG_INFINITY, f64::max))
-        };
-        let (base, platform) = (range(heights(Body::Base)), range(heights(Body::Platform)));
-        if platform.0 <= base.1 && base.0 <= platform.1 {
-            return;
-        }
+        // the axis along which the bodies are apart: z, where it is one of several
+        let Some(axis) = [2, 1, 0].into_iter().find(|axis| self.apart_along(*axis)) else { return };
+        let heights = |body: Body| self.legs.map(|leg| leg.end(body)[axis]);
+        let above = heights(Body::Platform)[0] > heights(Body::Base)[0];
         let heights = heights(Body::Platform);
         // a common height is kept to the last digit
         let level = heights.iter().all(|z| z.to_bits() == heights[0].to_bits());
         let height = if level { heights[0] } else { heights.iter().sum::<f64>() / 6.0 };
         for leg in &mut self.legs {
-            leg.platform.z -= height;
+            leg.platform[axis] -= height;
         }
         let rotation = nalgebra::Rotation3::identity();
-        self.home = Some(Pose::new([0.0, 0.0, height], rotation));
+        let mut position = [0.0; 3];
+        position[axis] = height;
+        self.home = Some(Pose::new(position, rotation));
+        let name = ["x", "y", "z"][axis];
+        let up = if axis == 2 { String::new() } else { format!(" {name} is up.") };
         self.guesses.push(format!(
-            "The platform joints are all {} those of the base: both are read in the base frame, and home is at z = {height}.",
-            if platform.0 > base.1 { "above" } else { "below" }
+            "The platform joints are all {} those of the base: both are read in the base frame, and home is at {name} = {height}.{up}",
+            if above { "above" } else { "below" }
         ));
+    }
+
+    /// Whether all platform joints are beyond all base joints along an axis; along x and y by more than each body
+    /// extends, since bodies in frames of their own may be apart by chance.
+    fn apart_along(&self, axis: usize) -> bool {
+        let range = |body: Body| {
+            let of = self.legs.map(|leg| leg.end(body)[axis]);
+            (of.into_iter().fold(f64::INFINITY, f64::min), of.into_iter().fold(f64::NEG_INFINITY, f64::max))
+        };
+        let (base, platform) = (range(Body::Base), range(Body::Platform));
+        let gap = (platform.0 - base.1).max(base.0 - platform.1);
+        let extent = (base.1 - base.0).max(platform.1 - platform.0);
+        gap > 0.0 && (axis == 2 || gap > extent)
     }
 
     /// The design with these joints: ends at exactly the same place are one joint of several legs.
@@ -249,8 +283,7 @@ fn axis_of(name: &str) -> Option<(usize, &str)> {
 /// The body that a plain word names without doubt.
 pub(super) fn body_of_word(word: &str) -> Option<Body> {
     const BASE: [&str; 8] = ["base", "fixed", "lower", "bottom", "ground", "fest", "unten", "basis"];
-    const PLATFORM: [&str; 8] =
-        ["platform", "moving", "mobile", "upper", "top", "effector", "plattform", "oben"];
+    const PLATFORM: [&str; 8] = ["plat", "moving", "mobile", "upper", "top", "effector", "oben", "deck"];
     let has = |list: &[&str]| list.iter().any(|w| word.contains(w));
     match (has(&BASE), has(&PLATFORM)) {
         (true, false) => Some(Body::Base),
@@ -272,6 +305,11 @@ const LETTERS: [(&str, &str); 9] = [
     ("g", "p"),
 ];
 
+/// The first letter of a word.
+fn initial(word: &str) -> &str {
+    word.char_indices().nth(1).map_or(word, |(end, _)| &word[..end])
+}
+
 /// The bodies that two different words tell apart: by what they mean, or in the order in which they appear.
 fn bodies_of_words(first: &str, second: &str, guesses: &mut Vec<String>) -> [Body; 2] {
     let said = [first, second].map(body_of_word);
@@ -281,10 +319,16 @@ fn bodies_of_words(first: &str, second: &str, guesses: &mut Vec<String>) -> [Bod
         [None, Some(body)] => [body.other(), body],
         _ if is_pair((first, second)) => Body::BOTH,
         _ if is_pair((second, first)) => [Body::Platform, Body::Base],
+        _ if is_pair((initial(first), initial(second))) => Body::BOTH,
+        _ if is_pair((initial(second), initial(first))) => [Body::Platform, Body::Base],
         _ => Body::BOTH,
     };
-    guesses.push(format!("`{first}` is the {} and `{second}` the {}.", order[0], order[1]));
+    guesses.push(told_apart([first, second], order));
     order
+}
+
+fn told_apart([first, second]: [&str; 2], order: [Body; 2]) -> String {
+    format!("`{first}` is the {} and `{second}` the {}.", order[0], order[1])
 }
 
 impl PointColumns {

@@ -126,6 +126,109 @@ fn twelve_rows_of_one_point_find_their_bodies() {
     assert!(is_meant(&read(&swapped)));
 }
 
+/// The two lists in a notation: each point by a function, around them what a function adds to the points of a body.
+fn lists(point: impl Fn([f64; 3]) -> String, body: impl Fn(Body, &[String]) -> String) -> String {
+    let of = |b: Body, list: [[f64; 3]; 6]| body(b, &list.map(&point));
+    format!("{}\n{}", of(Body::Base, BASE), of(Body::Platform, PLATFORM))
+}
+
+#[test]
+fn lists_of_programs_are_read() {
+    let comma = |p: [f64; 3]| format!("{}, {}, {}", p[0], p[1], p[2]);
+    let blank = |p: [f64; 3]| format!("{} {} {}", p[0], p[1], p[2]);
+    let name = |b: Body| b.of(("base", "plat"));
+    let columns = |b: Body, rows: &[String]| {
+        let cell = |row: &String, k: usize| row.split(' ').nth(k).unwrap().to_owned();
+        let column = |k: usize| rows.iter().map(|row| cell(row, k)).collect::<Vec<_>>().join(" ");
+        format!("{} = [{}; {}; {}];", b.of(("A", "B")), column(0), column(1), column(2))
+    };
+    let array = |b: Body, rows: &[String]| {
+        format!("{} = np.array([[{}]], dtype=float)  # joints", name(b), rows.join("],\n    ["))
+    };
+    for text in [
+        format!("import numpy as np\n{}", lists(comma, array)),
+        lists(comma, |b, rows| {
+            format!("static const float {}_pts[6][3] = {{\n{{{}}}\n}};", name(b), rows.join("},\n{"))
+        }),
+        lists(comma, |b, rows| format!("{} = [Vec3({})]", name(b), rows.join("),\nVec3("))),
+        lists(blank, |b, rows| format!("{} = [{}];", name(b), rows.join(";\n  "))),
+        lists(blank, |b, rows| format!("{} = [{}];", name(b), rows.join("\n  "))),
+        lists(blank, columns),
+        lists(comma, |b, rows| format!("{}_anchors:\n  - [{}]", name(b), rows.join("]\n  - ["))),
+        lists(
+            |p| format!("x: {}\n    y: {}\n    z: {}", p[0], p[1], p[2]),
+            |b, rows| format!("{}:\n  - {}", name(b), rows.join("\n  - ")),
+        ),
+        format!(
+            "{{{}}}",
+            lists(comma, |b, rows| {
+                format!("\"{}\": [\n[{}]]{}", name(b), rows.join("],\n["), b.of((",", "")))
+            })
+        ),
+        format!(
+            "{{\"robot\": {{{}}}}}",
+            lists(
+                |p| format!("{{\"x\": {}, \"y\": {}, \"z\": {}}}", p[0], p[1], p[2]),
+                |b, rows| { format!("\"{}\": [{}]{}", name(b), rows.join(", "), b.of((",", ""))) }
+            )
+        ),
+    ] {
+        let table = read(&text);
+        assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
+        assert!(table.home.is_none(), "{text}");
+    }
+}
+
+#[test]
+fn lists_come_with_units_and_height_and_angles_with_radii() {
+    let rows = |list: [[f64; 3]; 6]| list.map(|p| format!("{p:?}")).join(",");
+    let text = format!(
+        "{{\"top\": [{}], \"bottom\": [{}], \"units\": \"cm\", \"height\": 140, \"rod\": 7}}",
+        rows(PLATFORM),
+        rows(BASE)
+    );
+    let table = read(&text);
+    assert!(is_meant(&table));
+    assert_eq!((table.units.as_deref(), table.home.unwrap().position.z), (Some("cm"), 140.0));
+    assert!(table.guesses.iter().any(|g| g == "Not read: `rod`."), "{:?}", table.guesses);
+    let angles = "# anchors in mm\nbase_radius = 100\nbase_angles = [15, 105, 135, 225, 255, 345]\ntop_radius = 80\ntop_angles = [45, 75, 165, 195, 285, 315]\n";
+    let header = "leg,base_radius,base_angle_deg,platform_radius,platform_angle_deg\n1,100,15,80,45\n2,100,105,80,75\n3,100,135,80,165\n4,100,225,80,195\n5,100,255,80,285\n6,100,345,80,315\n";
+    let points = "body,radius [mm],theta,z\n".to_string()
+        + &[15, 105, 135, 225, 255, 345].map(|a| format!("base,100,{a},0\n")).concat()
+        + &[45, 75, 165, 195, 285, 315].map(|a| format!("platform,80,{a},0\n")).concat();
+    for text in [angles, header, &points] {
+        let table = read(text);
+        let (a, b) = (table.legs[0].base, table.legs[3].platform);
+        assert!((a.coords.norm() - 100.0).abs() < 1e-12 && (b.coords.norm() - 80.0).abs() < 1e-12, "{text}");
+        assert!((a.y.atan2(a.x).to_degrees() - 15.0).abs() < 1e-12);
+        assert!((b.y.atan2(b.x).to_degrees() + 165.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn nothing_is_taken_for_a_coordinate_that_is_none() {
+    let radians = "base_radius = 1\nbase_angles = [0.1, 1, 2, 3, 4, 5]\ntop_radius = 2\ntop_angles = [0, 1, 2, 3, 4, 5]\n";
+    assert!(refusal(radians).contains("degrees or radians"));
+    assert!(refusal(&radians.replace("top_radius = 2\n", "")).contains("two radii are needed"));
+    let alone = "leg,base_radius,base_z\n".to_owned() + &"1,2,3\n".repeat(6);
+    assert!(refusal(&alone).contains("those of angles none"));
+    let rows = |list: [[f64; 3]; 6]| list.map(|p| format!("{p:?}")).join(",");
+    let three = format!("a = [{}]\nb = [{}]\nc = [{}]\n", rows(BASE), rows(PLATFORM), rows(BASE));
+    assert!(refusal(&three).contains("3 lists of six points"));
+    // arithmetic is not done
+    assert!(PointTable::read(b"a = [[1*2, 3, 0], [1, 2, 3]]\nb = [[1, 2, 3]]").is_err());
+    assert!(refusal("<?xml version=\"1.0\"?><robot name=\"a\"/>").contains("URDF"));
+    assert!(refusal("<sdf version=\"1.7\"/>").contains("SDF"));
+}
+
+#[test]
+fn an_assembly_with_y_up_has_its_home_along_y() {
+    let lifted = twelve(|body, _, p| format!("{},{},{}", p[0], body.of(("-12.5", "412.5")), p[1]));
+    let table = read(&lifted);
+    assert_eq!(table.home.unwrap().position.y.to_bits(), 412.5_f64.to_bits());
+    assert!(table.guesses.iter().any(|g| g.ends_with("y is up.")), "{:?}", table.guesses);
+}
+
 #[test]
 fn names_and_units_of_the_table_are_those_of_the_design() {
     let text = twelve(|body, i, p| format!("{}{};{}", body.of(("A", "B")), i + 1, p.join(";")));

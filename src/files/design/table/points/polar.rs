@@ -1,0 +1,87 @@
+//! Tables whose columns are radii and angles.
+
+use super::lists::{angle_unit, is_angle, is_radius, on_circle};
+use super::{InvalidPointTable, body_of_word};
+use crate::design::table::header::plain;
+use crate::design::table::sheet::CellTable;
+use platform::manipulator::Body;
+
+/// Puts x and y in place of radii and angles, where the header has columns of these.
+///
+/// # Errors
+/// A radius without an angle, or an angle without a radius; angles whose unit is not known.
+pub(super) fn to_coordinates(
+    sheet: &mut CellTable,
+    text: &str,
+    guesses: &mut Vec<String>,
+) -> Result<(), InvalidPointTable> {
+    let Some(header) = sheet.header.clone() else { return Ok(()) };
+    let columns = |wanted: fn(&str) -> bool| -> Vec<usize> {
+        (0..header.len()).filter(|c| wanted(&header[*c])).collect()
+    };
+    let (radii, angles) = (columns(is_radius), columns(is_angle));
+    if radii.is_empty() && angles.is_empty() {
+        return Ok(());
+    }
+    let refused = |message: String| Err(InvalidPointTable::Form(message));
+    if radii.len() != angles.len() || radii.len() > 2 {
+        let listed = |list: &[usize]| {
+            let names: Vec<String> = list.iter().map(|c| format!("`{}`", header[*c])).collect();
+            if names.is_empty() { "none".into() } else { names.join(", ") }
+        };
+        return refused(format!(
+            "a point has a radius and an angle: the columns of radii are {}, those of angles {}",
+            listed(&radii),
+            listed(&angles)
+        ));
+    }
+    let body = |c: usize| -> Option<Body> { body_of_word(&plain(&header[c])) };
+    for radius in radii {
+        let partner = angles.iter().find(|c| body(**c) == body(radius));
+        let Some(&angle) = partner else {
+            return refused(format!("the radius `{}` has no angle of the same body", header[radius]));
+        };
+        pair(sheet, text, [radius, angle], guesses)?;
+    }
+    Ok(())
+}
+
+/// One radius with its angle.
+fn pair(
+    sheet: &mut CellTable,
+    text: &str,
+    [radius, angle]: [usize; 2],
+    guesses: &mut Vec<String>,
+) -> Result<(), InvalidPointTable> {
+    let mut read = Vec::new();
+    for row in &sheet.rows {
+        let number = |c: usize| row.cells.get(c).and_then(|cell| sheet.number(cell));
+        read.push(number(radius).zip(number(angle)));
+    }
+    let turns: Vec<f64> = read.iter().flatten().map(|(_, turn)| *turn).collect();
+    let Some(header) = &mut sheet.header else { return Ok(()) };
+    let names = [header[radius].clone(), header[angle].clone()];
+    let degrees = angle_unit([&names[1], &names[1]], text, turns.iter()).map_err(InvalidPointTable::Form)?;
+    guesses.push(format!(
+        "`{}` is a radius and `{}` its angle in {}, counted from x towards y.",
+        names[0],
+        names[1],
+        if degrees { "degrees" } else { "radians" }
+    ));
+    // the body and the unit in the name of the radius are those of the coordinates
+    let renamed = |axis: &str| {
+        let lower = names[0].to_lowercase();
+        match lower.find("radius") {
+            Some(at) => format!("{}{axis}{}", &names[0][..at], &names[0][at + "radius".len()..]),
+            None => axis.to_owned(),
+        }
+    };
+    (header[radius], header[angle]) = (renamed("x"), renamed("y"));
+    for (k, values) in read.into_iter().enumerate() {
+        let Some((radius_of, turn)) = values else { continue };
+        let at = on_circle(radius_of, turn, degrees);
+        let [x, y] = [at.x, at.y].map(|x| sheet.shown(x));
+        (sheet.rows[k].cells[radius], sheet.rows[k].cells[angle]) = (x, y);
+    }
+    Ok(())
+}
