@@ -274,3 +274,43 @@ fn sheets_of_either_dialect_give_one_design_and_the_wrong_dialect_is_refused() {
     ]);
     assert_eq!((out.status.code(), &document(&out)["error"]["code"]), (Some(2), &"convert::no_sheet".into()));
 }
+
+/// Two rings with these decimals, a row a leg.
+fn rings(decimals: usize) -> String {
+    let at = |r: f64, degrees: f64| {
+        let (s, c) = f64::to_radians(degrees).sin_cos();
+        format!("{:.decimals$},{:.decimals$},0", r * c, r * s)
+    };
+    let (base, platform) = ([-10., 10., 110., 130., 230., 250.], [-50., 50., 70., 170., 190., 290.]);
+    let rows = base.iter().zip(platform).map(|(a, b)| format!("{},{}\n", at(500.0, *a), at(300.0, b)));
+    rows.collect()
+}
+
+#[test]
+fn decimals_that_were_meant_symmetric_are_said_to_be_and_written_so_with_snap() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
+    let (points, typed, snapped) = (name("rings.csv"), name("typed.toml"), name("snapped.toml"));
+    std::fs::write(&points, rings(6)).unwrap();
+    let plain = new(&["--points", &points, "-o", &typed]);
+    let guesses = plain["guesses"].to_string();
+    assert!(guesses.contains("--snap writes these") && guesses.contains("turned by a third"), "{guesses}");
+    new(&["--points", &points, "--snap", "-o", &snapped]);
+    let fk = document(&equipod(&["fk", &snapped, "--json"]));
+    assert_eq!(
+        (&fk["completeness"], &fk["finite_count"], &fk["real_count"]),
+        (&"proved".into(), &28.into(), &8.into())
+    );
+    let converted = name("converted.toml");
+    assert_eq!(equipod(&["design", "convert", &typed, "--snap", "-o", &converted]).status.code(), Some(0));
+    let body = |path: &str| {
+        let text = std::fs::read_to_string(path).unwrap();
+        text.lines().filter(|line| line.starts_with(['A', 'B'])).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(body(&converted), body(&snapped));
+    let again = equipod(&["design", "convert", &snapped, "--snap", "-o", &name("again.toml"), "--json"]);
+    assert_eq!(
+        (again.status.code(), &document(&again)["error"]["code"]),
+        (Some(2), &"convert::no_symmetry".into())
+    );
+}

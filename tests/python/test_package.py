@@ -265,6 +265,19 @@ def test_bad_input_is_refused_with_code_place_and_help(octahedral):
     assert caught.value.code == "not_octahedral"
 
 
+def test_rings_of_decimals_are_snapped():
+    def ring(radius, degrees):
+        turn = np.radians(degrees)
+        return np.round(np.stack([radius * np.cos(turn), radius * np.sin(turn), 0 * turn], axis=1), 6)
+
+    base, platform = ring(500, [-10, 10, 110, 130, 230, 250]), ring(300, [-50, 50, 70, 170, 190, 290])
+    typed = equipod.Design.from_arrays(base, platform)
+    assert len(typed.symmetry) == 2 and "turned by a third" in typed.symmetry[0]
+    snapped = equipod.Design.from_arrays(base, platform, snap=True)
+    assert snapped == typed.snapped() and snapped.symmetry == [] and snapped.snapped() is snapped
+    assert "turn" in snapped.dumps() and np.allclose(snapped.joints.base, base, atol=1e-5)
+
+
 def test_designs_from_arrays_texts_and_files(tmp_path, octahedral):
     joints = octahedral.joints
     made = equipod.Design.from_arrays(joints.base, joints.platform, joints.legs.tolist(), home=octahedral.home, name="own", units="m")

@@ -151,6 +151,13 @@ impl NativeDesign {
         Ok(Self::of(Design::new(name, units, manipulator)))
     }
 
+    /// The design with the symmetry that its joints have but for rounding, and what was found.
+    fn snapped(&self) -> Option<(Self, Vec<String>)> {
+        let snapped = self.design.snapped()?;
+        let sentences = snapped.sentences(&self.design.units);
+        Some((Self::of(snapped.design.into()), sentences))
+    }
+
     /// The design with another home pose.
     fn with_home(&self, py: Python<'_>, pose: PyReadonlyArray3<'_, f64>) -> PyResult<Self> {
         let home = poses_in(py, &pose.as_array())?.into_iter().next();

@@ -18,6 +18,7 @@ mod outline;
 #[cfg(test)]
 mod requirements_tests;
 mod scale;
+mod snap;
 pub mod spanned;
 mod table;
 #[cfg(test)]
@@ -41,6 +42,7 @@ pub use model::{
 };
 pub use outline::{HexapodSizes, InvalidOutline, octahedral_toml, with_lengths};
 pub use scale::{NotScaled, micrometres, unit_of_millimetres};
+pub use snap::{FoundRelation, JointRelation, SnappedDesign};
 pub use table::{
     DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidPointTable, InvalidRigSheet, InvalidSeries,
     InvalidSheet, PointTable, RigSheet, SeriesKind, SeriesRow, SheetDialect, SheetLegs, TimeSeries,

@@ -383,6 +383,7 @@ class Design:
         home: PoseLike | None = None,
         name: str = "platform",
         units: str = "mm",
+        snap: bool = False,
     ) -> Design:
         """A design from its joints.
 
@@ -396,13 +397,28 @@ class Design:
             Rows of `base` and of `platform` that each leg joins; leg ``i`` joins row ``i`` of both when absent.
         home : array_like, shape (4, 4), optional
         name, units : str
+        snap : bool
+            Take the symmetry that the joints have but for rounding as meant (`snapped`).
         """
         pairs = list(_LEGS if legs is None else ((int(a), int(b)) for a, b in legs))
         if len(pairs) != 6:
             raise DesignError(f"a platform has six legs, not {len(pairs)}", code="legs")
         points = [np.ascontiguousarray(np.atleast_2d(np.asarray(x, dtype=np.float64))) for x in (base, platform)]
         made = _core.Design.from_arrays(points[0], points[1], pairs, name, units)
-        return cls(made if home is None else made.with_home(as_matrices(home).reshape(1, 4, 4)))
+        design = cls(made if home is None else made.with_home(as_matrices(home).reshape(1, 4, 4)))
+        return design.snapped() if snap else design
+
+    @property
+    def symmetry(self) -> list[str]:
+        """What the joints have but for rounding, with how far off it is: joints at one place, turned by a third of a
+        turn about z, mirrored in a plane of the axes, in such a plane. Empty where nothing was found."""
+        found = self._native.snapped()
+        return [] if found is None else found[1]
+
+    def snapped(self) -> Design:
+        """The design with its `symmetry` as constructions, so that joints are exact; the same where it has none."""
+        found = self._native.snapped()
+        return self if found is None else Design(found[0])
 
     def dumps(self, format: str = "toml") -> str:
         """The text of the design: with the comments of its file as ``"toml"``, or ``"json"``."""

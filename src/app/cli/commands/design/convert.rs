@@ -22,6 +22,10 @@ pub(crate) struct DesignConvertArgs {
     /// Write all lengths in this unit: um, mm, cm, m, in or ft
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
+    /// Write joints as constructions where they are at one place, turned by a third of a turn, mirrored or in a plane of
+    /// the axes but for rounding
+    #[arg(long)]
+    snap: bool,
     /// Write the parameters of a motion-simulator program in place of a design: `motion4sim` (and `FlyPT Mover`), where
     /// L4 is the long side of the base, or `dr-sim-manager`, where L3 is
     #[arg(long, value_name = "DIALECT")]
@@ -44,6 +48,18 @@ pub(crate) fn run(args: &DesignConvertArgs, context: &mut Context) -> Result<Ans
         }
     };
     let mut design = context.load_with_cranks(&args.design)?;
+    let mut sentences = Vec::new();
+    if args.snap {
+        let Some(snapped) = design.snapped() else {
+            let message =
+                format!("{}: no symmetry was found that the joints do not have exactly", design.name);
+            return Err(Failure::refused("convert::no_symmetry", message).with_help(
+                "joints are compared to two millionths of the size; constructed joints are exact already",
+            ));
+        };
+        sentences = snapped.sentences(&design.units);
+        design = snapped.design.into();
+    }
     if let Some(units) = &args.units {
         let scaled = design.in_units(units).map_err(|why| {
             Failure::refused("convert::units", why.to_string())
@@ -67,6 +83,7 @@ pub(crate) fn run(args: &DesignConvertArgs, context: &mut Context) -> Result<Ans
         None => files::write_design(&args.output, &design)?,
     }
     let output = args.output.display().to_string();
-    let text = format!("wrote {output}\n");
+    let mut text: String = sentences.iter().map(|sentence| format!("{sentence}\n")).collect();
+    text.push_str(&format!("wrote {output}\n"));
     Ok(Answer::new(Exit::Yes, ConvertAnswer { name: design.name.clone(), output, format }, text))
 }

@@ -131,6 +131,15 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             )?;
             let solutions = solve(method, m, &l.distances, &options)?;
             let exit = exit_of(&solutions);
+            if exit == Exit::Inconclusive
+                && let Some(snapped) = design.snapped()
+            {
+                let off = snapped.found.iter().map(|found| found.off).fold(0.0, f64::max);
+                context.note(&format!(
+                    "The joints have a symmetry but for {off:.1e} {}: `equipod design convert DESIGN --snap -o FILE` writes it, so that joints are exact and poses can be proved complete.",
+                    design.units
+                ));
+            }
             let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &home));
             let squares = l.distances.squared();
             let closure = match between {

@@ -61,6 +61,10 @@ pub(crate) struct NewArgs {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread"]
     )]
     points: Option<PathBuf>,
+    /// Write joints of --points as constructions where they are at one place, turned by a third of a turn, mirrored or
+    /// in a plane of the axes but for rounding
+    #[arg(long, requires = "points")]
+    snap: bool,
     /// The parameters of a motion-simulator program (`-` for standard input): lines `L1 = 900` to `L4`, and `middle`
     /// and `range` of legs, or `crank`, `rod`, `middle_angle` and `crank_angle_1` to `crank_angle_6`; --dialect says
     /// whose
@@ -245,6 +249,17 @@ fn from_table(args: &NewArgs, path: &std::path::Path, context: &Context) -> Resu
         UNIT.into()
     });
     let mut design = table.design(&args.name, &units).map_err(|why| bad_points(&shown, &why.into()))?;
+    if let Some(snapped) = design.snapped() {
+        let sentences = snapped.sentences(&units);
+        if args.snap {
+            design = snapped.design;
+        } else {
+            table.guesses.push("--snap writes these as constructions, so that joints are exact:".into());
+        }
+        table.guesses.extend(sentences);
+    } else if args.snap {
+        table.guesses.push("No symmetry was found that the joints do not have exactly.".into());
+    }
     if let Some(height) = args.height {
         design.home = Some(Pose::new([0.0, 0.0, height], Angles::default()));
     } else if design.home.is_none() {
