@@ -72,6 +72,7 @@ Invariant = Literal[
 ]
 LengthsOrigin = Literal["design", "home"]
 Level = Literal["doubles_as_written", "exact_joints", "within_rounding"]
+LineClass = Literal["cubic", "octic", "quadratic", "quartic"]
 Loss = Literal["cauchy", "huber", "squares", "tukey"]
 LossUnit = Literal["leg", "pose"]
 MarginVerdict = Literal["at_limit", "met", "searched", "violated"]
@@ -564,6 +565,9 @@ class CheckAnswer(Record):
     common_points: Union[CommonPointsRecord, None]
     #: How many isolated finite poses no lengths exceed, by a theorem.
     pose_bound: PoseBoundRecord
+    #: In which steps the poses can be found: whether by quadratic equations alone, and which part of the
+    #: platform can be placed before the rest.
+    solvability: Solvability
     #: The line that fits the joints of each body best, base first: a body whose joints all lie on one
     #: turns about it. A body with its joints in one place has none.
     best_lines: tuple[BestLineRecord, ...]
@@ -3284,6 +3288,20 @@ class PatternRecord(Record):
     det_zero: tuple[str, ...]
 
 
+class PlacedFirst(Record):
+    """A part of the platform that some of the legs place, before the others place the rest."""
+
+    part: Union[Literal["line", "joint"], None]
+    #: The body.
+    body: Union[Body, None]
+    #: The legs, counted from 1.
+    legs: Union[tuple[int, ...], None]
+    #: By which polynomial; null where the legs are dependent, or joints are no fractions.
+    class_: Union[LineClass, None]
+    #: The five other ends lie in a plane: a line-plane component.
+    other_ends_in_plane: Union[bool, None]
+
+
 class PoseBoundRecord(Record):
     """A proved bound on the number of isolated finite poses, counted with multiplicity."""
 
@@ -3944,6 +3962,15 @@ class SolutionRecord(Record):
     dual_quaternion: Union[ComplexRecord4, None]
     #: The pose in real numbers, where it is real.
     real_pose: Union[RealPoseRecord, None]
+
+
+class Solvability(Record):
+    """How the poses can be found in steps."""
+
+    #: A chain of quadratic equations gives all poses.
+    quadratic: bool
+    #: The parts that can be placed first; empty where the legs do not decouple in these ways.
+    placed_first: tuple[PlacedFirst, ...]
 
 
 class SolvedBudgetRecord(Record):
