@@ -40,13 +40,14 @@ impl Design {
     fn load_by(path: &Path, parsed: fn(&str, Format) -> DesignOrViolations) -> Result<Self, Error> {
         let (mut design, _) = parsed(&read(path)?, Format::of_path(path))
             .map_err(|violations| Error::Design { file: Some(path.to_path_buf()), violations })?;
+        let home = design.home_or_default();
         if let Some(trajectory) = &mut design.workspace.trajectory {
             let file = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
             let bytes = std::fs::read(&file).map_err(|source| Error::File { path: file.clone(), source })?;
             let read =
                 SeriesKind::Poses.read(&bytes, |row| row.parse().map_err(|e: InvalidPose| e.to_string()));
             let table = read.map_err(|why| Error::Trajectory { file, bad: why.sentences() })?;
-            trajectory.poses = table.rows.into_iter().map(|row| row.value).collect();
+            trajectory.poses = table.with_home(&home).rows.into_iter().map(|row| row.value).collect();
         }
         Ok(design)
     }

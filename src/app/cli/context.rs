@@ -246,11 +246,12 @@ impl Context {
             Ok((mut design, warnings)) => {
                 self.warn(path, &text, warnings);
                 let mut poses = None;
+                let home = design.home_or_default();
                 if let Some(trajectory) = &mut design.workspace.trajectory {
                     // the name is relative to the folder of the design
                     let table = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
                     let bytes = files::read_table(&table)?;
-                    let read = rows::poses_of(&bytes, &table, "design::bad_trajectory", self)?;
+                    let read = rows::poses_of(&bytes, &table, "design::bad_trajectory", &home, self)?;
                     trajectory.poses = read.rows.into_iter().map(|row| row.value).collect();
                     poses = Some((table, bytes));
                 }

@@ -55,8 +55,13 @@ fn read_bytes<T>(
 ///
 /// # Errors
 /// As [`read`].
-pub(crate) fn poses(path: &Path, code: &'static str, context: &Context) -> Result<TimeSeries<Pose>, Failure> {
-    poses_of(&files::read_table(path)?, path, code, context)
+pub(crate) fn poses(
+    path: &Path,
+    code: &'static str,
+    home: &Pose,
+    context: &Context,
+) -> Result<TimeSeries<Pose>, Failure> {
+    poses_of(&files::read_table(path)?, path, code, home, context)
 }
 
 /// The poses of a table whose bytes were read before.
@@ -67,10 +72,12 @@ pub(crate) fn poses_of(
     bytes: &[u8],
     path: &Path,
     code: &'static str,
+    home: &Pose,
     context: &Context,
 ) -> Result<TimeSeries<Pose>, Failure> {
-    let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
-    read_bytes(SeriesKind::Poses, TableName { path, code, form }, bytes, context, |line| {
+    let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz, or name the columns x,y,z,u,v,w or surge,sway,heave,roll,pitch,yaw";
+    let series = read_bytes(SeriesKind::Poses, TableName { path, code, form }, bytes, context, |line| {
         line.parse().map_err(|e: InvalidPose| e.to_string())
-    })
+    })?;
+    Ok(series.with_home(home))
 }

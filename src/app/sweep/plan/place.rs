@@ -73,8 +73,9 @@ impl BasePlan {
                 }
             }
         }
+        let home = self.design.home_or_default();
         if let Some(trajectory) = &mut self.design.workspace.trajectory {
-            trajectory.poses = read.rows.into_iter().map(|row| row.value).collect();
+            trajectory.poses = read.with_home(&home).rows.into_iter().map(|row| row.value).collect();
         }
         Ok(self)
     }

@@ -1,9 +1,11 @@
 //! Leg lengths or poses row by row, with their times.
 
+use nalgebra::{UnitQuaternion, Vector3};
 use thiserror::Error;
 
 use super::header::plain;
 use super::sheet::{CellTable, InvalidSheet, SheetRow};
+use platform::geom::Pose;
 
 /// A row with fewer numbers is none.
 const LEAST_NUMBERS: usize = 2;
@@ -44,8 +46,24 @@ pub struct TimeSeries<T> {
     pub time_name: Option<String>,
     /// In the order of the text; at least one.
     pub rows: Vec<SeriesRow<T>>,
+    /// Poses count from home: the header names surge, sway and heave.
+    pub from_home: bool,
     /// What was guessed, a sentence each.
     pub guesses: Vec<String>,
+}
+
+impl TimeSeries<Pose> {
+    /// The poses in the base frame, those that [count from home](Self::from_home) too.
+    #[must_use]
+    pub fn with_home(mut self, home: &Pose) -> Self {
+        if std::mem::take(&mut self.from_home) {
+            for row in &mut self.rows {
+                let Pose { rotation, position } = row.value;
+                row.value = Pose { rotation: rotation * home.rotation, position: position + home.position };
+            }
+        }
+        self
+    }
 }
 
 /// Why a text is no such table.
@@ -57,6 +75,9 @@ pub enum InvalidSeries {
     /// It has no row of numbers.
     #[error("there is no line of numbers")]
     Empty,
+    /// Its angles have no order that their names tell.
+    #[error("`{0}` may be angles in several orders, or a rotation vector")]
+    Order(String),
     /// Rows that cannot be read, each with its line.
     #[error("{}", quoted(.0))]
     Rows(Vec<String>),
@@ -84,8 +105,19 @@ struct SeriesColumns {
     values: Option<Vec<usize>>,
     /// Columns of angles in radians.
     radians: Vec<usize>,
+    /// How the columns of a pose are meant.
+    meant: PoseNames,
     /// How many columns have names; 0 where none has.
     named: usize,
+}
+
+/// Which names the columns of poses have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct PoseNames {
+    /// Angles U, V, W of makers of hexapods: `R = Rx(U) Ry(V) Rz(W)`.
+    uvw: bool,
+    /// Surge, sway and heave of motion simulators, which count from home.
+    from_home: bool,
 }
 
 impl SeriesKind {
@@ -109,7 +141,7 @@ impl SeriesKind {
         };
         let mut guesses = std::mem::take(&mut sheet.guesses);
         let header = sheet.header.clone().unwrap_or_default();
-        let columns = self.columns(&header, &mut guesses);
+        let columns = self.columns(&header, &mut guesses)?;
         let (mut rows, mut bad) = (Vec::new(), Vec::new());
         for row in &sheet.rows {
             let has_numbers = row.cells.iter().any(|c| sheet.number(c).is_some());
@@ -132,21 +164,43 @@ impl SeriesKind {
         if rows.is_empty() {
             return Err(InvalidSeries::Empty);
         }
-        Ok(TimeSeries { time_name: columns.time.and_then(|c| header.get(c).cloned()), rows, guesses })
+        let time_name = columns.time.and_then(|c| header.get(c).cloned());
+        Ok(TimeSeries { time_name, rows, from_home: columns.meant.from_home, guesses })
     }
 
-    fn columns(self, header: &[String], guesses: &mut Vec<String>) -> SeriesColumns {
+    fn columns(self, header: &[String], guesses: &mut Vec<String>) -> Result<SeriesColumns, InvalidSeries> {
         let names: Vec<String> = header.iter().map(|name| plain(name)).collect();
         let time = names.iter().position(|name| is_time(name));
+        let mut meant = PoseNames::default();
         let values = match self {
             Self::Lengths => numbered_columns(&names, &LENGTH_WORDS),
             Self::Angles => numbered_columns(&without_angle_units(&names), &ANGLE_WORDS),
-            Self::Poses => pose_columns(&names),
+            Self::Poses => {
+                let found = pose_columns(&names, true);
+                meant = found.as_ref().map_or(meant, |(_, meant)| *meant);
+                found.map(|(columns, _)| columns)
+            }
             Self::PosesWithLengths => {
                 let lengths = numbered_columns(&names, &LENGTH_WORDS);
-                pose_columns(&names).zip(lengths).map(|(pose, lengths)| [pose, lengths].concat())
+                pose_columns(&names, false).zip(lengths).map(|((pose, _), lengths)| [pose, lengths].concat())
             }
         };
+        if values.is_none() && matches!(self, Self::Poses | Self::PosesWithLengths) {
+            let unclear =
+                ["rx", "ry", "rz"].map(|name| without_angle_units(&names).iter().position(|n| n == name));
+            if let [Some(x), Some(y), Some(z)] = unclear {
+                return Err(InvalidSeries::Order([x, y, z].map(|c| header[c].as_str()).join(", ")));
+            }
+        }
+        if meant.uvw {
+            guesses
+                .push("U, V and W are turns about x, y and z in this order: R = Rx(U) Ry(V) Rz(W).".into());
+        }
+        if meant.from_home {
+            guesses.push(
+                "Surge, sway and heave count from home, along x, y and z, and so does the rotation.".into(),
+            );
+        }
         guesses.extend(time.map(|c| format!("The column `{}` holds times.", header[c])));
         let in_radians =
             |list: &[usize]| list.iter().copied().filter(|c| names[*c].ends_with("rad")).collect();
@@ -165,7 +219,7 @@ impl SeriesKind {
         if !unused.is_empty() {
             guesses.push(format!("These columns are not used: {}.", unused.join(", ")));
         }
-        SeriesColumns { time, values, radians, named: header.len() }
+        Ok(SeriesColumns { time, values, radians, meant, named: header.len() })
     }
 }
 
@@ -193,7 +247,10 @@ impl SeriesColumns {
             Some(angle) if self.radians.contains(&c) => format!("{:?}", angle.to_degrees()),
             _ => sheet.with_point(cell(c)),
         };
-        let values: Vec<String> = columns.into_iter().map(value).collect();
+        let mut values: Vec<String> = columns.into_iter().map(value).collect();
+        if self.meant.uvw {
+            turned_xyz(&mut values)?;
+        }
         Ok((time, record(&values.join(","))?))
     }
 }
@@ -238,20 +295,46 @@ fn numbered_columns(names: &[String], wanted: &[&str]) -> Option<Vec<usize>> {
     words.into_iter().find_map(of)
 }
 
-/// The columns of x, y and z with those of the angles, or of the quaternion.
-fn pose_columns(names: &[String]) -> Option<Vec<usize>> {
+/// The columns of x, y and z with those of the angles, or of the quaternion; names of other conventions where these are
+/// taken.
+fn pose_columns(names: &[String], others: bool) -> Option<(Vec<usize>, PoseNames)> {
     let names = without_angle_units(names);
     let column = |accepted: &[&str]| names.iter().position(|n| accepted.contains(&n.as_str()));
-    let position = [
+    let usual = [
         column(&["x", "px", "posx", "tx"]),
         column(&["y", "py", "posy", "ty"]),
         column(&["z", "pz", "posz", "tz"]),
     ];
+    let from_home = [column(&["surge"]), column(&["sway"]), column(&["heave"])];
     let angles = vec![column(&["roll"]), column(&["pitch"]), column(&["yaw"])];
     let quaternion = vec![column(&["qw"]), column(&["qx"]), column(&["qy"]), column(&["qz"])];
-    let whole =
-        |rotation: Vec<Option<usize>>| position.into_iter().chain(rotation).collect::<Option<Vec<usize>>>();
-    whole(angles).or_else(|| whole(quaternion))
+    let uvw = vec![column(&["u"]), column(&["v"]), column(&["w"])];
+    let whole = |position: [Option<usize>; 3], rotation: &[Option<usize>], meant: PoseNames| {
+        let list: Option<Vec<usize>> = position.into_iter().chain(rotation.iter().copied()).collect();
+        Some((list?, meant))
+    };
+    let plain = PoseNames::default();
+    let known = whole(usual, &angles, plain).or_else(|| whole(usual, &quaternion, plain));
+    if !others {
+        return known;
+    }
+    known
+        .or_else(|| whole(usual, &uvw, PoseNames { uvw: true, from_home: false }))
+        .or_else(|| whole(from_home, &angles, PoseNames { uvw: false, from_home: true }))
+}
+
+/// `x, y, z, U, V, W` as `x, y, z` and the quaternion of `Rx(U) Ry(V) Rz(W)`.
+fn turned_xyz(values: &mut Vec<String>) -> Result<(), String> {
+    let number = |text: &String| text.parse::<f64>().map_err(|_| format!("`{text}` is not a number"));
+    let [u, v, w] = match &values[..] {
+        [_, _, _, u, v, w] => [number(u)?, number(v)?, number(w)?],
+        other => return Err(format!("{} values instead of six", other.len())),
+    };
+    let about = |axis, degrees: f64| UnitQuaternion::from_axis_angle(&axis, degrees.to_radians());
+    let turn = about(Vector3::x_axis(), u) * about(Vector3::y_axis(), v) * about(Vector3::z_axis(), w);
+    values.truncate(3);
+    values.extend([turn.w, turn.i, turn.j, turn.k].map(|q| format!("{q:?}")));
+    Ok(())
 }
 
 #[cfg(test)]
@@ -291,6 +374,22 @@ mod tests {
             let found = read(SeriesKind::Lengths, text);
             assert_eq!((&found.rows[0].value, found.rows[0].time), (&meant, time), "{text}");
         }
+    }
+
+    #[test]
+    fn conventions_of_makers_are_taken_by_their_names_or_refused() {
+        let found = read(SeriesKind::Poses, "X,Y,Z,U,V,W\n0,0,650,5,3,10\n");
+        assert!(found.guesses.iter().any(|g| g.contains("Rx(U) Ry(V) Rz(W)")) && !found.from_home);
+        let [_, _, z, w, i, j, k] = found.rows[0].value[..] else { panic!("{:?}", found.rows) };
+        // first the turn about the platform's own z, last that about x: the column of Rx(U) Ry(V) is its z axis
+        let turned = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, i, j, k)) * Vector3::z();
+        let (u, v) = (5.0_f64.to_radians(), 3.0_f64.to_radians());
+        let meant = Vector3::new(v.sin(), -u.sin() * v.cos(), u.cos() * v.cos());
+        assert!((turned - meant).norm() < 1e-15 && z.to_bits() == 650.0_f64.to_bits());
+        let home = read(SeriesKind::Poses, "surge,sway,heave,roll,pitch,yaw\n0,0,0,5,3,10\n");
+        assert!(home.from_home && home.guesses.iter().any(|g| g.contains("count from home")));
+        let unclear = SeriesKind::Poses.read(b"x,y,z,rx,ry,rz\n1,2,3,4,5,6\n", numbers);
+        assert!(matches!(unclear, Err(InvalidSeries::Order(names)) if names == "rx, ry, rz"));
     }
 
     #[test]

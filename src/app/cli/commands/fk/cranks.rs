@@ -44,7 +44,7 @@ fn given(option: Option<&str>, context: &Context) -> Result<TimeSeries<AnglesDeg
                 .with_help("give six angles in degrees separated by commas, or a CSV file")
         })?;
         let rows = vec![SeriesRow { line: 0, time: None, value }];
-        return Ok(TimeSeries { time_name: None, rows, guesses: Vec::new() });
+        return Ok(TimeSeries { time_name: None, rows, from_home: false, guesses: Vec::new() });
     }
     let form = "six angles in degrees a line: a1,a2,a3,a4,a5,a6";
     rows::read(SeriesKind::Angles, TableName { path: Path::new(text), code: BAD_ANGLES, form }, context, six)

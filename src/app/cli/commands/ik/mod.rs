@@ -42,7 +42,7 @@ const BAD_POSE: &str = "ik::bad_pose";
 pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let (series, one) = match &args.poses {
-        Some(path) => (rows::poses(path, BAD_POSE, context)?, false),
+        Some(path) => (rows::poses(path, BAD_POSE, &poses::home(&design), context)?, false),
         None => (named(&args.pose, &design)?, args.pose.len() < 2),
     };
     let from_table = args.poses.is_some();
@@ -92,6 +92,7 @@ fn named(texts: &[String], design: &Design) -> Result<TimeSeries<Pose>, Failure>
     Ok(TimeSeries {
         time_name: None,
         rows: all.into_iter().enumerate().map(row).collect(),
+        from_home: false,
         guesses: Vec::new(),
     })
 }

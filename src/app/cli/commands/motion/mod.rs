@@ -102,7 +102,10 @@ impl<'a> ChosenMotions<'a> {
         let mut out = Vec::new();
         if let Some(path) = self.trajectory {
             let ends = if self.at_rest { PathEnds::AtRest } else { PathEnds::Free };
-            let motion = PlatformMotion::Path(trajectory(path, ends, context)?, self.steps as usize);
+            let motion = PlatformMotion::Path(
+                trajectory(path, ends, &poses::home(design), context)?,
+                self.steps as usize,
+            );
             out.push((files::shown(path), motion));
         }
         let about = about(self.about, design)?;
@@ -218,8 +221,8 @@ fn no_manoeuvre(option: &str, why: &InvalidManoeuvre) -> Failure {
 }
 
 /// The motion through the poses of a table.
-fn trajectory(path: &Path, ends: PathEnds, context: &Context) -> Result<PosePath, Failure> {
-    let series = rows::poses(path, BAD_TRAJECTORY, context)?;
+fn trajectory(path: &Path, ends: PathEnds, home: &Pose, context: &Context) -> Result<PosePath, Failure> {
+    let series = rows::poses(path, BAD_TRAJECTORY, home, context)?;
     let shown = files::shown(path);
     let Some(name) = &series.time_name else {
         let message = format!("{shown} has no column of times");
