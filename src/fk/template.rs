@@ -11,9 +11,6 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 /// Times the elimination is made anew, in other frames, while fewer than 40 poses are proved.
 const ATTEMPTS: u64 = 3;
 
-/// A template whose smallest pivot is below this, relative to the largest, has lost rank to rounding.
-const PIVOT_LIMIT: f64 = 1e-13;
-
 /// Forward kinematics of a general platform by the elimination template of Martyushev.
 ///
 /// Every one of the 69 eigenvectors is refined, and a pose counts when it satisfies the leg equations; the set
@@ -46,7 +43,7 @@ fn solve_with(
         let problem = GenericProblem::draw(m, s, &mut Purpose::GENERIC_FRAMES.item(o.seed, attempt));
         let eliminated = layout.fill(&problem).eliminate();
         best = best.max(eliminated.pivot_ratio);
-        if !(eliminated.pivot_ratio > PIVOT_LIMIT) {
+        if !eliminated.has_rank() {
             continue;
         }
         let pairs = eliminated.eigenpairs().map_err(|e| FkError::Breakdown { what: e.to_string() })?;

@@ -108,6 +108,18 @@ fn poses_far_out_are_found_and_certified() {
     }
 }
 
+/// Martyushev (2025), sec. 5, remark 2, says that his template takes them.
+#[test]
+fn the_template_refuses_almost_planar_platforms_and_the_automatic_choice_proves_them() {
+    let plan = plan(Class::AlmostPlanar, 10);
+    let template = run(&plan, solver(Some(Method::Template)).as_ref(), &Homotopy).unwrap();
+    assert_eq!((template.expected, template.complete, template.doubted), (40, 0, 10));
+    assert_eq!(template.raw.unwrap().refused, 10);
+    let automatic = run(&plan, solver(None).as_ref(), &Homotopy).unwrap();
+    assert_eq!((automatic.complete, automatic.proved), (10, 10));
+    assert!(automatic.passed() && automatic.raw.is_none());
+}
+
 #[test]
 fn problems_depend_on_their_index_only() {
     let all = short(Class::General, 4);
