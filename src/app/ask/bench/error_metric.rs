@@ -109,7 +109,8 @@ impl MacaulayMatrix {
         for i in 0..4 {
             (0..3).for_each(|k| z[4 * QUADRATICS + 3 * i + k] = e[i] * e[i] * t[k] * t[k]);
         }
-        let size: f64 = z.iter().zip(self.occurs).filter(|(_, occurs)| *occurs).map(|(z, _)| z.norm_sqr()).sum();
+        let size: f64 =
+            z.iter().zip(self.occurs).filter(|(_, occurs)| *occurs).map(|(z, _)| z.norm_sqr()).sum();
         let values = self.rows.iter().map(|row| row.iter().zip(&z).map(|(c, z)| z * c).sum::<Complex64>());
         let residual = (values.map(|v| v.norm_sqr()).sum::<f64>() / size).sqrt();
         if residual.is_finite() { residual } else { f64::INFINITY }
@@ -128,7 +129,8 @@ pub fn error_metric(m: &Manipulator, s: &SquaredLegLengths, roots: &[ComplexPose
     let lift = |v: nalgebra::Vector3<f64>| v.map(Complex64::from);
     let matrix = MacaulayMatrix::of(&GenericProblem::as_given(m, s));
     epsilon(roots.iter().map(|pose| {
-        let position = pose.position + pose.rotation * lift(legs[0].platform.coords) - lift(legs[0].base.coords);
+        let position =
+            pose.position + pose.rotation * lift(legs[0].platform.coords) - lift(legs[0].base.coords);
         matrix.residual(&RawCandidate { quaternion: quaternion(pose), position })
     }))
 }

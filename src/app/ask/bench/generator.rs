@@ -158,7 +158,7 @@ fn joints(class: Class, rng: &mut Rng) -> [Leg; 6] {
         Class::AlmostPlanar => {
             let (mut base, mut platform) = (body(rng, true), body(rng, true));
             let lifted = if rng.uniform(0.0, 1.0) < 0.5 { &mut base } else { &mut platform };
-            lifted[5] = point(rng, false);
+            lifted[(rng.next_u64() % 6) as usize].z = rng.uniform(-2.0, 2.0);
             legs(base, platform)
         }
         Class::TiltedPlanes => {

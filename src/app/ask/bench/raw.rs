@@ -140,7 +140,8 @@ impl Elimination {
     /// Statistics over the problems.
     pub(super) fn report(self, outcomes: &[RawOutcome]) -> RawReport {
         let sorted: Vec<&[f64]> = outcomes.iter().filter_map(|o| o.residuals.as_deref()).collect();
-        let errors = sorted.iter().map(|r| epsilon(r.iter().copied().chain([f64::INFINITY; POSES]).take(POSES)));
+        let errors =
+            sorted.iter().map(|r| epsilon(r.iter().copied().chain([f64::INFINITY; POSES]).take(POSES)));
         let errors: Vec<f64> = errors.filter(|e| e.is_finite()).collect();
         let gaps = sorted.iter().filter_map(|r| Some((r.get(POSES - 1)? / r.get(POSES)?).log10()));
         let gaps: Vec<f64> = gaps.filter(|g| g.is_finite()).collect();
@@ -251,14 +252,17 @@ mod tests {
 
     #[test]
     fn candidates_of_both_eliminations_have_the_errors_of_their_arithmetic() {
-        let outcome = |e: Elimination, class, k| {
-            e.measure(&problem(class, LengthsFrom::Uniform, 1, k).unwrap(), 1, k)
-        };
+        let outcome =
+            |e: Elimination, class, k| e.measure(&problem(class, LengthsFrom::Uniform, 1, k).unwrap(), 1, k);
         let report = |e: Elimination, class| e.report(&[0, 1].map(|k| outcome(e, class, k)));
         let template = report(Elimination::Template, Class::General);
         assert_eq!((template.matrix.rows, template.matrix.columns, template.candidates), (293, 362, 69));
         assert_eq!((template.refused, template.infinite), (0, 0));
-        assert!((template.matrix.zeros.unwrap() - 0.90).abs() < 0.005, "published: 90 %, {:?}", template.matrix);
+        assert!(
+            (template.matrix.zeros.unwrap() - 0.90).abs() < 0.005,
+            "published: 90 %, {:?}",
+            template.matrix
+        );
         let error = template.epsilon.unwrap();
         assert!((-13.0..-6.0).contains(&error.median), "doubles: {error:?}");
         assert!(template.gap.unwrap().mean < -4.0);
@@ -267,7 +271,7 @@ mod tests {
         let determinant = report(Elimination::Sylvester, Class::General);
         assert!(determinant.epsilon.unwrap().max < -10.0, "pairs of doubles: {determinant:?}");
         assert_eq!((determinant.candidates, determinant.gap), (40, None));
-        let planar = report(Elimination::Template, Class::AlmostPlanar);
+        let planar = report(Elimination::Template, Class::BothPlanar);
         assert_eq!((planar.refused, planar.epsilon, planar.bins.len()), (2, None, 0));
     }
 }
