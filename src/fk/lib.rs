@@ -53,7 +53,8 @@ use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, NearWord, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
 pub use solutions::{
-    FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
+    FkRoot, FkSolutions, LibraryCalls, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
+    SolutionSet,
 };
 #[cfg(feature = "lab")]
 pub use sylvester::Sylvester;

@@ -2,7 +2,7 @@
 
 use super::elimination::PoseCandidates;
 use super::judge::compared_with_count;
-use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
+use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, LibraryCalls, Method};
 use crate::solve::generic_frame::GenericProblem;
 use crate::solve::template::TemplateLayout;
 use num::Purpose;
@@ -38,7 +38,7 @@ fn solve_with(
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
     let mut candidates = PoseCandidates::default();
-    let mut best = 0.0f64;
+    let (mut best, mut eigenproblems) = (0.0f64, 0);
     for attempt in 0..ATTEMPTS {
         let problem = GenericProblem::draw(m, s, &mut Purpose::GENERIC_FRAMES.item(o.seed, attempt));
         let eliminated = layout.fill(&problem).eliminate();
@@ -48,8 +48,10 @@ fn solve_with(
         }
         let pairs = eliminated.eigenpairs().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
         candidates.add(pairs.iter().map(|pair| layout.pose(&problem, pair)));
-        let found = candidates.solutions(Method::Template, m, s, o)?;
+        eigenproblems += 1;
+        let mut found = candidates.solutions(Method::Template, m, s, o)?;
         if attempt + 1 == ATTEMPTS || found.completeness.is_proved() {
+            found.library_calls = library_calls(layout, attempt + 1, eigenproblems);
             return Ok(found);
         }
     }
@@ -60,7 +62,16 @@ fn solve_with(
         );
         return Err(FkError::NotApplicable { method: Method::Template, reason });
     }
-    candidates.solutions(Method::Template, m, s, o)
+    let mut found = candidates.solutions(Method::Template, m, s, o)?;
+    found.library_calls = library_calls(layout, ATTEMPTS, eigenproblems);
+    Ok(found)
+}
+
+/// What faer computed in so many eliminations, of which so many kept their rank.
+fn library_calls(layout: &TemplateLayout, eliminations: u64, eigenproblems: usize) -> Vec<LibraryCalls> {
+    let call = |computation, size, calls| LibraryCalls { library: "faer", computation, size, calls };
+    let factors = usize::try_from(eliminations).unwrap_or(usize::MAX);
+    vec![call("plu", layout.size(), factors), call("qz", [layout.candidates(); 2], eigenproblems)]
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ fn classes(rows: &[BenchClassRecord], seed: u64) -> Sheet {
     let Some(references) = rows.first().map(|row| row.counts.reference_us) else { return out };
     say!(
         out,
-        "references: QZ of a random 69 x 69 pair {:.0} us, eigenvalues of a random 40 x 40 matrix {:.0} us",
+        "references by faer: QZ of a random 69 x 69 pair {:.0} us, eigenvalues of a random 40 x 40 matrix {:.0} us",
         references.qz69,
         references.eig40
     );
@@ -95,7 +95,12 @@ fn before_refinement(out: &mut Sheet, raw: &RawReport) {
     say!(out, "  steps: {}", steps.collect::<Vec<_>>().join(", "));
     say!(out, "  before refinement: {}", errors(&e));
     if let Some(gap) = raw.gap {
-        say!(out, "  residual 40 over residual 41: decimal logarithm, median {:.2} mean {:.2}", gap.median, gap.mean);
+        say!(
+            out,
+            "  residual 40 over residual 41: decimal logarithm, median {:.2} mean {:.2}",
+            gap.median,
+            gap.mean
+        );
     }
     let bins = raw.bins.iter().map(|b| format!("{:.1}: {}", b.from, b.count));
     say!(out, "  error metric from: {}", bins.collect::<Vec<_>>().join(", "));
