@@ -16,7 +16,8 @@ const ATTEMPTS: u64 = 3;
 /// Every one of the 69 eigenvectors is refined, and a pose counts when it satisfies the leg equations; the set
 /// is complete only when 40 distinct poses are certified. Special platforms (6-5, planar base) are covered as
 /// long as they have 40 poses; platforms with fewer finite poses, and those on which the template loses rank
-/// (planar base and planar platform), get [`FkError::NotApplicable`] or an answer that says roots may be missing.
+/// (planar base and planar platform, in many cases also if one joint is outside of its plane), get
+/// [`FkError::NotApplicable`] or an answer that says roots may be missing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Template;
 
@@ -58,7 +59,7 @@ fn solve_with(
     if candidates.is_empty() {
         let reason = format!(
             "the elimination template loses rank on this platform (pivot ratio {best:.1e}), as it does when base \
-             and platform are planar or share joints as in a 6-4"
+             and platform are planar, or all but one joint of them, or share joints as in a 6-4"
         );
         return Err(FkError::NotApplicable { method: Method::Template, reason });
     }

@@ -132,7 +132,6 @@ pub struct SearchRecord {
     pub unmet: Option<usize>,
     /// Conic programs that the library clarabel solved in this search; those with other drives and for freedoms are not
     /// counted.
-    #[serde(default)]
     pub conic_programs: u64,
 }
 
