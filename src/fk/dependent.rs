@@ -31,6 +31,7 @@ fn without_roots(completeness: Completeness, solution_set: SolutionSet, o: &FkOp
         paths: Vec::new(),
         rejected: Vec::new(),
         pose_count: None,
+        library_calls: Vec::new(),
         unproved: Vec::new(),
         seed: o.seed,
     }

@@ -57,6 +57,7 @@ impl PoseCandidates {
             paths: Vec::new(),
             rejected,
             pose_count: None,
+            library_calls: Vec::new(),
             unproved: Vec::new(),
             seed: o.seed,
         };

@@ -343,6 +343,7 @@ fn assemble(
         paths: reports,
         rejected: collected.rejected,
         pose_count: None,
+        library_calls: Vec::new(),
         unproved: Vec::new(),
         seed: o.seed,
     };

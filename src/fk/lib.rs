@@ -56,7 +56,8 @@ pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, NearWord, Why
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
 pub use pentapod::{LineClass, LinePose, LinePoses, NoLinePoses, count_line_poses, line_class, line_poses};
 pub use solutions::{
-    FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
+    FkRoot, FkSolutions, LibraryCalls, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
+    SolutionSet,
 };
 pub use solvability::{PlacedFirst, Solvability, solvability};
 #[cfg(feature = "lab")]

@@ -269,6 +269,24 @@ pub struct Rejected {
     pub residual: f64,
 }
 
+/// What a library of linear algebra computed for an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    schemars(rename = "LibraryCallsRecord")
+)]
+pub struct LibraryCalls {
+    /// The library.
+    pub library: &'static str,
+    /// The computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised eigenvectors.
+    pub computation: &'static str,
+    /// Rows and columns of the matrix.
+    pub size: [usize; 2],
+    /// How often.
+    pub calls: usize,
+}
+
 /// All roots of one problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FkSolutions {
@@ -290,6 +308,8 @@ pub struct FkSolutions {
     /// Ends of paths without a proof: there may be a root of this multiplicity near the pose, several, or none. They
     /// are not among the roots, and as long as there are any the answer is undecided.
     pub unproved: Vec<FkRoot>,
+    /// What libraries of linear algebra computed; empty where equipod computed all itself.
+    pub library_calls: Vec<LibraryCalls>,
     /// Seed of the generic constants.
     pub seed: u64,
 }

@@ -2,7 +2,7 @@
 
 use super::elimination::PoseCandidates;
 use super::judge::compared_with_count;
-use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
+use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, LibraryCalls, Method};
 use crate::solve::generic_frame::GenericProblem;
 use crate::solve::template::TemplateLayout;
 use num::Purpose;
@@ -11,15 +11,13 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 /// Times the elimination is made anew, in other frames, while fewer than 40 poses are proved.
 const ATTEMPTS: u64 = 3;
 
-/// A template whose smallest pivot is below this, relative to the largest, has lost rank to rounding.
-const PIVOT_LIMIT: f64 = 1e-13;
-
 /// Forward kinematics of a general platform by the elimination template of Martyushev.
 ///
 /// Every one of the 69 eigenvectors is refined, and a pose counts when it satisfies the leg equations; the set
 /// is complete only when 40 distinct poses are certified. Special platforms (6-5, planar base) are covered as
 /// long as they have 40 poses; platforms with fewer finite poses, and those on which the template loses rank
-/// (planar base and planar platform), get [`FkError::NotApplicable`] or an answer that says roots may be missing.
+/// (planar base and planar platform, in many cases also if one joint is outside of its plane), get
+/// [`FkError::NotApplicable`] or an answer that says roots may be missing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Template;
 
@@ -41,29 +39,40 @@ fn solve_with(
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
     let mut candidates = PoseCandidates::default();
-    let mut best = 0.0f64;
+    let (mut best, mut eigenproblems) = (0.0f64, 0);
     for attempt in 0..ATTEMPTS {
         let problem = GenericProblem::draw(m, s, &mut Purpose::GENERIC_FRAMES.item(o.seed, attempt));
         let eliminated = layout.fill(&problem).eliminate();
         best = best.max(eliminated.pivot_ratio);
-        if !(eliminated.pivot_ratio > PIVOT_LIMIT) {
+        if !eliminated.has_rank() {
             continue;
         }
         let pairs = eliminated.eigenpairs().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
         candidates.add(pairs.iter().map(|pair| layout.pose(&problem, pair)));
-        let found = candidates.solutions(Method::Template, m, s, o)?;
+        eigenproblems += 1;
+        let mut found = candidates.solutions(Method::Template, m, s, o)?;
         if attempt + 1 == ATTEMPTS || found.completeness.is_proved() {
+            found.library_calls = library_calls(layout, attempt + 1, eigenproblems);
             return Ok(found);
         }
     }
     if candidates.is_empty() {
         let reason = format!(
             "the elimination template loses rank on this platform (pivot ratio {best:.1e}), as it does when base \
-             and platform are planar or share joints as in a 6-4"
+             and platform are planar, or all but one joint of them, or share joints as in a 6-4"
         );
         return Err(FkError::NotApplicable { method: Method::Template, reason });
     }
-    candidates.solutions(Method::Template, m, s, o)
+    let mut found = candidates.solutions(Method::Template, m, s, o)?;
+    found.library_calls = library_calls(layout, ATTEMPTS, eigenproblems);
+    Ok(found)
+}
+
+/// What faer computed in so many eliminations, of which so many kept their rank.
+fn library_calls(layout: &TemplateLayout, eliminations: u64, eigenproblems: usize) -> Vec<LibraryCalls> {
+    let call = |computation, size, calls| LibraryCalls { library: "faer", computation, size, calls };
+    let factors = usize::try_from(eliminations).unwrap_or(usize::MAX);
+    vec![call("plu", layout.size(), factors), call("qz", [layout.candidates(); 2], eigenproblems)]
 }
 
 #[cfg(test)]

@@ -239,6 +239,7 @@ pub(super) fn judged(
         paths: Vec::new(),
         rejected,
         pose_count: None,
+        library_calls: Vec::new(),
         unproved: Vec::new(),
         seed: o.seed,
     };

@@ -4,6 +4,9 @@
 //! and never believed alone: every point is re-checked here by plain arithmetic on the rows, an infeasibility
 //! certificate in intervals by `num::farkas`.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus,
@@ -93,6 +96,18 @@ impl std::fmt::Display for SolverFailure {
     }
 }
 
+/// Counts the programs of a search; clones count together.
+#[derive(Debug, Clone, Default)]
+pub struct ConicTally(Arc<AtomicU64>);
+
+impl ConicTally {
+    /// Programs that clarabel was given.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
 impl ConicProgram {
     /// Appends one linear inequality `rhs - coefficients . x >= 0`.
     pub fn at_least_zero(&mut self, coefficients: Vec<(usize, f64)>, rhs: f64) {
@@ -138,7 +153,8 @@ impl ConicProgram {
     }
 
     /// Solves the program, sequentially and without output.
-    pub fn solve(&self) -> ConicAnswer {
+    pub fn solve(&self, tally: &ConicTally) -> ConicAnswer {
+        tally.0.fetch_add(1, Ordering::Relaxed);
         let settings =
             DefaultSettings::<f64> { verbose: false, max_iter: 80, max_threads: 1, ..Default::default() };
         let cones: Vec<SupportedConeT<f64>> = self
@@ -225,7 +241,7 @@ mod tests {
 
     #[test]
     fn maximises_a_linear_function_on_the_disc() {
-        let ConicAnswer::Point(p) = disc().solve() else { panic!("no point") };
+        let ConicAnswer::Point(p) = disc().solve(&ConicTally::default()) else { panic!("no point") };
         let s = 0.5f64.sqrt();
         assert!((p.x[0] - s).abs() < 1e-6 && (p.x[1] - s).abs() < 1e-6 && p.residual < 1e-7);
         // negative control: a point outside is told by plain arithmetic
@@ -239,7 +255,7 @@ mod tests {
         use crate::interval::Interval;
         let mut p = disc();
         p.at_least_zero(vec![(0, -1.0)], -2.0); // x >= 2
-        let ConicAnswer::Infeasible(ray) = p.solve() else { panic!("not infeasible") };
+        let ConicAnswer::Infeasible(ray) = p.solve(&ConicTally::default()) else { panic!("not infeasible") };
         let strength = |p: &ConicProgram, ray: &[f64]| {
             let row = |r: &ConicRow| EnclosedRow {
                 coefficients: r.coefficients.iter().map(|c| (c.0, c.1.into())).collect(),
@@ -258,6 +274,15 @@ mod tests {
     }
 
     #[test]
+    fn clones_of_a_tally_count_together() {
+        let tally = ConicTally::default();
+        let other = tally.clone();
+        disc().solve(&tally);
+        disc().solve(&other);
+        assert_eq!((tally.count(), other.count()), (2, 2));
+    }
+
+    #[test]
     fn rescaled_rows_give_the_same_point() {
         for k in [-3, 0, 3] {
             let mut p = disc();
@@ -266,7 +291,9 @@ mod tests {
                 r.rhs *= scale;
                 r.coefficients.iter_mut().for_each(|c| c.1 *= scale);
             });
-            let ConicAnswer::Point(found) = p.solve() else { panic!("no point at {k}") };
+            let ConicAnswer::Point(found) = p.solve(&ConicTally::default()) else {
+                panic!("no point at {k}")
+            };
             assert!((found.x[0] - 0.5f64.sqrt()).abs() < 1e-5);
         }
     }

@@ -108,6 +108,27 @@ fn poses_far_out_are_found_and_certified() {
     }
 }
 
+/// Martyushev (2025), sec. 5, remark 2: his template takes them. It does where the joint that is lifted is one of the
+/// platform, of legs 1 to 4.
+#[test]
+fn the_template_refuses_many_almost_planar_platforms_and_the_automatic_choice_proves_them_all() {
+    let plan = plan(Class::AlmostPlanar, 12);
+    let template = run(&plan, solver(Some(Method::Template)).as_ref(), &Homotopy).unwrap();
+    assert_eq!((template.expected, template.silent_failures), (40, 0));
+    let lifted_well = |k: u64| {
+        let p = equipod::methods::bench::problem(plan.class, plan.lengths, plan.seed, k).unwrap();
+        let legs = p.manipulator.legs();
+        let heights = legs.map(|leg| leg.platform.z);
+        heights[..4].iter().any(|z| *z != 0.0)
+    };
+    let well = (0..plan.count).filter(|k| lifted_well(*k)).count() as u64;
+    assert!(0 < well && well < plan.count, "{well}");
+    assert_eq!((template.complete, template.raw.unwrap().refused), (well, plan.count - well));
+    let automatic = run(&plan, solver(None).as_ref(), &Homotopy).unwrap();
+    assert_eq!((automatic.complete, automatic.proved), (plan.count, plan.count));
+    assert!(automatic.passed() && automatic.raw.is_none());
+}
+
 #[test]
 fn problems_depend_on_their_index_only() {
     let all = short(Class::General, 4);

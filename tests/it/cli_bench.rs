@@ -32,6 +32,28 @@ fn the_document_has_the_fields_of_the_contract() {
 }
 
 #[test]
+fn eliminations_are_measured_before_refinement() {
+    let run = |method: &str| json(&["bench", "--class", "6-6", "--count", "3", "--method", method]).1;
+    for (method, matrix, candidates, library) in
+        [("template", (293, 362), 69, Some("faer")), ("sylvester", (15, 15), 40, None)]
+    {
+        let doc = run(method);
+        let raw = &doc["raw"];
+        let size = ["rows", "columns"].map(|key| raw["matrix"][key].as_u64().unwrap());
+        assert_eq!((size[0], size[1], raw["candidates"].as_u64()), (matrix.0, matrix.1, Some(candidates)));
+        assert_eq!((raw["refused"].as_u64(), raw["infinite"].as_u64()), (Some(0), Some(0)));
+        let median = |of: &Value| of["epsilon"]["median"].as_f64().unwrap();
+        assert!(median(raw) > median(&doc), "refinement sharpens: {doc}");
+        let bins = raw["bins"].as_array().unwrap();
+        assert_eq!(bins.iter().map(|bin| bin["count"].as_u64().unwrap()).sum::<u64>(), 3);
+        assert_eq!(raw["steps"].as_array().unwrap().len(), 3);
+        assert_eq!(raw["steps"][2]["library"].as_str(), library);
+        assert_eq!(raw["gap"].is_null(), method == "sylvester");
+    }
+    assert!(run("homotopy")["raw"].is_null());
+}
+
+#[test]
 fn noise_gives_a_table_and_a_picture() {
     let folder = tempfile::tempdir().unwrap();
     let svg = folder.path().join("noise.svg");

@@ -191,3 +191,15 @@ fn a_row_that_cannot_be_solved_leaves_the_others_alone() {
     assert_eq!(rows.len(), 2);
     assert!(rows.iter().all(|r| r["error"]["code"] == "fk::not_applicable"), "every row says so itself");
 }
+
+#[test]
+fn the_template_says_what_its_library_computed() {
+    let answer =
+        |method: &str| document(&equipod(&["fk", "designs/lee-shim.toml", "--method", method, "--json"]));
+    let calls = answer("template")["library_calls"].clone();
+    let call =
+        |k: usize| (calls[k]["library"].clone(), calls[k]["computation"].clone(), calls[k]["size"].clone());
+    assert_eq!(call(0), ("faer".into(), "plu".into(), vec![293, 362].into()));
+    assert_eq!(call(1), ("faer".into(), "qz".into(), vec![69, 69].into()));
+    assert!(answer("sylvester").get("library_calls").is_none());
+}

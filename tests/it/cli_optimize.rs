@@ -32,6 +32,7 @@ fn inside_the_edges_the_optimum_is_written_as_a_design_that_reads_back() {
     assert_eq!(d["branch_counts"]["total"], 729);
     assert_eq!(d["branch_counts"]["feasible"], 1);
     assert_eq!(d["branches"].as_array().unwrap().len(), 729);
+    assert!(d["search"]["conic_programs"].as_u64().unwrap() > 10);
     let (upper, value) = (d["global_bound"]["upper"].as_f64().unwrap(), d["objective"].as_f64().unwrap());
     let held = d["objectives"][0]["at_held_poses"].as_f64().unwrap();
     assert!(value <= held && held <= upper && upper < 1.03 * held, "{upper} {held} {value}");
@@ -69,6 +70,7 @@ fn an_impossible_joint_distance_is_infeasible_with_the_reason() {
     let d = document(&out);
     assert_eq!(d["status"], "infeasible");
     assert_eq!(d["branch_counts"]["infeasible_spacing"], 729);
+    assert_eq!(d["search"]["conic_programs"], 0, "vertices are too close: nothing to solve");
     let conflict = &d["conflict"];
     assert_eq!((&conflict["proved"], &conflict["reasons"][0]["branches"]), (&true.into(), &729.into()));
     assert_eq!(d["branches"][0]["conflicts"][0]["code"], "vertices_too_close");

@@ -31,22 +31,31 @@ fn dead(page: &Path, text: &str) -> Vec<String> {
     links.chain(paths).filter(|path| !path.exists()).map(|path| path.display().to_string()).collect()
 }
 
-/// Tests of a page that are not there: `path::name`, or `::name` for one more in the file named before.
-fn missing(page: &str) -> Vec<String> {
+/// Tests that a page names: `path::name`, or `::name` for one more in the file named before. With each are its
+/// attributes, and the text of the page after it.
+fn named_tests(page: &str) -> Vec<(String, String, &str)> {
     let (mut file, mut out) = (String::new(), Vec::new());
-    for (path, name) in quoted(page).filter_map(|q| q.split_once("::")) {
+    let parts: Vec<&str> = page.split('`').collect();
+    for pair in parts[1..].chunks(2) {
+        let Some((path, name)) = pair[0].split_once("::") else { continue };
         if path.strip_suffix(".rs").is_some() {
             file = if path.starts_with("it/") { format!("tests/{path}") } else { path.to_owned() };
         } else if !path.is_empty() {
             continue;
         }
         let text = std::fs::read_to_string(root().join(&file)).unwrap_or_default();
-        let test = text.split(&format!("fn {name}(")).next().filter(|before| before.len() < text.len());
-        if !test.is_some_and(|before| before.trim_end().rsplit("\n\n").next().unwrap().contains("#[test]")) {
-            out.push(format!("{file}::{name}"));
-        }
+        let before = text.split(&format!("fn {name}(")).next().filter(|before| before.len() < text.len());
+        let attributes = before.and_then(|before| before.trim_end().rsplit("\n\n").next());
+        let after = pair.get(1).copied().unwrap_or_default();
+        out.push((format!("{file}::{name}"), attributes.unwrap_or_default().to_owned(), after));
     }
     out
+}
+
+/// Tests of a page that are not there.
+fn missing(page: &str) -> Vec<String> {
+    let named = named_tests(page).into_iter();
+    named.filter(|(_, attributes, _)| !attributes.contains("#[test]")).map(|(name, ..)| name).collect()
 }
 
 #[test]
@@ -74,4 +83,20 @@ fn every_test_that_stands_for_a_claim_exists() {
     }
     let planted = "`it/documents.rs::no_such_test` `::missing` `tests/it/nowhere.rs::x` `it/documents.rs::every_test_that_stands_for_a_claim_exists`";
     assert_eq!(missing(planted).len(), 3);
+}
+
+/// Every claim has a command, and tests that do not run with every change are marked, others not.
+#[test]
+fn conformance_has_commands_and_marks_tests_of_the_evidence() {
+    let page = std::fs::read_to_string(root().join("docs/conformance.md")).unwrap();
+    for (name, attributes, after) in named_tests(&page) {
+        assert_eq!(attributes.contains("#[ignore"), after.starts_with(" (*evidence*)"), "{name}");
+    }
+    let tables = page.split("\n| claim | command | test |\n").skip(1);
+    let rows = tables.flat_map(|table| table.lines().skip(1).take_while(|line| line.starts_with("| ")));
+    let commands: Vec<&str> = rows.map(|row| row.split(" | ").nth(1).unwrap()).collect();
+    assert!(commands.len() > 90, "{}", commands.len());
+    let without: Vec<&&str> = commands.iter().filter(|cell| !cell.starts_with("`equipod ")).collect();
+    assert_eq!(without, [&""; 0]);
+    assert!(!page.contains("methods::"), "functions of users only");
 }

@@ -47,12 +47,12 @@ fn trilateration() {
 
 #[test]
 fn the_determinant_of_degree_forty() {
-    section_prints_what_it_shows("Lee", 2);
+    section_prints_what_it_shows("Lee", 3);
 }
 
 #[test]
 fn elimination_templates() {
-    section_prints_what_it_shows("Martyushev", 3);
+    section_prints_what_it_shows("Martyushev", 6);
 }
 
 /// `Delta1 + 2 Delta2 = 12` (Rojas, Borras, Thomas, Fig. 8) is singular at all points, and nothing beside it is.

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::Number;
 use ask::bench::{
-    BenchReport, Class, ErrorStatistics, LengthsFrom, NoiseLevel, Plan, ReferenceTimes, TimeSplit,
+    BenchReport, Class, ErrorStatistics, LengthsFrom, NoiseLevel, Plan, RawReport, ReferenceTimes, TimeSplit,
     WrongAnswer, problem,
 };
 
@@ -35,7 +35,7 @@ pub struct BenchOneAnswer {
 }
 
 /// What `--method` takes.
-const METHODS: [&str; 5] = ["auto", "octic", "homotopy", "template", "trilateration"];
+const METHODS: [&str; 6] = ["auto", "octic", "homotopy", "sylvester", "template", "trilateration"];
 
 /// The runs of several classes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -167,8 +167,11 @@ pub struct BenchClassRecord {
     pub split_us: TimeSplit,
     /// Of the whole run.
     pub total_s: Number,
-    /// Error measure, decimal logarithm.
+    /// Error measure of the roots as listed (Martyushev, eq. 19), decimal logarithm.
     pub epsilon: ErrorStatistics,
+    /// Candidates before refinement, with the methods `sylvester` and `template`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub raw: Option<RawReport>,
     /// Problems whose answer is not right.
     pub failures: Vec<BenchFailureRecord>,
 }
@@ -199,6 +202,7 @@ impl BenchClassRecord {
             split_us: r.split,
             total_s: Number(r.seconds),
             epsilon: r.epsilon,
+            raw: r.raw.clone(),
             failures: r.failures.iter().map(|f| BenchFailureRecord::new(&r.plan, f)).collect(),
         }
     }

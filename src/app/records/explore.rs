@@ -178,6 +178,9 @@ pub struct ExploreOctahedralAnswer {
     pub assessment: Option<AssessAnswer>,
     /// The platform; null: none was found.
     pub optimize: Option<OptimizedRecord>,
+    /// Conic programs that the library clarabel solved in the search for the platform; those with other drives, for
+    /// freedoms and for holes are not counted.
+    pub conic_programs: u64,
     /// What separate joints cost: figures of the design and of the platform to build; null: there is none.
     pub price: Option<PriceRecord>,
     /// What became of the reserve of 5 % on every limit; null: the design states a reserve.

@@ -13,7 +13,9 @@ pub use self::closure::{ClosurePolynomialRecord, ClosureRecord, TrilaterationSte
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
 use super::{ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number};
 use fk::solve::pose_count::{CountedLengths, PoseSet};
-use fk::{CompletenessWord, FkRoot, FkSolutions, Method, PathReport, Reality, Rejected, SolutionSet};
+use fk::{
+    CompletenessWord, FkRoot, FkSolutions, LibraryCalls, Method, PathReport, Reality, Rejected, SolutionSet,
+};
 use machine::rotary::RotaryPlatform;
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, height_above_base};
@@ -164,6 +166,9 @@ pub struct SolvedRecord {
     /// Ends of paths without a certificate, near which there may be one pose, several or none: they are not among the
     /// solutions.
     pub unproved: Vec<SolutionRecord>,
+    /// What libraries of linear algebra computed for `--method template`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub library_calls: Vec<LibraryCalls>,
     /// What null stands for, where a number is not finite.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -187,6 +192,7 @@ impl From<&FkSolutions> for SolvedRecord {
             paths: s.paths.clone(),
             rejected: s.rejected.clone(),
             unproved: s.unproved.iter().map(SolutionRecord::from).collect(),
+            library_calls: s.library_calls.clone(),
             notes: Vec::new(),
         };
         if !record.is_finite() {

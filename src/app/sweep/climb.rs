@@ -13,7 +13,7 @@ use nalgebra::{DVector, Matrix3, Matrix6, Vector3, Vector6};
 use num_complex::Complex64;
 
 use fk::{FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, solver};
-use num::conic::{ConicAnswer, ConicProgram, ConicRow};
+use num::conic::{ConicAnswer, ConicProgram, ConicRow, ConicTally};
 use num::{Purpose, Rng};
 use platform::geom::ComplexPose;
 use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
@@ -260,7 +260,7 @@ impl ClimbFreedoms {
         let mut ball = vec![ConicRow { coefficients: Vec::new(), rhs: 1.0 }];
         ball.extend((0..n).map(unit));
         program.second_order(ball);
-        match program.solve() {
+        match program.solve(&ConicTally::default()) {
             ConicAnswer::Point(point) if point.residual < RESIDUAL => {
                 Some(DVector::from_vec(point.x) * radius)
             }

@@ -107,6 +107,7 @@ impl OcticSolver {
             paths: Vec::new(),
             rejected: collected.rejected,
             pose_count: None,
+            library_calls: Vec::new(),
             unproved: Vec::new(),
             seed: o.seed,
         };

@@ -125,6 +125,7 @@ fn answer(roots: Vec<FkRoot>, seed: u64) -> FkSolutions {
         paths: Vec::new(),
         rejected: Vec::new(),
         pose_count: None,
+        library_calls: Vec::new(),
         unproved: Vec::new(),
         seed,
     }

@@ -28,6 +28,15 @@ pub struct GenericProblem {
     frame: GenericFrame,
 }
 
+/// What an elimination leaves of a root, in the frames of its problem: neither refined nor checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RawCandidate {
+    /// The quaternion `(1, c)`, `c` the Cayley vector, up to a factor.
+    pub quaternion: [Complex64; 4],
+    /// The position.
+    pub position: Vector3<Complex64>,
+}
+
 /// `x' = turn (x - origin) / scale` in each body.
 #[derive(Debug, Clone)]
 struct GenericFrame {
@@ -43,14 +52,26 @@ impl GenericProblem {
     /// and the RMS leg length.
     #[must_use]
     pub fn draw(m: &Manipulator, s: &SquaredLegLengths, rng: &mut Rng) -> Self {
+        let turns = [random_rotation(rng), random_rotation(rng)];
+        Self::in_frames(m, s, turns, m.size().max((s.get().iter().sum::<f64>() / 6.0).sqrt()))
+    }
+
+    /// The problem in the axes and units of the design: only the origins are moved to the joints of leg 1.
+    #[must_use]
+    pub fn as_given(m: &Manipulator, s: &SquaredLegLengths) -> Self {
+        Self::in_frames(m, s, [Rotation3::identity(); 2], 1.0)
+    }
+
+    /// The problem with the bodies turned and all lengths divided by `scale`.
+    fn in_frames(m: &Manipulator, s: &SquaredLegLengths, turns: [Rotation3<f64>; 2], scale: f64) -> Self {
         let legs = m.legs();
         let s = s.get();
         let frame = GenericFrame {
             base_origin: legs[0].base.coords,
             platform_origin: legs[0].platform.coords,
-            base_turn: random_rotation(rng),
-            platform_turn: random_rotation(rng),
-            scale: m.size().max((s.iter().sum::<f64>() / 6.0).sqrt()),
+            base_turn: turns[0],
+            platform_turn: turns[1],
+            scale,
         };
         let area = frame.scale * frame.scale;
         Self {
@@ -66,8 +87,34 @@ impl GenericProblem {
         }
     }
 
+    /// A candidate of the problem as one of the [`unscaled`](Self::unscaled) problem.
+    #[must_use]
+    pub fn in_units(&self, candidate: &RawCandidate) -> RawCandidate {
+        RawCandidate { position: candidate.position * Complex64::from(self.frame.scale), ..*candidate }
+    }
+
+    /// The problem in the same axes with lengths in the units of the design.
+    #[must_use]
+    pub fn unscaled(&self) -> Self {
+        let (scale, area) = (self.frame.scale, self.frame.scale * self.frame.scale);
+        Self {
+            base: self.base.map(|v| v * scale),
+            platform: self.platform.map(|v| v * scale),
+            first: self.first * area,
+            others: self.others.map(|s| s * area),
+            frame: GenericFrame { scale: 1.0, ..self.frame.clone() },
+        }
+    }
+
+    /// The pose in the design's frames of a candidate; `None` when it is at infinity or `e.e = 0`.
+    #[must_use]
+    pub fn pose(&self, candidate: &RawCandidate) -> Option<ComplexPose> {
+        let pose = self.to_design(candidate.quaternion, candidate.position);
+        pose.rotation.iter().chain(pose.position.iter()).all(|z| z.is_finite()).then_some(pose)
+    }
+
     /// The pose in the design's frames of the quaternion `e` (any scale, `e.e != 0`) and position `t` in these.
-    pub(crate) fn to_design(&self, e: [Complex64; 4], t: Vector3<Complex64>) -> ComplexPose {
+    fn to_design(&self, e: [Complex64; 4], t: Vector3<Complex64>) -> ComplexPose {
         let f = &self.frame;
         let lift = |m: &Matrix3<f64>| m.map(Complex64::from);
         let back = lift(&f.base_turn.matrix().transpose());

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use num::conic::SolverFailure;
+use num::conic::{ConicTally, SolverFailure};
 use program::{ClimbStep, Program};
 
 pub(crate) use linear::{
@@ -45,6 +45,9 @@ pub(crate) trait Climbable {
 
     /// Linear models of everything that can matter within `radius`; `None` where a number is not finite.
     fn linearise(&self, x: &[f64], radius: f64) -> Option<Linearised>;
+
+    /// Counts the conic programs of the search.
+    fn conic(&self) -> &ConicTally;
 
     /// Whether the climb is to end with its present point.
     fn is_stopped(&self) -> bool {

@@ -104,7 +104,7 @@ impl Program<'_> {
         let mut held = Held::first(self.near);
         loop {
             let (draft, rows) = self.write(&held);
-            let point = match draft.p.solve() {
+            let point = match draft.p.solve(self.problem.conic()) {
                 ConicAnswer::Point(point) => point,
                 ConicAnswer::Infeasible(_) => return Err(SolverFailure::Numerical), // slacks make it feasible
                 ConicAnswer::Failed(why) => return Err(why),

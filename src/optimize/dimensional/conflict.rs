@@ -436,7 +436,7 @@ pub(crate) fn proved_empty(
             Interval::new((low - x[j]).next_down(), (high - x[j]).next_up()).unwrap_or(Interval::WHOLE),
         );
     }
-    match p.solve() {
+    match p.solve(&model.conic) {
         // the ranges of the variables take part as they are, without multipliers
         ConicAnswer::Infeasible(ray) => {
             ray.get(..rows.len()).is_some_and(|ray| refuted(&rows, &cones, ray, &ranges).is_some())

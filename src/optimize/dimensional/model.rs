@@ -13,6 +13,7 @@ use super::worst_pose::PointJudging;
 use crate::climb::{Climbable, Effort, Linearised, PointValues, Run, Task, climb};
 use machine::requirements::{ListedFrom, Objective};
 use num::Rng;
+use num::conic::ConicTally;
 
 /// The problem with its parametrisation.
 #[derive(Debug)]
@@ -25,6 +26,8 @@ pub(crate) struct Model<'a> {
     /// Constraints are held with this to spare, so that what lies between the poses meets them too.
     pub(crate) backoff: f64,
     pub affine: bool,
+    /// Counts the conic programs of the search.
+    pub conic: ConicTally,
     /// Set when the search is to end with what it has.
     stop: Arc<AtomicBool>,
 }
@@ -54,7 +57,7 @@ impl<'a> Model<'a> {
             return None;
         }
         let out = Self::with_axes(self.problem, [false; 2]).ok()?;
-        Some(Self { stop: Arc::clone(&self.stop), ..out })
+        Some(Self { stop: Arc::clone(&self.stop), conic: self.conic.clone(), ..out })
     }
 
     fn with_axes(problem: &'a DimensionalProblem, joint_axes: [bool; 2]) -> Result<Self, InvalidProblem> {
@@ -78,6 +81,7 @@ impl<'a> Model<'a> {
             backoff: if continuous { BACKOFF.0 } else { BACKOFF.1 },
             affine: shape.is_affine(),
             shape,
+            conic: ConicTally::default(),
             stop: Arc::default(),
         })
     }
@@ -145,6 +149,10 @@ impl Climbable for HeldTask<'_, '_> {
 
     fn bounds(&self) -> &[(f64, f64)] {
         &self.model.shape.bounds
+    }
+
+    fn conic(&self) -> &ConicTally {
+        &self.model.conic
     }
 
     /// The joint axes: shorter ones only make the limits harder to meet.

@@ -141,6 +141,8 @@ pub struct DimensionalReport {
     pub seed: u64,
     /// Whether the search was told to end; the answer is then the best until then.
     pub interrupted: bool,
+    /// Conic programs that were solved.
+    pub conic_programs: u64,
 }
 
 impl DimensionalReport {

@@ -41,6 +41,8 @@ pub struct ParetoReport {
     pub failure: Option<Box<DimensionalReport>>,
     /// Whether the search was told to end; the front then consists of what was found until then, possibly nothing.
     pub interrupted: bool,
+    /// Conic programs that were solved.
+    pub conic_programs: u64,
 }
 
 /// The front by sweeping bounds of all objectives but the first (epsilon constraints, augmented by small weights).
@@ -77,8 +79,14 @@ pub fn pareto(
             None if model.is_stopped() => break,
             None => {
                 let one = super::search::optimize(problem, &[], options, progress)?;
-                let (interrupted, failure) = (one.interrupted, Some(Box::new(one)));
-                return Ok(ParetoReport { front: Vec::new(), dominated: 0, unmet: 0, failure, interrupted });
+                return Ok(ParetoReport {
+                    front: Vec::new(),
+                    dominated: 0,
+                    unmet: 0,
+                    interrupted: one.interrupted,
+                    conic_programs: model.conic.count() + one.conic_programs,
+                    failure: Some(Box::new(one)),
+                });
             }
         }
     }
@@ -170,5 +178,12 @@ fn front(
     let dominated = members.len() - kept.len();
     let mut front: Vec<ParetoPoint> = kept.into_iter().map(|k| members[k].clone()).collect();
     front.sort_by(|a, b| gain(b, 0).total_cmp(&gain(a, 0)));
-    ParetoReport { front, dominated, unmet, failure: None, interrupted: model.is_stopped() }
+    ParetoReport {
+        front,
+        dominated,
+        unmet,
+        failure: None,
+        interrupted: model.is_stopped(),
+        conic_programs: model.conic.count(),
+    }
 }

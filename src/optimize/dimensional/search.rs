@@ -598,8 +598,17 @@ fn searched(
     let polished = refined.iter().map(|r| r.run.is_feasible().then(|| r.run.judged.gain(&task))).collect();
     let Conclusion { outcome, nearest, others } =
         concluded(&model, task, refined, (options, explains), &mut watch);
-    let (seed, interrupted) = (options.seed, model.is_stopped());
-    Ok(DimensionalReport { outcome, starts, feasible, nearest, others, polished, seed, interrupted })
+    Ok(DimensionalReport {
+        outcome,
+        starts,
+        feasible,
+        nearest,
+        others,
+        polished,
+        seed: options.seed,
+        interrupted: model.is_stopped(),
+        conic_programs: model.conic.count(),
+    })
 }
 
 /// A platform that meets the requirements of a problem at the poses that the search holds, a local optimum; `None`

@@ -12,7 +12,7 @@ use crate::climb::{
     LinearPiece, Linearised, NO_POSE, PointValues, Run, Task, TermId,
 };
 use machine::requirements::TermKind;
-use num::conic::SolverFailure;
+use num::conic::{ConicTally, SolverFailure};
 use synthesis::{determinant_gradient, offset_determinant};
 
 /// Enough to rank a cell; a higher price of violations saves a tenth of the steps, measured over 1,700 cells.
@@ -182,6 +182,10 @@ impl Climbable for CellClimb<'_> {
 
     fn backoff(&self) -> f64 {
         BACKOFF
+    }
+
+    fn conic(&self) -> &ConicTally {
+        &self.m.conic
     }
 
     fn poses(&self) -> usize {

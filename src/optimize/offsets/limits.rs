@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use super::branch::BranchCell;
 use super::problem::OffsetProblem;
 use super::verdict::Conflict;
-use num::conic::{Cone, ConicAnswer, ConicProgram};
+use num::conic::{Cone, ConicAnswer, ConicProgram, ConicTally};
 use num::farkas::{EnclosedRow, refuted};
 use num::interval::Interval;
 use synthesis::{HexagonSide, offset_products, sides};
@@ -330,7 +330,7 @@ fn relaxation(cell: &BranchCell, limits: &OffsetLimits) -> Vec<EnclosedRow> {
 }
 
 /// A proved conflict of the cell, or `None` when the relaxation is feasible or nothing could be shown.
-pub(crate) fn proved_empty(cell: &BranchCell, limits: &OffsetLimits) -> Option<Conflict> {
+pub(crate) fn proved_empty(cell: &BranchCell, limits: &OffsetLimits, tally: &ConicTally) -> Option<Conflict> {
     let rows = relaxation(cell, limits);
     let centre = |x: &Interval| x.centre_and_radius().0;
     // the solver scales its rows itself, but not by the size of the design: squared distances are made of order one
@@ -344,7 +344,7 @@ pub(crate) fn proved_empty(cell: &BranchCell, limits: &OffsetLimits) -> Option<C
         p.at_least_zero(vec![(i, 1.0)], high);
         p.at_least_zero(vec![(i, -1.0)], -low);
     }
-    let ConicAnswer::Infeasible(ray) = p.solve() else { return None };
+    let ConicAnswer::Infeasible(ray) = p.solve(tally) else { return None };
     // the ranges of the offsets take part as they are, without multipliers
     let ray = ray.get(..rows.len())?;
     let ranges: Option<Vec<Interval>> = cell.outer.iter().map(|b| Interval::new(b.0, b.1)).collect();
@@ -402,9 +402,9 @@ mod tests {
         let mut bounds = [(0.3, 0.7); 6];
         (bounds[1], bounds[3]) = ((0.7, 0.75), (0.25, 0.3)); // arms 1.5 to 1.8 of edge 6
         let cell = BranchCell { branch: 364, bounds, outer: bounds, pairs: Vec::new(), sign: 1.0 };
-        assert_eq!(proved_empty(&cell, &OffsetLimits::new(&p)), None);
+        assert_eq!(proved_empty(&cell, &OffsetLimits::new(&p), &ConicTally::default()), None);
         p.min_joint_distance *= 1.3;
-        let proof = proved_empty(&cell, &OffsetLimits::new(&p));
+        let proof = proved_empty(&cell, &OffsetLimits::new(&p), &ConicTally::default());
         assert!(matches!(proof, Some(Conflict::Combination { strength }) if strength > 1e-6), "{proof:?}");
     }
 }

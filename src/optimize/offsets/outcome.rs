@@ -232,6 +232,8 @@ pub struct OffsetReport {
     pub interrupted: bool,
     /// Seed of the starting points.
     pub seed: u64,
+    /// Conic programs that were solved.
+    pub conic_programs: u64,
 }
 
 /// What became of the branches.

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::conditioning::PoseLegs;
+use num::conic::ConicTally;
 use platform::geom::Pose;
 use platform::manipulator::{Body, Octahedral};
 use synthesis::{HexagonSide, sides};
@@ -160,6 +161,8 @@ pub(crate) struct OffsetModel {
     pub radii: [f64; 2],
     /// Required `|det A|`, exact.
     pub min_abs_det: f64,
+    /// Counts the conic programs of the search.
+    pub conic: ConicTally,
 }
 
 /// The search keeps this distance (relative to the radius of the body; absolute in `det A`) from the true limits, so
@@ -179,6 +182,7 @@ impl OffsetModel {
             spacing: p.min_joint_distance / scale,
             radii: [p.octahedral.base(), p.octahedral.platform()].map(|t| radius(&t) / scale),
             min_abs_det: p.min_abs_det,
+            conic: ConicTally::default(),
         }
     }
 

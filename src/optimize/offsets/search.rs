@@ -188,7 +188,7 @@ fn rank_cell(
     if restored.is_feasible() {
         return CellResult::Feasible(restored);
     }
-    if let Some(conflict) = proved_empty(cell, asked.limits) {
+    if let Some(conflict) = proved_empty(cell, asked.limits, &asked.m.conic) {
         return CellResult::Empty(conflict);
     }
     match tight_point(asked.problem, cell, &restored.t) {

@@ -11,6 +11,7 @@ use super::problem::OffsetModel;
 use super::tests::poses;
 use super::{OffsetOutcome, OffsetProblem, OffsetSearchOptions, optimize};
 use num::Rng;
+use num::conic::ConicTally;
 use num::exact::{Rational, approximate, rational};
 use platform::manipulator::{Body, Manipulator, Octahedral};
 use synthesis::sides;
@@ -161,7 +162,10 @@ fn offsets_that_meet_the_limits_exactly_are_in_a_box_and_in_no_excluded_one() {
         let cells: Vec<_> =
             own.cells.iter().filter(|c| inside(&c.outer) && c.sign * det > 0.0 && in_order(c, &t)).collect();
         assert!(!cells.is_empty(), "{n}");
-        assert!(cells.iter().all(|c| proved_empty(c, &limits).is_none()), "{n}: {t:?}");
+        assert!(
+            cells.iter().all(|c| proved_empty(c, &limits, &ConicTally::default()).is_none()),
+            "{n}: {t:?}"
+        );
     }
 }
 

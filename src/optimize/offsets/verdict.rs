@@ -40,6 +40,7 @@ pub(crate) fn nothing_fits(
         tolerance: o.gap,
         interrupted: false,
         seed: o.seed,
+        conic_programs: 0,
     }
 }
 
@@ -146,6 +147,7 @@ pub(super) fn assemble(
         tolerance: o.gap,
         interrupted,
         seed: o.seed,
+        conic_programs: m.conic.count(),
     }
 }
 

@@ -38,6 +38,8 @@ pub enum Class {
     PlanarBase,
     /// Base and platform in a plane each.
     BothPlanar,
+    /// Both planar but for one joint of one body (Martyushev, sec. 5, remark 2).
+    AlmostPlanar,
     /// Base and platform in planes that are not coordinate planes of their frames.
     TiltedPlanes,
     /// Zigzag between two triangles.
@@ -73,11 +75,12 @@ pub enum Class {
 
 impl Class {
     /// All classes but those of the topologies, in the order of the tables.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::General,
         Self::SharedPlatformJoint,
         Self::PlanarBase,
         Self::BothPlanar,
+        Self::AlmostPlanar,
         Self::TiltedPlanes,
         Self::Octahedral,
         Self::GriffisDuffy,
@@ -111,6 +114,7 @@ impl Class {
             Self::SharedPlatformJoint => "6-5",
             Self::PlanarBase => "6P-6",
             Self::BothPlanar => "6P-6P",
+            Self::AlmostPlanar => "almost-planar",
             Self::TiltedPlanes => "tilted-planes",
             Self::Octahedral => "octahedral",
             Self::GriffisDuffy => "griffis-duffy",
@@ -148,6 +152,7 @@ impl Class {
             Self::SharedPlatformJoint,
             Self::PlanarBase,
             Self::BothPlanar,
+            Self::AlmostPlanar,
             Self::TiltedPlanes,
         ];
         by_martyushev.contains(&self)

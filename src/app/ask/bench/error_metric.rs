@@ -1,9 +1,10 @@
-//! The accuracy of a whole set of roots in the measure of Martyushev (2025), eqs. (18) and (19).
+//! The accuracy of a set of roots in the measure of Martyushev (2025), eqs. (18) and (19).
 
 use num_complex::Complex64;
 
+use fk::solve::generic_frame::{GenericProblem, RawCandidate};
 use platform::geom::ComplexPose;
-use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 const QUADRATICS: usize = 10;
 /// Quadratic monomials times `1, t_1, t_2, t_3`, then squares of `e` times squares of `t`.
@@ -36,19 +37,18 @@ fn forms() -> (Quadratic, [[Quadratic; 3]; 3]) {
     (squares([1.0; 4]), r)
 }
 
-/// Coefficients of the polynomials `f_1, .., f_6` with the first joints as origins, each divided by its norm.
-fn normalised_rows(legs: &[Leg; 6], s: &SquaredLegLengths) -> [[f64; MONOMIALS]; 6] {
+/// Coefficients of the polynomials `f_1, .., f_6` of a problem, each divided by its norm.
+fn normalised_rows(problem: &GenericProblem) -> [[f64; MONOMIALS]; 6] {
     let (n, r) = forms();
-    let squared = s.get();
     std::array::from_fn(|i| {
         let mut row = [0.0; MONOMIALS];
-        let (a, b) = (legs[i].base - legs[0].base, legs[i].platform - legs[0].platform);
         if i == 0 {
             // f_1 = |t|^2 - L_1 has no denominator: times e_0^2, which is 1 in Cayley coordinates
-            row[place(0, 0)] = -squared[0];
+            row[place(0, 0)] = -problem.first;
             (0..3).for_each(|k| row[4 * QUADRATICS + k] = 1.0);
         } else {
-            let constant = a.norm_squared() + b.norm_squared() - squared[i];
+            let (a, b) = (problem.base[i - 1], problem.platform[i - 1]);
+            let constant = a.norm_squared() + b.norm_squared() - problem.others[i - 1];
             for q in 0..QUADRATICS {
                 let turned = [0, 1, 2].map(|k| (0..3).map(|j| r[k][j][q] * b[j]).sum::<f64>());
                 let base: f64 = (0..3).map(|k| a[k] * turned[k]).sum();
@@ -82,17 +82,24 @@ fn quaternion(pose: &ComplexPose) -> [Complex64; 4] {
     rows[best]
 }
 
-/// `1/2 log10 sum_i eps_i^2` with `eps_i = |M z_i| / |z_i|`: `M` the coefficients of the six polynomials in the Cayley
-/// vector and `t` with unit rows, `z_i` their monomials at root `i`. Written homogeneously, so that half turns are no
-/// exception. `-inf` for no roots.
-#[must_use]
-pub fn error_metric(m: &Manipulator, s: &SquaredLegLengths, roots: &[ComplexPose]) -> f64 {
-    let legs = m.legs();
-    let rows = normalised_rows(&legs, s);
-    let lift = |v: nalgebra::Vector3<f64>| v.map(Complex64::from);
-    let squares = roots.iter().map(|pose| {
-        let e = quaternion(pose);
-        let t = pose.position + pose.rotation * lift(legs[0].platform.coords) - lift(legs[0].base.coords);
+/// The polynomials of a problem as eq. (18) has them: the Macaulay matrix `M` with rows of norm one.
+#[derive(Debug, Clone)]
+pub(super) struct MacaulayMatrix {
+    rows: [[f64; MONOMIALS]; 6],
+    /// The support `U_F` (eqs. 2 and 3): monomials with a coefficient in some polynomial.
+    occurs: [bool; MONOMIALS],
+}
+
+impl MacaulayMatrix {
+    pub(super) fn of(problem: &GenericProblem) -> Self {
+        let rows = normalised_rows(problem);
+        Self { rows, occurs: std::array::from_fn(|k| rows.iter().any(|row| row[k] != 0.0)) }
+    }
+
+    /// `eps_i = |M z_i| / |z_i|`, eq. (18), infinite for candidates at infinity. `z_i` is the monomial vector in the
+    /// Cayley vector and `t`, written homogeneously, so that half turns are no exception.
+    pub(super) fn residual(&self, candidate: &RawCandidate) -> f64 {
+        let (e, t) = (&candidate.quaternion, &candidate.position);
         let mut z = [Complex64::ZERO; MONOMIALS];
         for (i, j) in (0..4).flat_map(|i| (i..4).map(move |j| (i, j))) {
             let q = e[i] * e[j];
@@ -102,11 +109,30 @@ pub fn error_metric(m: &Manipulator, s: &SquaredLegLengths, roots: &[ComplexPose
         for i in 0..4 {
             (0..3).for_each(|k| z[4 * QUADRATICS + 3 * i + k] = e[i] * e[i] * t[k] * t[k]);
         }
-        let size: f64 = z.iter().map(Complex64::norm_sqr).sum();
-        let values = rows.iter().map(|row| row.iter().zip(&z).map(|(c, z)| z * c).sum::<Complex64>());
-        values.map(|v| v.norm_sqr()).sum::<f64>() / size
-    });
-    0.5 * squares.sum::<f64>().log10()
+        let size: f64 =
+            z.iter().zip(self.occurs).filter(|(_, occurs)| *occurs).map(|(z, _)| z.norm_sqr()).sum();
+        let values = self.rows.iter().map(|row| row.iter().zip(&z).map(|(c, z)| z * c).sum::<Complex64>());
+        let residual = (values.map(|v| v.norm_sqr()).sum::<f64>() / size).sqrt();
+        if residual.is_finite() { residual } else { f64::INFINITY }
+    }
+}
+
+/// `1/2 log10 sum_i eps_i^2`, eq. (19); `-inf` for no residuals.
+pub(super) fn epsilon(residuals: impl Iterator<Item = f64>) -> f64 {
+    0.5 * residuals.map(|e| e * e).sum::<f64>().log10()
+}
+
+/// The measure of Martyushev for a set of poses.
+#[must_use]
+pub fn error_metric(m: &Manipulator, s: &SquaredLegLengths, roots: &[ComplexPose]) -> f64 {
+    let legs = m.legs();
+    let lift = |v: nalgebra::Vector3<f64>| v.map(Complex64::from);
+    let matrix = MacaulayMatrix::of(&GenericProblem::as_given(m, s));
+    epsilon(roots.iter().map(|pose| {
+        let position =
+            pose.position + pose.rotation * lift(legs[0].platform.coords) - lift(legs[0].base.coords);
+        matrix.residual(&RawCandidate { quaternion: quaternion(pose), position })
+    }))
 }
 
 #[cfg(test)]
@@ -125,5 +151,13 @@ mod tests {
             assert!(at(exact) < -14.5, "{k}: {}", at(exact));
             assert!((-8.5..-5.0).contains(&at(wrong)), "{k}: {}", at(wrong));
         }
+    }
+
+    /// The polynomials of a general platform have 46 monomials, as in the published code.
+    #[test]
+    fn the_support_is_that_of_the_published_code() {
+        let p = problem(Class::General, LengthsFrom::Pose, 3, 0).unwrap();
+        let matrix = MacaulayMatrix::of(&GenericProblem::as_given(&p.manipulator, &p.squares));
+        assert_eq!(matrix.occurs.iter().filter(|occurs| **occurs).count(), 46);
     }
 }

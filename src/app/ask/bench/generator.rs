@@ -155,6 +155,12 @@ fn joints(class: Class, rng: &mut Rng) -> [Leg; 6] {
         }
         Class::PlanarBase => legs(body(rng, true), body(rng, false)),
         Class::BothPlanar => legs(body(rng, true), body(rng, true)),
+        Class::AlmostPlanar => {
+            let (mut base, mut platform) = (body(rng, true), body(rng, true));
+            let lifted = if rng.uniform(0.0, 1.0) < 0.5 { &mut base } else { &mut platform };
+            lifted[(rng.next_u64() % 6) as usize].z = rng.uniform(-2.0, 2.0);
+            legs(base, platform)
+        }
         Class::TiltedPlanes => {
             let (base, platform) = (body(rng, true), body(rng, true));
             let mut tilt = |joints: [Point3<f64>; 6]| {

@@ -9,6 +9,7 @@ use super::Class;
 use super::error_metric::error_metric;
 use super::expectation::expected_count;
 use super::generator::{LengthsFrom, NotDrawn, Problem, problem};
+use super::raw::{Elimination, RawOutcome};
 use super::statistics::{BenchReport, summarise};
 use super::validator::{Claim, Validation, validate};
 use fk::solve::certify::Certifier;
@@ -85,6 +86,7 @@ pub(super) struct ProblemOutcome {
     pub(super) certify_us: f64,
     pub(super) validate_us: f64,
     pub(super) solver: String,
+    pub(super) raw: Option<RawOutcome>,
 }
 
 /// The claims of a set of solutions, with the enclosures of their certificates, and the time that making certificates
@@ -121,6 +123,7 @@ fn one(
     let problem = problem(plan.class, plan.lengths, plan.seed, k)?;
     let counting = if plan.count_poses { PoseCounting::WhenUnproved } else { PoseCounting::Never };
     let options = FkOptions::new().seed(plan.seed).pose_count(counting);
+    let elimination = Elimination::of(solver.method());
     let start = Instant::now();
     let solved = solver.solve(&problem.manipulator, &problem.squares, &options);
     let solve_us = start.elapsed().as_secs_f64() * 1e6;
@@ -156,6 +159,7 @@ fn one(
     let poses: Vec<ComplexPose> = claims.iter().map(|c| c.pose).collect();
     Ok(ProblemOutcome {
         k,
+        raw: elimination.map(|e| e.measure(&problem, plan.seed, k)),
         verdict,
         claimed: claims.len(),
         certified_roots: claims.iter().filter(|c| c.certified).count(),
@@ -209,5 +213,5 @@ pub fn run(
     let mut outcomes: Vec<ProblemOutcome> =
         parts.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     outcomes.sort_by_key(|o| o.k);
-    Ok(summarise(plan, expected, seconds, &outcomes))
+    Ok(summarise(plan, expected, seconds, Elimination::of(solver.method()), &outcomes))
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::raw::{Elimination, RawReport};
 use super::run::{Plan, ProblemOutcome, WrongAnswer};
 
 /// The error measure of Martyushev over the problems.
@@ -80,6 +81,8 @@ pub struct BenchReport {
     pub real_counts: BTreeMap<usize, u64>,
     /// Accuracy in Martyushev's measure.
     pub epsilon: ErrorStatistics,
+    /// The candidates before refinement, where the method is a published elimination.
+    pub raw: Option<RawReport>,
     /// Problems whose answer is not right.
     pub failures: Vec<WrongAnswer>,
 }
@@ -101,13 +104,13 @@ pub(super) fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
     values.iter().enumerate().find(|(i, _)| (*i + 1) as f64 >= q * n).map_or(0.0, |(_, value)| *value)
 }
 
-fn epsilon(outcomes: &[ProblemOutcome]) -> ErrorStatistics {
-    // no roots, or residuals that are all zero: nothing to take the logarithm of
-    let values: Vec<f64> = outcomes.iter().map(|o| o.metric).filter(|e| e.is_finite()).collect();
-    let n = (values.len() as f64).max(1.0);
+/// Statistics of errors that are finite.
+pub(super) fn error_statistics(values: &[f64]) -> ErrorStatistics {
+    // of no values: not a number
+    let n = values.len() as f64;
     let above = |limit: f64| values.iter().filter(|e| **e > limit).count() as f64 / n;
     ErrorStatistics {
-        median: quantile(values.iter().copied(), 0.5),
+        median: if values.is_empty() { f64::NAN } else { quantile(values.iter().copied(), 0.5) },
         mean: values.iter().sum::<f64>() / n,
         max: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         above_minus_5: above(-5.0),
@@ -123,6 +126,7 @@ pub(super) fn summarise(
     plan: &Plan,
     expected: usize,
     seconds: f64,
+    elimination: Option<Elimination>,
     outcomes: &[ProblemOutcome],
 ) -> BenchReport {
     let count = |test: &dyn Fn(&ProblemOutcome) -> bool| outcomes.iter().filter(|o| test(o)).count() as u64;
@@ -143,6 +147,9 @@ pub(super) fn summarise(
         found: o.verdict.distinct,
         solver: o.solver.clone(),
     });
+    // no roots, or residuals that are all zero: nothing to take the logarithm of
+    let errors: Vec<f64> = outcomes.iter().map(|o| o.metric).filter(|e| e.is_finite()).collect();
+    let raw: Vec<_> = outcomes.iter().filter_map(|o| o.raw.clone()).collect();
     BenchReport {
         plan: *plan,
         expected,
@@ -169,7 +176,8 @@ pub(super) fn summarise(
         seconds,
         finite_counts: histogram(&|o| o.verdict.distinct),
         real_counts: histogram(&|o| o.verdict.real),
-        epsilon: epsilon(outcomes),
+        epsilon: error_statistics(&errors),
+        raw: elimination.map(|e| e.report(&raw)),
         failures: failures.collect(),
     }
 }

@@ -125,12 +125,15 @@ pub(crate) fn find_platform(
     if symmetric.is_met() || symmetric.report.interrupted {
         return Ok(symmetric);
     }
-    let report = search(&free, progress)?;
+    let mut report = search(&free, progress)?;
+    report.conic_programs += symmetric.report.conic_programs;
+    let conic_programs = report.conic_programs;
     let other = FoundPlatform::judged(design, free, report, Some(StartSymmetry::GivenUp), options.into())?;
     if other.rank() >= symmetric.rank() {
         return Ok(other);
     }
-    let report = DimensionalReport { interrupted: other.report.interrupted, ..symmetric.report };
+    let interrupted = other.report.interrupted;
+    let report = DimensionalReport { interrupted, conic_programs, ..symmetric.report };
     Ok(FoundPlatform { report, ..symmetric })
 }
 
@@ -202,12 +205,17 @@ pub(crate) fn find_front(
         Some(found) if found.is_met() || found.report.interrupted => Ok(found),
         symmetric => {
             let given_up = symmetric.as_ref().map(|_| StartSymmetry::GivenUp);
-            let report = pareto(&free, points, options, progress)?;
+            let mut report = pareto(&free, points, options, progress)?;
+            report.conic_programs += symmetric.as_ref().map_or(0, |s| s.report.conic_programs);
+            let conic_programs = report.conic_programs;
             let other = FoundFront::judged(design, free, report, given_up, options.into())?;
             Ok(match symmetric {
                 Some(found) if other.members.is_empty() && !found.members.is_empty() => {
                     let interrupted = other.report.interrupted;
-                    FoundFront { report: ParetoReport { interrupted, ..found.report }, ..found }
+                    FoundFront {
+                        report: ParetoReport { interrupted, conic_programs, ..found.report },
+                        ..found
+                    }
                 }
                 _ => other,
             })

@@ -1485,6 +1485,9 @@ class ExploreAnswer(Record):
     assessment: Union[AssessAnswer, None]
     #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
+    #: Conic programs that the library clarabel solved in the search for the platform; those with other
+    #: drives, for freedoms and for holes are not counted.
+    conic_programs: Union[int, None]
     #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
     price: Union[PriceRecord, None]
     #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
@@ -1563,6 +1566,9 @@ class ExploreOctahedralAnswer(Record):
     assessment: Union[AssessAnswer, None]
     #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
+    #: Conic programs that the library clarabel solved in the search for the platform; those with other
+    #: drives, for freedoms and for holes are not counted.
+    conic_programs: int
     #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
     price: Union[PriceRecord, None]
     #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
@@ -1794,6 +1800,8 @@ class FkAnswer(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
+    #: What libraries of linear algebra computed for `--method template`.
+    library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
@@ -1860,6 +1868,8 @@ class FkOneAnswer(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: tuple[SolutionRecord, ...]
+    #: What libraries of linear algebra computed for `--method template`.
+    library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
@@ -1934,6 +1944,8 @@ class FkRowRecord(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
+    #: What libraries of linear algebra computed for `--method template`.
+    library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
     #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
@@ -2434,6 +2446,20 @@ class LegSlideRecord(Record):
     squares_to_ends: tuple[ExactNumberRecord, ...]
     #: The entry of c: -t (1 - t) d^2, design units squared.
     constant: ExactNumberRecord
+
+
+class LibraryCallsRecord(Record):
+    """What a library of linear algebra computed for an answer."""
+
+    #: The library.
+    library: str
+    #: The computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised
+    #: eigenvectors.
+    computation: str
+    #: Rows and columns of the matrix.
+    size: tuple[int, ...]
+    #: How often.
+    calls: int
 
 
 class LightestDriveRecord(Record):
@@ -3764,6 +3790,9 @@ class SearchRecord(Record):
     dominated: Union[int, None]
     #: Of a front: bounds that no run met.
     unmet: Union[int, None]
+    #: Conic programs that the library clarabel solved in this search; those with other drives and for
+    #: freedoms are not counted.
+    conic_programs: int
 
 
 class SearchStepRecord(Record):

@@ -130,11 +130,22 @@ pub struct SearchRecord {
     pub dominated: Option<usize>,
     /// Of a front: bounds that no run met.
     pub unmet: Option<usize>,
+    /// Conic programs that the library clarabel solved in this search; those with other drives and for freedoms are not
+    /// counted.
+    pub conic_programs: u64,
 }
 
 impl SearchRecord {
-    fn of(method: SearchMethodWord) -> Self {
-        Self { method, starts: None, feasible: None, polished: None, dominated: None, unmet: None }
+    fn of(method: SearchMethodWord, conic_programs: u64) -> Self {
+        Self {
+            method,
+            starts: None,
+            feasible: None,
+            polished: None,
+            dominated: None,
+            unmet: None,
+            conic_programs,
+        }
     }
 }
 
@@ -275,7 +286,7 @@ impl OptimizeAnswer {
         };
         let branches: Vec<BranchRecord> = r.branches.iter().map(BranchRecord::from).collect();
         let limits = SearchLimitsRecord::of_offsets(design, p);
-        let search = SearchRecord::of(SearchMethodWord::Offsets);
+        let search = SearchRecord::of(SearchMethodWord::Offsets, r.conic_programs);
         let is_empty = matches!(r.outcome, OffsetOutcome::Infeasible);
         Self {
             optimality,
@@ -303,7 +314,7 @@ impl OptimizeAnswer {
             starts: Some(report.starts),
             feasible: Some(report.feasible),
             polished: Some(report.polished.iter().map(|g| g.map(Number)).collect()),
-            ..SearchRecord::of(SearchMethodWord::Dimensional)
+            ..SearchRecord::of(SearchMethodWord::Dimensional, report.conic_programs)
         };
         Self {
             optimality: (status == OptimizeStatus::BestFound).then_some(OptimalityWord::BestOfStarts),
@@ -332,7 +343,7 @@ impl OptimizeAnswer {
         let search = SearchRecord {
             dominated: Some(report.dominated),
             unmet: Some(report.unmet),
-            ..SearchRecord::of(SearchMethodWord::Dimensional)
+            ..SearchRecord::of(SearchMethodWord::Dimensional, report.conic_programs)
         };
         let outcome = report.failure.as_deref().map(|r| &r.outcome);
         Self {

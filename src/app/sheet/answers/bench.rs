@@ -1,6 +1,7 @@
 //! Random problems: solved, validated and timed, or disturbed by noise.
 
 use crate::{Sheet, Table, left, right};
+use ask::bench::{ErrorStatistics, RawReport};
 use records::{BenchAnswer, BenchClassRecord, Histogram, NoiseRowRecord};
 
 /// Most failures listed for people; JSON has them all.
@@ -21,28 +22,25 @@ fn classes(rows: &[BenchClassRecord], seed: u64) -> Sheet {
     let Some(references) = rows.first().map(|row| row.counts.reference_us) else { return out };
     say!(
         out,
-        "references: QZ of a random 69 x 69 pair {:.0} us, eigenvalues of a random 40 x 40 matrix {:.0} us",
+        "references by faer: QZ of a random 69 x 69 pair {:.0} us, eigenvalues of a random 40 x 40 matrix {:.0} us",
         references.qz69,
         references.eig40
     );
     for r in rows {
-        let e = r.epsilon;
         say!(
             out,
-            "{}: error metric median {:.2} mean {:.2} max {:.2}, above -5 {:.2} %, above -6 {:.2} %; \
-             solve {:.0} us, certify {:.0} us, validate {:.0} us; {:.1} s",
+            "{}: {}; solve {:.0} us, certify {:.0} us, validate {:.0} us; {:.1} s",
             r.counts.class,
-            e.median,
-            e.mean,
-            e.max,
-            100.0 * e.above_minus_5,
-            100.0 * e.above_minus_6,
+            errors(&r.epsilon),
             r.split_us.solve,
             r.split_us.certify,
             r.split_us.validate,
             r.total_s.0
         );
         say!(out, "  finite: {}  real: {}", line(&r.finite_counts), line(&r.real_counts));
+        if let Some(raw) = &r.raw {
+            before_refinement(&mut out, raw);
+        }
         for f in r.failures.iter().take(LISTED) {
             say!(
                 out,
@@ -63,6 +61,49 @@ fn classes(rows: &[BenchClassRecord], seed: u64) -> Sheet {
         }
     }
     out
+}
+
+fn errors(e: &ErrorStatistics) -> String {
+    if !e.median.is_finite() {
+        return "no roots".to_owned();
+    }
+    let shares = [e.above_minus_5, e.above_minus_6].map(|share| 100.0 * share);
+    format!(
+        "error metric median {:.2} mean {:.2} max {:.2}, above -5 {:.2} %, above -6 {:.2} %",
+        e.median, e.mean, e.max, shares[0], shares[1]
+    )
+}
+
+/// The candidates of a published elimination.
+fn before_refinement(out: &mut Sheet, raw: &RawReport) {
+    let zeros = raw.matrix.zeros.map(|zeros| format!(", {:.1} % zeros", 100.0 * zeros));
+    say!(
+        out,
+        "  elimination: matrix {} x {}{}, {} candidates; {} refused, {} with fewer than 40 finite candidates",
+        raw.matrix.rows,
+        raw.matrix.columns,
+        zeros.unwrap_or_default(),
+        raw.candidates,
+        raw.refused,
+        raw.infinite
+    );
+    let steps = raw.steps.iter().map(|s| {
+        let library = s.library.map(|name| format!(" ({name})")).unwrap_or_default();
+        format!("{}{library} {:.0} us", s.step.replace('_', " "), s.median_us)
+    });
+    let Some(e) = raw.epsilon else { return };
+    say!(out, "  steps: {}", steps.collect::<Vec<_>>().join(", "));
+    say!(out, "  before refinement: {}", errors(&e));
+    if let Some(gap) = raw.gap {
+        say!(
+            out,
+            "  residual 40 over residual 41: decimal logarithm, median {:.2} mean {:.2}",
+            gap.median,
+            gap.mean
+        );
+    }
+    let bins = raw.bins.iter().map(|b| format!("{:.1}: {}", b.from, b.count));
+    say!(out, "  error metric from: {}", bins.collect::<Vec<_>>().join(", "));
 }
 
 /// A row a class.

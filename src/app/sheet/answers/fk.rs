@@ -183,6 +183,16 @@ fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord) {
         );
     }
     say!(out, "{}, {}", completeness(s), s.completeness_reason);
+    for call in &s.library_calls {
+        let [rows, columns] = call.size;
+        say!(
+            out,
+            "{} computed {} of {rows} x {columns}, calls: {}",
+            call.library,
+            call.computation,
+            call.calls
+        );
+    }
     for (i, r) in numbered(s).filter(|(_, r)| r.real != Some(false)) {
         real_pose(out, i, r);
     }

@@ -92,6 +92,7 @@ fn progress(out: &mut Sheet, a: &OptimizeAnswer) {
     if let (Some(starts), Some(feasible)) = (r.starts, r.feasible) {
         say!(out, "{starts} starts, {feasible} of them feasible in the first pass");
     }
+    say!(out, "{} conic programs, solved by clarabel", r.conic_programs);
     if let (Some(list), Some(dominated), Some(unmet)) = (&a.front, r.dominated, r.unmet) {
         if a.status == OptimizeStatus::Interrupted {
             out.line("the front as far as it was found; runs that were not finished may be improved");

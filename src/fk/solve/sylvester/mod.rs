@@ -21,7 +21,7 @@ use nalgebra::Vector3;
 use num_complex::Complex64;
 use thiserror::Error;
 
-use super::generic_frame::GenericProblem;
+use super::generic_frame::{GenericProblem, RawCandidate};
 use elimination::Triangularised;
 use equations::ReducedEquations;
 use num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
@@ -73,6 +73,13 @@ pub struct Eliminant {
 }
 
 impl Eliminant {
+    /// Rows and columns of the matrix.
+    pub const MATRIX: usize = 15;
+    /// Degree of the determinant, and number of candidates.
+    pub const DEGREE: usize = DEGREE;
+    /// Values of `c_3` at which the determinant is taken.
+    pub const POINTS: usize = POINTS;
+
     /// Eliminates all unknowns but `c_3`.
     ///
     /// # Errors
@@ -91,7 +98,7 @@ impl Eliminant {
                 let c3 = univariate::root_of_unity(k, POINTS);
                 let mut matrix = equations.slice(c3).matrix(c3)?;
                 touch(c3, &mut matrix);
-                Ok(Triangularised::new(matrix, 15).determinant())
+                Ok(Triangularised::new(matrix, Self::MATRIX).determinant())
             })
             .collect();
         let mut coefficients = univariate::interpolate(&values?, POINTS);
@@ -110,16 +117,23 @@ impl Eliminant {
         self.coefficients.iter().map(|c| c.hi()).collect()
     }
 
+    /// The values of `c_3`; none where the iteration fails.
+    #[must_use]
+    pub fn roots(&self) -> Vec<Number> {
+        univariate::roots(&self.coefficients).unwrap_or_default()
+    }
+
     /// The roots and the pose of each in the design's frames, not checked; `None` where no finite pose results.
     #[must_use]
     pub fn poses(&self, problem: &GenericProblem) -> Vec<Option<ComplexPose>> {
-        let roots = univariate::roots(&self.coefficients).unwrap_or_default();
-        roots.into_iter().map(|c3| self.pose(problem, c3)).collect()
+        self.roots().into_iter().map(|c3| problem.pose(&self.candidate(c3)?)).collect()
     }
 
-    fn pose(&self, problem: &GenericProblem, c3: Number) -> Option<ComplexPose> {
+    /// Back substitution of a root; `None` where the powers of `c_1, c_2` do not follow.
+    #[must_use]
+    pub fn candidate(&self, c3: Number) -> Option<RawCandidate> {
         let slice = self.equations.slice(c3);
-        let w = Triangularised::new(slice.matrix(c3).ok()?, 15).null_vector();
+        let w = Triangularised::new(slice.matrix(c3).ok()?, Self::MATRIX).null_vector();
         let (c1, c2) = (w[1] / w[0], w[2] / w[0]);
         let value = |p: &bivariate::Bivariate| p.value(c1, c2);
         let denominators = slice.denominators.each_ref().map(value);
@@ -127,9 +141,10 @@ impl Eliminant {
         let best =
             (0..3).max_by(|&i, &j| denominators[i].hi().norm().total_cmp(&denominators[j].hi().norm()))?;
         let p = slice.numerators[best].each_ref().map(|n| (value(n) / denominators[best]).hi());
-        let e = [Complex64::ONE, c1.hi(), c2.hi(), c3.hi()];
-        let pose = problem.to_design(e, Vector3::from(p));
-        pose.rotation.iter().chain(pose.position.iter()).all(|z| z.is_finite()).then_some(pose)
+        Some(RawCandidate {
+            quaternion: [Complex64::ONE, c1.hi(), c2.hi(), c3.hi()],
+            position: Vector3::from(p),
+        })
     }
 }
 

@@ -20,11 +20,14 @@ pub use layout::{LayoutError, TemplateLayout};
 
 use nalgebra::Vector3;
 
-use super::generic_frame::{GenericProblem, norm_form, rotation_forms};
+use super::generic_frame::{GenericProblem, RawCandidate, norm_form, rotation_forms};
 use layout::DividedMonomial;
 use num::dense::{GeneralizedEigenpair, generalized_eigenpairs, upper_factor};
 use num::linalg::LinalgError;
 use platform::geom::ComplexPose;
+
+/// A template whose smallest pivot is below this, relative to the largest, has lost rank to rounding.
+const PIVOT_LIMIT: f64 = 1e-13;
 
 /// The matrix of a problem, 293 x 362, columns excessive, reducible, basic.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,6 +80,14 @@ impl TemplateLayout {
 }
 
 impl<'a> Filled<'a> {
+    /// Entries that are zero, as a share.
+    #[must_use]
+    pub fn zeros(&self) -> f64 {
+        let [rows, columns] = self.layout.size();
+        let zeros = self.rows.iter().flatten().filter(|x| **x == 0.0).count();
+        zeros as f64 / (rows * columns) as f64
+    }
+
     /// LU factorisation with partial pivoting: the last 38 rows of `U` are free of excessive monomials.
     #[must_use]
     pub fn eliminate(&self) -> Eliminated<'a> {
@@ -89,6 +100,12 @@ impl<'a> Filled<'a> {
 }
 
 impl Eliminated<'_> {
+    /// Whether the template keeps its rank on this problem.
+    #[must_use]
+    pub fn has_rank(&self) -> bool {
+        self.pivot_ratio > PIVOT_LIMIT
+    }
+
     /// Eigenpairs of the pencil `(1/w) T_1 v = T_0 v`, 69 of them.
     ///
     /// # Errors
@@ -116,16 +133,21 @@ impl Eliminated<'_> {
 }
 
 impl TemplateLayout {
-    /// The pose an eigenvector points to, in the design's frames, not checked against any equation. It is read
-    /// from `w (1, u, v, w, x, y, z)`; `None` when the eigenvalue or the coordinates are at infinity or `e.e = 0`.
+    /// The candidate that an eigenvector holds, read from `w (1, u, v, w, x, y, z)` (Martyushev, eq. 17).
+    #[must_use]
+    pub fn candidate(&self, pair: &GeneralizedEigenpair) -> RawCandidate {
+        let [w, uw, vw, ww, xw, yw, zw] = self.coordinates.map(|k| pair.vector[k]);
+        RawCandidate { quaternion: [w, uw, vw, ww], position: Vector3::new(xw / w, yw / w, zw / w) }
+    }
+
+    /// The pose an eigenvector points to, in the design's frames, not checked against any equation; `None` when the
+    /// eigenvalue or the coordinates are at infinity or `e.e = 0`.
     #[must_use]
     pub fn pose(&self, problem: &GenericProblem, pair: &GeneralizedEigenpair) -> Option<ComplexPose> {
         // an eigenvalue 1/w = alpha/beta at infinity is w = 0, which no pose has in random frames
         if !(pair.beta.norm() > f64::EPSILON * pair.alpha.norm()) {
             return None;
         }
-        let [w, uw, vw, ww, xw, yw, zw] = self.coordinates.map(|k| pair.vector[k]);
-        let pose = problem.to_design([w, uw, vw, ww], Vector3::new(xw / w, yw / w, zw / w));
-        pose.rotation.iter().chain(pose.position.iter()).all(|z| z.is_finite()).then_some(pose)
+        problem.pose(&self.candidate(pair))
     }
 }

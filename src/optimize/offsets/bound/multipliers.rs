@@ -198,7 +198,7 @@ impl Tableau {
 mod tests {
     use super::*;
     use num::Rng;
-    use num::conic::{ConicAnswer, ConicProgram};
+    use num::conic::{ConicAnswer, ConicProgram, ConicTally};
 
     fn value(samples: &[Sampled], mu: &[f64]) -> f64 {
         let greatest = |i: usize| {
@@ -222,7 +222,7 @@ mod tests {
         }
         (0..n).for_each(|k| p.at_least_zero(vec![(k, -1.0)], 0.0));
         p.at_least_zero((0..n).map(|k| (k, 1.0)).collect(), 1.0);
-        let ConicAnswer::Point(found) = p.solve() else { panic!("no point") };
+        let ConicAnswer::Point(found) = p.solve(&ConicTally::default()) else { panic!("no point") };
         found.x[n..].iter().sum()
     }
 
@@ -273,7 +273,7 @@ mod tests {
             (0..functions).for_each(|k| p.at_least_zero(vec![(k, -1.0)], 0.0));
             p.at_least_zero((0..functions).map(|k| (k, 1.0)).collect(), 1.0);
             p.at_least_zero((0..functions).map(|k| (k, -1.0)).collect(), -1.0);
-            let ConicAnswer::Point(found) = p.solve() else { panic!("no point") };
+            let ConicAnswer::Point(found) = p.solve(&ConicTally::default()) else { panic!("no point") };
             let expected = found.x[functions];
             if let Some(mu) = game(&values) {
                 below += 1;

@@ -16,8 +16,8 @@ use records::{BenchAnswer, BenchClassRecord};
 /// Arguments of `bench`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BenchArgs {
-    /// 6-6, 6-5, 6P-6, 6P-6P, tilted-planes, octahedral, griffis-duffy, hexapod, similar, affine, congruent, collinear,
-    /// close-pair, spread, double-root, hexapod-home, or all of these; T01 to T34 (also T04-planar-base,
+    /// 6-6, 6-5, 6P-6, 6P-6P, almost-planar, tilted-planes, octahedral, griffis-duffy, hexapod, similar, affine,
+    /// congruent, collinear, close-pair, spread, double-root, hexapod-home, or all of these; T01 to T34 (also T04-planar-base,
     /// -planar-platform, -both-planar), or topologies for the 34; several with commas between
     #[arg(long, value_name = "CLASS", default_value = "6-6")]
     class: String,
@@ -30,7 +30,8 @@ pub(crate) struct BenchArgs {
     /// Worker threads; each problem is solved and timed on one of them
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
     threads: u64,
-    /// Method of solution; auto takes the best one for the design
+    /// Method of solution; auto takes the best one for the design. With sylvester and template the candidates before
+    /// refinement are measured, too
     #[arg(long, value_enum, default_value_t = BenchMethodArg::Auto)]
     method: BenchMethodArg,
     /// Squared lengths uniform in [0.5, 3], or those of a random real pose; the former where the class allows it when
@@ -59,6 +60,7 @@ enum BenchMethodArg {
     Auto,
     Octic,
     Homotopy,
+    Sylvester,
     Template,
     Trilateration,
 }
@@ -77,6 +79,7 @@ pub(crate) fn run(args: &BenchArgs, context: &mut Context) -> Result<Answer, Fai
         BenchMethodArg::Auto => None,
         BenchMethodArg::Octic => Some(Method::Octic),
         BenchMethodArg::Homotopy => Some(Method::Homotopy),
+        BenchMethodArg::Sylvester => Some(Method::Sylvester),
         BenchMethodArg::Template => Some(Method::Template),
         BenchMethodArg::Trilateration => Some(Method::Trilateration),
     };

@@ -618,6 +618,7 @@ fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
         paths: folder.paths().collect(),
         family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
         optimize: OptimizedRecord::new(&r.answer),
+        conic_programs: r.answer.search.conic_programs,
         price: r.price(),
         reserve: r.reserve.map(|r| DefaultReserveRecord::new(RESERVE_PERCENT, r == DefaultReserve::Kept)),
         verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),

@@ -166,6 +166,7 @@ pub(super) fn record_with(
         paths: Vec::new(),
         rejected: Vec::new(),
         pose_count: None,
+        library_calls: Vec::new(),
         unproved: Vec::new(),
         seed,
     };

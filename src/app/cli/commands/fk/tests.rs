@@ -40,6 +40,7 @@ fn solutions(condition: f64) -> FkSolutions {
         }],
         rejected: vec![Rejected { reason: RejectionReason::Duplicate, residual: 0.0 }],
         pose_count: None,
+        library_calls: Vec::new(),
         unproved: Vec::new(),
         seed: 7,
     }
