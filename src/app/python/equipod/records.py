@@ -16,6 +16,7 @@ BranchWord = Literal["best", "bounded", "dominated", "infeasible", "solver_failu
 CalibrateOutcome = Literal["calibrated", "not_identifiable", "planned", "refuted", "undecided"]
 CalibrationFrames = Literal["design", "measured"]
 CentrePrecision = Literal["double", "double_double"]
+CoefficientsWord = Literal["enclosed", "expressions", "integers"]
 CompletenessWord = Literal["modular", "proved", "unproved"]
 CorrelationsWord = Literal["design", "independent"]
 CountUndecided = Literal["degree_too_low", "joints_not_exact", "no_prime_drawn", "primes_disagree"]
@@ -114,6 +115,7 @@ OptimizeWord = Literal[
 ]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
 PoseAxis = Literal["pitch", "roll", "x", "y", "yaw", "z"]
+PoseFamilyWord = Literal["line", "positions", "rotation"]
 ProofWord = Literal["leg_vectors", "none", "pose_lattice", "regular_pose"]
 ProvedReality = Literal["non_real", "real", "undecided"]
 RegionWord = Literal["box", "ellipsoid"]
@@ -600,24 +602,36 @@ class ClosurePolynomialRecord(Record):
     start: tuple[str, ...]
     #: The trilaterations after it.
     sequence: tuple[TrilaterationStepRecord, ...]
-    #: The degree before singular factors are removed.
+    #: The unknowns by their names.
+    unknowns: tuple[str, ...]
+    #: The degree before factors without meaning are removed.
     degree_before: int
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: Different complex roots.
-    distinct_roots: int
-    #: Singular factors.
-    factors: tuple[SingularFactorRecord, ...]
-    #: The coefficients of the primitive integer polynomial as decimal text, the constant one first.
+    #: The factors that were removed.
+    removed: tuple[RemovedFactorRecord, ...]
+    #: Different complex roots; null with several unknowns, and where coefficients are not exact.
+    distinct_roots: Union[int, None]
+    #: How the coefficients are known.
+    coefficients_known: CoefficientsWord
+    #: The exponents of the unknowns in each term.
+    exponents: tuple[tuple[int, ...], ...]
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: tuple[str, ...]
+    #: Different real roots, counted by Sturm's theorem; null where distinct_roots is.
+    real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
     #: How often each of them is a root.
     real_root_multiplicities: tuple[int, ...]
+    #: Singular factors.
+    factors: tuple[SingularFactorRecord, ...]
     #: Real poses at each of them; null where that does not follow.
     real_poses_at_roots: Union[tuple[int, ...], None]
     #: Real poses in all, proved; null where that does not follow.
     poses_real_proved: Union[int, None]
+    #: Bounds [low, high] of the coefficients, where they are not exact.
+    coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
 
 
 class ClosureRecord(Record):
@@ -631,20 +645,32 @@ class ClosureRecord(Record):
     start: Union[tuple[str, ...], None]
     #: The trilaterations after it.
     sequence: Union[tuple[TrilaterationStepRecord, ...], None]
-    #: The degree before singular factors are removed.
+    #: The unknowns by their names.
+    unknowns: Union[tuple[str, ...], None]
+    #: The degree before factors without meaning are removed.
     degree_before: Union[int, None]
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: Different complex roots.
+    #: The factors that were removed.
+    removed: Union[tuple[RemovedFactorRecord, ...], None]
+    #: Different complex roots; null with several unknowns, and where coefficients are not exact.
     distinct_roots: Union[int, None]
-    #: Singular factors.
-    factors: Union[tuple[SingularFactorRecord, ...], None]
-    #: The coefficients of the primitive integer polynomial as decimal text, the constant one first.
+    #: How the coefficients are known.
+    coefficients_known: Union[CoefficientsWord, None]
+    #: The exponents of the unknowns in each term.
+    exponents: Union[tuple[tuple[int, ...], ...], None]
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: Union[tuple[str, ...], None]
+    #: Bounds [low, high] of the coefficients, where they are not exact.
+    coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
+    #: Different real roots, counted by Sturm's theorem; null where distinct_roots is.
+    real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
     #: How often each of them is a root.
     real_root_multiplicities: Union[tuple[int, ...], None]
+    #: Singular factors.
+    factors: Union[tuple[SingularFactorRecord, ...], None]
     #: Real poses at each of them; null where that does not follow.
     real_poses_at_roots: Union[tuple[int, ...], None]
     #: Real poses in all, proved; null where that does not follow.
@@ -3284,6 +3310,35 @@ class PatternRecord(Record):
     det_zero: tuple[str, ...]
 
 
+class PolynomialRecord(Record):
+    """A polynomial in one unknown or in several: its degrees, its coefficients and its real roots."""
+
+    #: The unknowns by their names.
+    unknowns: tuple[str, ...]
+    #: The degree before factors without meaning are removed.
+    degree_before: int
+    #: The degree; null for the zero polynomial.
+    degree: Union[int, None]
+    #: The factors that were removed.
+    removed: tuple[RemovedFactorRecord, ...]
+    #: Different complex roots; null with several unknowns, and where coefficients are not exact.
+    distinct_roots: Union[int, None]
+    #: How the coefficients are known.
+    coefficients_known: CoefficientsWord
+    #: The exponents of the unknowns in each term.
+    exponents: tuple[tuple[int, ...], ...]
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    coefficients: tuple[str, ...]
+    #: Different real roots, counted by Sturm's theorem; null where distinct_roots is.
+    real_roots_by_sturm: Union[int, None]
+    #: Real roots as [low, high], rounded outwards.
+    real_roots: tuple[tuple[Union[float, None], ...], ...]
+    #: How often each of them is a root.
+    real_root_multiplicities: tuple[int, ...]
+    #: Bounds [low, high] of the coefficients, where they are not exact.
+    coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
+
+
 class PoseBoundRecord(Record):
     """A proved bound on the number of isolated finite poses, counted with multiplicity."""
 
@@ -3511,6 +3566,17 @@ class RejectedRecord(Record):
     reason: RejectionReason
     #: Its error in the leg equations, over the squared size.
     residual: Union[float, None]
+
+
+class RemovedFactorRecord(Record):
+    """A factor that belongs to the way to the polynomial, not to its meaning."""
+
+    #: The factor in the unknowns, or in words.
+    factor: str
+    #: Its degree.
+    degree: int
+    #: How often it was removed.
+    times: int
 
 
 class RequiredSizeRecord(Record):
@@ -3887,6 +3953,34 @@ class SingularFactorRecord(Record):
     degree: int
     #: How often it was removed.
     removed: int
+
+
+class SingularLocusAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: The unit of its lengths.
+    units: str
+    #: The poses over which det J is a polynomial.
+    family: PoseFamilyWord
+    #: The position of the pose given, as exact expressions.
+    position: tuple[str, ...]
+    #: A quaternion of its orientation, scalar part first, of any norm, as exact expressions.
+    quaternion: tuple[str, ...]
+    #: The direction of the line, or the axis of the rotations, in the base frame; null for positions.
+    direction: Union[tuple[str, ...], None]
+    #: The square of the length of the axis: u is the tangent of half the angle over that length; null
+    #: without an axis.
+    axis_squared: Union[float, None]
+    #: det J up to a constant factor. The zero polynomial: every pose is singular.
+    polynomial: PolynomialRecord
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
 
 
 class SingularPosesAnswer(Record):

@@ -301,13 +301,13 @@ fn closure(out: &mut Sheet, closure: &ClosureRecord) {
     say!(
         out,
         "closure polynomial in the squared distance of {x} and {y}: degree {} before, {} after removal of singular factors, {} distinct roots, {} real",
-        p.degree_before,
-        p.degree.unwrap_or(0),
-        p.distinct_roots,
-        p.real_roots.len()
+        p.polynomial.degree_before,
+        p.polynomial.degree.unwrap_or(0),
+        p.polynomial.distinct_roots.unwrap_or(0),
+        p.polynomial.real_roots.len()
     );
     let middle = |[low, high]: &[Number; 2]| format!("{:.9}", 0.5 * (low.0 + high.0));
-    let roots: Vec<String> = p.real_roots.iter().map(middle).collect();
+    let roots: Vec<String> = p.polynomial.real_roots.iter().map(middle).collect();
     if !roots.is_empty() {
         say!(out, "its real roots: {}", roots.join(", "));
     }
