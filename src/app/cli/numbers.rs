@@ -3,9 +3,24 @@
 use files::design::Share;
 use num::surd::Surd;
 
+/// The double nearest to a finite number.
+pub(crate) fn one(text: &str) -> Option<f64> {
+    let double: Option<f64> = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    double.or_else(|| text.parse().ok().map(|x: Share| x.nearest()).filter(|x| x.is_finite()))
+}
+
+/// The value of an option that is one number.
+///
+/// # Errors
+/// What is wrong with the text.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    one(text).ok_or_else(|| {
+        "this is no finite number, neither a decimal nor an expression such as 12/5".to_owned()
+    })
+}
+
 /// So many finite numbers separated by commas.
 pub(crate) fn parse<const N: usize>(text: &str) -> Option<[f64; N]> {
-    let one = |field: &str| field.parse().ok().map(|x: Share| x.nearest()).filter(|x| x.is_finite());
     let all: Option<Vec<f64>> = text.split(',').map(one).collect();
     all.and_then(|v| v.try_into().ok())
 }

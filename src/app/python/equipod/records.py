@@ -618,7 +618,7 @@ class ClosurePolynomialRecord(Record):
     exponents: tuple[tuple[int, ...], ...]
     #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: tuple[str, ...]
-    #: Different real roots, counted by Sturm's theorem; null where distinct_roots is.
+    #: Different real roots, counted by Sturm's theorem; null where `distinct_roots` is.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
@@ -663,7 +663,7 @@ class ClosureRecord(Record):
     coefficients: Union[tuple[str, ...], None]
     #: Bounds [low, high] of the coefficients, where they are not exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: Different real roots, counted by Sturm's theorem; null where distinct_roots is.
+    #: Different real roots, counted by Sturm's theorem; null where `distinct_roots` is.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
@@ -3329,7 +3329,7 @@ class PolynomialRecord(Record):
     exponents: tuple[tuple[int, ...], ...]
     #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: tuple[str, ...]
-    #: Different real roots, counted by Sturm's theorem; null where distinct_roots is.
+    #: Different real roots, counted by Sturm's theorem; null where `distinct_roots` is.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
