@@ -32,6 +32,7 @@ mod near;
 mod newton;
 mod octic;
 mod real_points;
+mod rotation_polynomial;
 mod solutions;
 pub mod solve;
 #[cfg(feature = "lab")]
@@ -52,6 +53,7 @@ pub use near::NearNumbers;
 use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, NearWord, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
+pub use rotation_polynomial::{NoRotationPolynomial, RotationPolynomial, rotation_polynomial};
 pub use solutions::{
     FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
 };

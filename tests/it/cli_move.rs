@@ -252,7 +252,7 @@ B3 = [2, 5, 0]
 "#;
     std::fs::write(&start, text).unwrap();
     let options = ["--search", "--no-shared-joints", "--count", "2", "-o", &found];
-    of(&start, &options, 0);
+    super::cli_frame::asked(&[&["equivalents", "move", start.as_str()], options.as_slice()].concat());
     for k in [1, 2] {
         let other = format!("{found}/{k}.toml");
         let map = super::cli_frame::asked(&["equivalents", "map", &start, &other]).1;
@@ -263,7 +263,7 @@ B3 = [2, 5, 0]
 #[test]
 fn parameters_holes_and_lengths_may_be_expressions() {
     let design = "designs/rbt-octahedral.toml";
-    let moved = of(design, &["--move", "1:P1-P2:P4=1/5"], 0);
+    let moved = of("rbt-octahedral", &["--move", "1:P1-P2:P4:1/5"], 0);
     assert_eq!(moved["steps"][0]["moves"][0]["parameters_written"], serde_json::json!(["1/5"]));
     let lengths =
         |text: &str| super::cli_frame::asked(&["fk", design, "--lengths", text]).1["solutions"].clone();

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Number;
-use fk::Closure;
+use fk::{Closure, NoRotationPolynomial, RotationPolynomial};
 use num::algebraic::Algebraic;
 use num::poly::{EnclosedRoot, IntPoly, sturm_count_of_line};
 use platform::topology::JointIndex;
@@ -33,7 +33,7 @@ pub struct PolynomialRecord {
     pub degree: Option<usize>,
     /// The factors that were removed.
     pub removed: Vec<RemovedFactorRecord>,
-    /// Different complex roots; null with several unknowns, and where coefficients are not exact.
+    /// Different complex roots; null with several unknowns, and where that is not proved.
     pub distinct_roots: Option<usize>,
     /// How the coefficients are known.
     pub coefficients_known: CoefficientsWord,
@@ -44,7 +44,7 @@ pub struct PolynomialRecord {
     /// Bounds [low, high] of the coefficients, where they are not exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coefficient_bounds: Option<Vec<[Number; 2]>>,
-    /// Different real roots, counted by Sturm's theorem; null where `distinct_roots` is.
+    /// Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients are not exact.
     pub real_roots_by_sturm: Option<usize>,
     /// Real roots as [low, high], rounded outwards.
     pub real_roots: Vec<[Number; 2]>,
@@ -103,6 +103,26 @@ impl PolynomialRecord {
         }
     }
 
+    /// The polynomial in a Cayley parameter of all poses.
+    fn of_rotations(p: &RotationPolynomial) -> Self {
+        let degree = p.coefficients.len().saturating_sub(1);
+        Self {
+            unknowns: vec!["c3".to_owned()],
+            degree_before: degree,
+            degree: Some(degree),
+            removed: Vec::new(),
+            // the discs of the roots are disjoint
+            distinct_roots: Some(degree),
+            coefficients_known: CoefficientsWord::Enclosed,
+            exponents: (0..=degree).map(|k| vec![k]).collect(),
+            coefficients: Vec::new(),
+            coefficient_bounds: Some(p.coefficients.iter().map(|c| [c.lo(), c.hi()].map(Number)).collect()),
+            real_roots_by_sturm: None,
+            real_roots: p.real_roots.iter().map(|r| [r.low, r.high].map(Number)).collect(),
+            real_root_multiplicities: p.real_roots.iter().map(|r| r.multiplicity).collect(),
+        }
+    }
+
     fn of_locus(found: &LocusPolynomial, unknowns: &[&str]) -> Self {
         let own = |(square, times): &(Algebraic, usize)| RemovedFactorRecord {
             factor: match square.to_string().as_str() {
@@ -143,6 +163,28 @@ impl PolynomialRecord {
             real_roots_by_sturm: roots.map(|r| r.sturm),
             real_roots: real.iter().map(|r| [r.low, r.high].map(Number)).collect(),
             real_root_multiplicities: real.iter().map(|r| r.multiplicity).collect(),
+        }
+    }
+}
+
+/// The polynomial in a Cayley parameter of all poses.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum RotationPolynomialRecord {
+    /// There is one: c3 is z / w of the quaternion (w, x, y, z) of the platform's rotation, one root for each pose.
+    Polynomial(Box<PolynomialRecord>),
+    /// There is none.
+    None {
+        /// Why not.
+        error: String,
+    },
+}
+
+impl From<Result<RotationPolynomial, NoRotationPolynomial>> for RotationPolynomialRecord {
+    fn from(found: Result<RotationPolynomial, NoRotationPolynomial>) -> Self {
+        match found {
+            Ok(p) => Self::Polynomial(Box::new(PolynomialRecord::of_rotations(&p))),
+            Err(why) => Self::None { error: why.to_string() },
         }
     }
 }

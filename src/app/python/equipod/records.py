@@ -610,7 +610,7 @@ class ClosurePolynomialRecord(Record):
     degree: Union[int, None]
     #: The factors that were removed.
     removed: tuple[RemovedFactorRecord, ...]
-    #: Different complex roots; null with several unknowns, and where coefficients are not exact.
+    #: Different complex roots; null with several unknowns, and where that is not proved.
     distinct_roots: Union[int, None]
     #: How the coefficients are known.
     coefficients_known: CoefficientsWord
@@ -618,7 +618,8 @@ class ClosurePolynomialRecord(Record):
     exponents: tuple[tuple[int, ...], ...]
     #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: tuple[str, ...]
-    #: Different real roots, counted by Sturm's theorem; null where `distinct_roots` is.
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
@@ -653,7 +654,7 @@ class ClosureRecord(Record):
     degree: Union[int, None]
     #: The factors that were removed.
     removed: Union[tuple[RemovedFactorRecord, ...], None]
-    #: Different complex roots; null with several unknowns, and where coefficients are not exact.
+    #: Different complex roots; null with several unknowns, and where that is not proved.
     distinct_roots: Union[int, None]
     #: How the coefficients are known.
     coefficients_known: Union[CoefficientsWord, None]
@@ -663,7 +664,8 @@ class ClosureRecord(Record):
     coefficients: Union[tuple[str, ...], None]
     #: Bounds [low, high] of the coefficients, where they are not exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: Different real roots, counted by Sturm's theorem; null where `distinct_roots` is.
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
@@ -1836,6 +1838,8 @@ class FkAnswer(Record):
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
+    #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
+    polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
     #: Counted modulo random primes; null: not counted.
     dimension: Union[int, None]
@@ -1902,6 +1906,8 @@ class FkOneAnswer(Record):
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
+    #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
+    polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
     #: Counted modulo random primes; null: not counted.
     dimension: Union[int, None]
@@ -1973,6 +1979,8 @@ class FkRowRecord(Record):
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
+    #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
+    polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
     #: Counted modulo random primes; null: not counted.
     dimension: Union[int, None]
@@ -3321,7 +3329,7 @@ class PolynomialRecord(Record):
     degree: Union[int, None]
     #: The factors that were removed.
     removed: tuple[RemovedFactorRecord, ...]
-    #: Different complex roots; null with several unknowns, and where coefficients are not exact.
+    #: Different complex roots; null with several unknowns, and where that is not proved.
     distinct_roots: Union[int, None]
     #: How the coefficients are known.
     coefficients_known: CoefficientsWord
@@ -3329,7 +3337,8 @@ class PolynomialRecord(Record):
     exponents: tuple[tuple[int, ...], ...]
     #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: tuple[str, ...]
-    #: Different real roots, counted by Sturm's theorem; null where `distinct_roots` is.
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
@@ -3637,6 +3646,38 @@ class RidingRecord(Record):
     platform_growth: Union[float, None]
     #: One sentence.
     message: str
+
+
+class RotationPolynomialRecord(Record):
+    """The polynomial in a Cayley parameter of all poses."""
+
+    #: The unknowns by their names.
+    unknowns: Union[tuple[str, ...], None]
+    #: The degree before factors without meaning are removed.
+    degree_before: Union[int, None]
+    #: The degree; null for the zero polynomial.
+    degree: Union[int, None]
+    #: The factors that were removed.
+    removed: Union[tuple[RemovedFactorRecord, ...], None]
+    #: Different complex roots; null with several unknowns, and where that is not proved.
+    distinct_roots: Union[int, None]
+    #: How the coefficients are known.
+    coefficients_known: Union[CoefficientsWord, None]
+    #: The exponents of the unknowns in each term.
+    exponents: Union[tuple[tuple[int, ...], ...], None]
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    coefficients: Union[tuple[str, ...], None]
+    #: Bounds [low, high] of the coefficients, where they are not exact.
+    coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
+    real_roots_by_sturm: Union[int, None]
+    #: Real roots as [low, high], rounded outwards.
+    real_roots: tuple[tuple[Union[float, None], ...], ...]
+    #: How often each of them is a root.
+    real_root_multiplicities: Union[tuple[int, ...], None]
+    #: Why not.
+    error: Union[str, None]
 
 
 class RoundAnswer(Record):
