@@ -43,14 +43,14 @@ impl Record<'_> {
 
 fn step(s: &MovedAtOnce) -> MoveStepRecord {
     let r: &Relocation = &s.relocation;
-    let named = s.families.iter().zip(&s.written);
-    let one = |(m, ((type_name, name), written)): (&MovedLeg, (&(String, Option<String>), &Vec<String>))| {
+    let one = |(k, m): (usize, &MovedLeg)| {
+        let (type_name, name) = &s.families[k];
         LegMoveRecord {
             leg: m.request.leg.get() + 1,
             component: m.request.family + 1,
             type_name: type_name.clone(),
             along: name.clone(),
-            parameters_written: written.clone(),
+            parameters_written: s.written[k].clone(),
             parameters: m.request.parameters.iter().copied().map(Number).collect(),
             from: (&m.from).into(),
             to: (&m.to).into(),
@@ -64,6 +64,6 @@ fn step(s: &MovedAtOnce) -> MoveStepRecord {
     MoveStepRecord {
         outcome: r.map.relation.decided(),
         det: Number(r.map.determinant),
-        moves: r.moved.iter().zip(named).map(one).collect(),
+        moves: r.moved.iter().enumerate().map(one).collect(),
     }
 }
