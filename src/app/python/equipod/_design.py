@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         MotionAnswer,
         OptimizeAnswer,
         RoundAnswer,
+        SingularLocusAnswer,
         SingularPosesAnswer,
         TolerancesAnswer,
         VerifyAnswer,
