@@ -33,6 +33,7 @@ mod newton;
 mod octic;
 mod pentapod;
 mod real_points;
+mod rotation_polynomial;
 mod solutions;
 mod solvability;
 pub mod solve;
@@ -55,6 +56,7 @@ use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, NearWord, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
 pub use pentapod::{LineClass, LinePose, LinePoses, NoLinePoses, count_line_poses, line_class, line_poses};
+pub use rotation_polynomial::{NoRotationPolynomial, RotationPolynomial, rotation_polynomial};
 pub use solutions::{
     FkRoot, FkSolutions, LibraryCalls, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
     SolutionSet,

@@ -119,6 +119,9 @@ CALLS = """
 0 singular-motion {rbt-midline} --sections 0
 1 singular-motion {rbt-octahedral}
 1 singular-motion {rbt-midline} --lengths 18,18,17,16,15,19
+0 singular-locus {rbt-octahedral} --pose 0,0,1,1,1/2,0,0
+0 singular-locus {symmetric-hexapod} --about 1,2,3
+1 singular-locus {rbt-midline} --along 0,0,1
 0 singular-poses {rbt-octahedral} --cells 500 --between --samples 20 --path 1,2
 3 singular-poses {rbt-midline} --cells 500
 0 build-tolerances {rbt-octahedral} --bound 0.01,0.1 --points 10 --searches 0 --trials 10 --length-error 0.01 --growth 1e-5,1e-5,2e-5 --map {errors.csv}

@@ -203,3 +203,26 @@ fn the_template_says_what_its_library_computed() {
     assert_eq!(call(1), ("faer".into(), "qz".into(), vec![69, 69].into()));
     assert!(answer("sylvester").get("library_calls").is_none());
 }
+
+/// Both methods enclose one polynomial, and each real pose is over a real root.
+#[test]
+fn the_polynomial_of_degree_forty_does_not_depend_on_the_method() {
+    let found = |method: &str| {
+        let words = ["fk", "designs/lee-shim.toml", "--method", method, "--polynomial"];
+        super::cli_frame::asked(&words).1
+    };
+    let (one, other) = (found("sylvester"), found("homotopy"));
+    let bounds = |doc: &serde_json::Value| -> Vec<[f64; 2]> {
+        serde_json::from_value(doc["polynomial"]["coefficient_bounds"].clone()).unwrap()
+    };
+    let (a, b) = (bounds(&one), bounds(&other));
+    assert_eq!((a.len(), b.len(), a[40]), (41, 41, [1.0, 1.0]));
+    let largest = a.iter().map(|x| x[1].abs()).fold(0.0, f64::max);
+    for (x, y) in a.iter().zip(&b) {
+        assert!(x[0] <= y[1] && y[0] <= x[1] && x[1] - x[0] < 1e-4 * largest, "{x:?} {y:?}");
+    }
+    let roots = one["polynomial"]["real_roots"].as_array().unwrap();
+    assert_eq!(Some(roots.len() as u64), one["real_count"].as_u64());
+    let mirrored = super::cli_frame::asked(&["fk", "designs/rbt-octahedral.toml", "--polynomial"]).1;
+    assert!(mirrored["polynomial"]["error"].as_str().unwrap().contains("mirror images"));
+}

@@ -87,7 +87,11 @@ fn a_wrong_word_is_told_what_was_meant() {
             "`equipod topologies`",
             "`equipod equivalents topologies` or `equipod plot topologies`",
         ),
-        ("singular x.toml", "`equipod singular` needs one of its commands before `x.toml`", "poses, motion"),
+        (
+            "singular x.toml",
+            "`equipod singular` needs one of its commands before `x.toml`",
+            "poses, locus, motion",
+        ),
         ("frobnicate", "`equipod frobnicate` is not a command", "`equipod --help` lists the commands by job"),
         (
             "equivalents",

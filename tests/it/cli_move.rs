@@ -231,3 +231,43 @@ fn the_last_leg_of_a_fixed_joint_is_not_moved() {
     assert_eq!(asked(&["--move", first, "--move", second]), (Some(2), Some("move::fixed".into())));
     assert_eq!(asked(&["--search"]), (Some(2), Some("move::fixed".into())));
 }
+
+/// Joints on lines of joints that the search has moved, too, are exact: the leg map is an identity.
+#[test]
+fn a_platform_of_the_search_follows_exactly_though_ends_of_its_lines_have_moved() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (start, found) = (file("3-3b.toml"), file("found"));
+    let text = r#"name = "3-3b"
+units = "mm"
+legs = [["A1", "B1"], ["A1", "B2"], ["A1", "B3"], ["A2", "B1"], ["A2", "B2"], ["A3", "B3"]]
+[base]
+A1 = [0, 0, 0]
+A2 = [12, 0, 0]
+A3 = [3, 9, 0]
+[platform]
+B1 = [0, 0, 0]
+B2 = [6, 0, 0]
+B3 = [2, 5, 0]
+"#;
+    std::fs::write(&start, text).unwrap();
+    let options = ["--search", "--no-shared-joints", "--count", "2", "-o", &found];
+    super::cli_frame::asked(&[&["equivalents", "move", start.as_str()], options.as_slice()].concat());
+    for k in [1, 2] {
+        let other = format!("{found}/{k}.toml");
+        let map = super::cli_frame::asked(&["equivalents", "map", &start, &other]).1;
+        assert!(map["A_exact"].is_array(), "{map}");
+    }
+}
+
+#[test]
+fn parameters_holes_and_lengths_may_be_expressions() {
+    let design = "designs/rbt-octahedral.toml";
+    let moved = of("rbt-octahedral", &["--move", "1:P1-P2:P4:1/5"], 0);
+    assert_eq!(moved["steps"][0]["moves"][0]["parameters_written"], serde_json::json!(["1/5"]));
+    let lengths =
+        |text: &str| super::cli_frame::asked(&["fk", design, "--lengths", text]).1["solutions"].clone();
+    let decimals = lengths("19.8,18,18,17,14.9,17.8");
+    assert!(decimals.as_array().is_some_and(|list| list.len() == 16));
+    assert_eq!(lengths("99/5,18,36/2,17,149/10,89/5"), decimals);
+}

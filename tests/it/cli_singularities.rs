@@ -202,3 +202,27 @@ fn the_proved_box_is_one_of_rotation_vectors() {
     );
     assert!(proved.as_f64().unwrap() > 0.5);
 }
+
+/// Equivalent platforms have one cubic; a singular one has zero; the axis of symmetry gives quarter turns.
+#[test]
+fn the_locus_is_one_polynomial_for_equivalent_platforms() {
+    let locus = |design: &str, more: &[&str]| {
+        let words = [&["singular", "locus", design, "--json"], more].concat();
+        let out = equipod(&words);
+        (out.status.code(), document(&out)["polynomial"].clone())
+    };
+    let pose = ["--pose", "0,0,1,1,1/2,1/3,0"];
+    let (code, cubic) = locus("designs/rbt-octahedral.toml", &pose);
+    assert_eq!((code, cubic["degree"].as_u64()), (Some(0), Some(3)));
+    assert_eq!((code, cubic), locus("designs/rbt-griffis-duffy.toml", &pose));
+    assert_eq!(locus("designs/rbt-midline.toml", &pose).0, Some(1));
+    let above = ["--pose", "0,0,15,0,0,0", "--about", "0,0,1"];
+    let (_, turned) = locus("designs/rbt-griffis-duffy.toml", &above);
+    assert_eq!(turned["coefficients"], serde_json::json!(["-1", "0", "1"]));
+    assert_eq!(turned["removed"], serde_json::json!([{ "factor": "1 + u^2", "degree": 2, "times": 5 }]));
+    assert_eq!(turned["real_roots"], serde_json::json!([[-1.0, -1.0], [1.0, 1.0]]));
+    let (_, general) = locus("designs/dietmaier.toml", &["--about", "1,2,3"]);
+    assert_eq!((general["degree_before"].as_u64(), general["degree"].as_u64()), (Some(12), Some(6)));
+    let found = general["real_roots"].as_array().unwrap().len();
+    assert_eq!(general["real_roots_by_sturm"].as_u64(), Some(found as u64));
+}

@@ -28,6 +28,7 @@ ANSWERS = {
     "limits": "LimitsAnswer",
     "motion": "MotionAnswer",
     "optimize": "OptimizeAnswer",
+    "singular-locus": "SingularLocusAnswer",
     "singular-poses": "SingularPosesAnswer",
     "verify": "VerifyAnswer",
 }

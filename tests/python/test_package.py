@@ -339,6 +339,15 @@ def test_limits_and_singular_poses_take_poses_as_matrices():
         design.limits(np.stack([pose, pose]))
 
 
+def test_the_singularity_locus_is_one_polynomial_for_equivalent_platforms(octahedral):
+    pose = "0,0,1,1,1/2,1/3,0"
+    own = octahedral.singular_locus(pose).polynomial
+    other = equipod.Design.load(DESIGNS / "rbt-griffis-duffy.toml").singular_locus(pose).polynomial
+    assert own.degree == 3 and own.exponents == other.exponents and own.coefficients == other.coefficients
+    turned = octahedral.singular_locus(about=[0, 0, 1]).polynomial
+    assert turned.coefficients == ["-1", "0", "1"] and turned.real_roots_by_sturm == 2
+
+
 def test_answers_are_those_of_the_program(octahedral):
     """The same fields with the same values as `equipod --json`, but for how the design was handed over."""
 

@@ -11,7 +11,9 @@ use serde::Serialize;
 pub use self::certificate::{CertificateRecord, DiscsRecord, EnclosureRecord};
 pub use self::closure::{ClosurePolynomialRecord, ClosureRecord, TrilaterationStepRecord};
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
-use super::{ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number};
+use super::{
+    ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number, RotationPolynomialRecord,
+};
 use fk::solve::pose_count::{CountedLengths, PoseSet};
 use fk::{
     CompletenessWord, FkRoot, FkSolutions, LibraryCalls, Method, PathReport, Reality, Rejected, SolutionSet,
@@ -103,6 +105,9 @@ pub struct FkOneAnswer {
     /// The exact closure polynomial, with `--method trilateration`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub closure: Option<ClosureRecord>,
+    /// The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub polynomial: Option<RotationPolynomialRecord>,
 }
 
 impl From<SolvedRecord> for FkOneAnswer {
@@ -116,6 +121,7 @@ impl From<SolvedRecord> for FkOneAnswer {
             near: None,
             drives: None,
             closure: None,
+            polynomial: None,
         }
     }
 }

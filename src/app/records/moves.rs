@@ -80,6 +80,8 @@ pub struct LegMoveRecord {
     pub along: Option<String>,
     /// Where on the family.
     pub parameters: Vec<Number>,
+    /// The same as it was written, such as 1/5.
+    pub parameters_written: Vec<String>,
     /// The leg before.
     pub from: LegEndsRecord,
     /// The leg after.

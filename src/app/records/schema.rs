@@ -9,8 +9,8 @@ use super::{
     ConvertAnswer, Document, DrivesAnswer, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer,
     HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer,
     NearestAnswer, NewAnswer, OptimizeAnswer, PentapodAnswer, PlotAnswer, PresetsAnswer, ReportAnswer,
-    RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer,
-    VerifyAnswer, ViewAnswer,
+    RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularLocusAnswer, SingularitiesAnswer, TolerancesAnswer,
+    TopologiesAnswer, VerifyAnswer, ViewAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own names, those of a group as
@@ -52,6 +52,7 @@ const ANSWERS: Table = &[
     ("report", Document::<ReportAnswer>::json_schema),
     ("shell-completions", Document::<CompletionsAnswer>::json_schema),
     ("shell-man", Document::<ManAnswer>::json_schema),
+    ("singular-locus", Document::<SingularLocusAnswer>::json_schema),
     ("singular-motion", Document::<SelfmotionAnswer>::json_schema),
     ("singular-poses", Document::<SingularitiesAnswer>::json_schema),
     #[cfg(feature = "sweep")]

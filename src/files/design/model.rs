@@ -12,6 +12,7 @@ use machine::requirements::{
 };
 use machine::requirements::{KeptSymmetry, Objective, VariableKind};
 use machine::rotary::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform};
+use num::surd::Surd;
 use platform::geom::Pose;
 use platform::manipulator::Body;
 use platform::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
@@ -490,6 +491,16 @@ impl DesignModel {
     /// since.
     pub(super) fn written_home(&self) -> Option<&WrittenHome> {
         self.constructions.home.as_ref().filter(|written| self.home == Some(written.pose))
+    }
+
+    /// The exact numbers of the home pose as it was written: the position, and the angles in degrees where the rotation is
+    /// given by them. `None` where no expression gives a number of it, or one is known between bounds only.
+    #[must_use]
+    pub fn exact_home(&self) -> Option<([Surd; 3], Option<[Surd; 3]>)> {
+        let values = self.written_home()?.values.iter().map(|x| x.exact().cloned());
+        let values: Vec<Surd> = values.collect::<Option<_>>()?;
+        let three = |list: &[Surd]| list.to_vec().try_into().ok();
+        Some((three(values.get(..3)?)?, values.get(3..).and_then(three)))
     }
 
     /// The constructions have been resolved: home follows from them, and so do the coordinates of the manipulator,

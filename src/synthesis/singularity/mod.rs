@@ -16,6 +16,7 @@ mod four_planes;
 mod griffis_duffy;
 mod hold;
 mod lattice;
+mod locus;
 mod lower_bound;
 mod nearest;
 mod path;
@@ -32,6 +33,7 @@ pub use four_planes::four_planes;
 pub use griffis_duffy::GriffisDuffy;
 pub use hold::{PoseHold, SingularEvidence, SingularOnPath, hold_at, singular_along};
 pub use lattice::{GenericRank, RankBound, RationalPose};
+pub use locus::{ExactPose, LocusCoefficients, LocusPolynomial, PoseFamily, locus_polynomial};
 pub use lower_bound::singular_distance_at_least;
 pub use nearest::{NearestSingular, nearest_singular};
 pub use path::{

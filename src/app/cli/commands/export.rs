@@ -10,6 +10,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::numbers::number;
 use crate::app::cli::output::Answer;
 use ::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 use ask::Design;
@@ -32,16 +33,16 @@ pub(crate) struct ExportArgs {
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Thickness of the plates, design units
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", value_parser = number)]
     thickness: Option<f64>,
     /// Distance of the outline of a plate from the hull of its joints, design units
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", value_parser = number)]
     margin: Option<f64>,
     /// Diameter of the holes under the joints, design units
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", value_parser = number)]
     hole_diameter: Option<f64>,
     /// Diameter of the balls, design units
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", value_parser = number)]
     ball_diameter: Option<f64>,
     /// Greatest allowed error of the tool point and of the orientation: hole plans and tables then say how far the
     /// joints may be off, as `build tolerances` does

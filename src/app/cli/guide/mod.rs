@@ -158,6 +158,14 @@ const JOBS: [CommandGroup; 10] = [
                 &["singularities", "singularity", "singular-poses"],
             ),
             entry(
+                "singular locus",
+                &[
+                    "singular locus designs/rbt-octahedral.toml",
+                    "singular locus designs/rbt-octahedral.toml --about 0,0,1",
+                ],
+                &["singularity-locus", "polynomial", "cubic"],
+            ),
+            entry(
                 "singular motion",
                 &["singular motion designs/rbt-midline.toml"],
                 &["selfmotion", "self-motion"],

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         MotionAnswer,
         OptimizeAnswer,
         RoundAnswer,
+        SingularLocusAnswer,
         SingularPosesAnswer,
         TolerancesAnswer,
         VerifyAnswer,
@@ -653,6 +654,33 @@ class Design:
         with Workshop() as shop:
             words = ["singular", "poses", shop.file("design.toml", self._native)]
             return SingularPosesAnswer(ask([*words, *([] if pose is None else [f"--pose={pose_text(pose)}"]), *options]))
+
+    def singular_locus(
+        self,
+        pose: PoseLike | str | None = None,
+        *,
+        along: Sequence[float | str] | None = None,
+        about: Sequence[float | str] | None = None,
+    ) -> SingularLocusAnswer:
+        """``det J`` as an exact polynomial: a cubic in the position at one orientation, or a polynomial in one unknown ``u``.
+
+        Parameters
+        ----------
+        pose : pose_like, shape (4, 4), or str, optional
+            Gives the orientation; home when absent. A text such as ``"0,0,1,1,1/2,0,0"`` is exact, with a quaternion of any norm.
+        along : sequence of float or str, shape (3,), optional
+            Only the positions ``p + u along``.
+        about : sequence of float or str, shape (3,), optional
+            Rotations about this axis through the platform origin; ``u`` is the tangent of half the angle over its length.
+        """
+        from .records import SingularLocusAnswer
+
+        with Workshop() as shop:
+            words = ["singular", "locus", shop.file("design.toml", self._native)]
+            words += [] if pose is None else [f"--pose={pose if isinstance(pose, str) else pose_text(pose)}"]
+            given = (("along", along), ("about", about))
+            words += [f"--{name}={','.join(map(str, value))}" for name, value in given if value is not None]
+            return SingularLocusAnswer(ask(words))
 
     def equivalents(self) -> FamilyAnswer:
         """All patterns of the equivalence class of an octahedral design, each with its leg map as polynomials in the offsets.

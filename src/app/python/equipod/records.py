@@ -16,6 +16,7 @@ BranchWord = Literal["best", "bounded", "dominated", "infeasible", "solver_failu
 CalibrateOutcome = Literal["calibrated", "not_identifiable", "planned", "refuted", "undecided"]
 CalibrationFrames = Literal["design", "measured"]
 CentrePrecision = Literal["double", "double_double"]
+CoefficientsWord = Literal["enclosed", "expressions", "integers"]
 CompletenessWord = Literal["modular", "proved", "unproved"]
 CorrelationsWord = Literal["design", "independent"]
 CountUndecided = Literal["degree_too_low", "joints_not_exact", "no_prime_drawn", "primes_disagree"]
@@ -72,7 +73,6 @@ Invariant = Literal[
 ]
 LengthsOrigin = Literal["design", "home"]
 Level = Literal["doubles_as_written", "exact_joints", "within_rounding"]
-LineClass = Literal["cubic", "octic", "quadratic", "quartic"]
 Loss = Literal["cauchy", "huber", "squares", "tukey"]
 LossUnit = Literal["leg", "pose"]
 MarginVerdict = Literal["at_limit", "met", "searched", "violated"]
@@ -115,6 +115,7 @@ OptimizeWord = Literal[
 ]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
 PoseAxis = Literal["pitch", "roll", "x", "y", "yaw", "z"]
+PoseFamilyWord = Literal["line", "positions", "rotation"]
 ProofWord = Literal["leg_vectors", "none", "pose_lattice", "regular_pose"]
 ProvedReality = Literal["non_real", "real", "undecided"]
 RegionWord = Literal["box", "ellipsoid"]
@@ -565,9 +566,6 @@ class CheckAnswer(Record):
     common_points: Union[CommonPointsRecord, None]
     #: How many isolated finite poses no lengths exceed, by a theorem.
     pose_bound: PoseBoundRecord
-    #: In which steps the poses can be found: whether by quadratic equations alone, and which part of the
-    #: platform can be placed before the rest.
-    solvability: Solvability
     #: The line that fits the joints of each body best, base first: a body whose joints all lie on one
     #: turns about it. A body with its joints in one place has none.
     best_lines: tuple[BestLineRecord, ...]
@@ -604,24 +602,37 @@ class ClosurePolynomialRecord(Record):
     start: tuple[str, ...]
     #: The trilaterations after it.
     sequence: tuple[TrilaterationStepRecord, ...]
-    #: The degree before singular factors are removed.
+    #: The unknowns by their names.
+    unknowns: tuple[str, ...]
+    #: The degree before factors without meaning are removed.
     degree_before: int
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: Different complex roots.
-    distinct_roots: int
-    #: Singular factors.
-    factors: tuple[SingularFactorRecord, ...]
-    #: The coefficients of the primitive integer polynomial as decimal text, the constant one first.
+    #: The factors that were removed.
+    removed: tuple[RemovedFactorRecord, ...]
+    #: Different complex roots; null with several unknowns, and where that is not proved.
+    distinct_roots: Union[int, None]
+    #: How the coefficients are known.
+    coefficients_known: CoefficientsWord
+    #: The exponents of the unknowns in each term.
+    exponents: tuple[tuple[int, ...], ...]
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: tuple[str, ...]
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
+    real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
     #: How often each of them is a root.
     real_root_multiplicities: tuple[int, ...]
+    #: Singular factors.
+    factors: tuple[SingularFactorRecord, ...]
     #: Real poses at each of them; null where that does not follow.
     real_poses_at_roots: Union[tuple[int, ...], None]
     #: Real poses in all, proved; null where that does not follow.
     poses_real_proved: Union[int, None]
+    #: Bounds [low, high] of the coefficients, where they are not exact.
+    coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
 
 
 class ClosureRecord(Record):
@@ -635,20 +646,33 @@ class ClosureRecord(Record):
     start: Union[tuple[str, ...], None]
     #: The trilaterations after it.
     sequence: Union[tuple[TrilaterationStepRecord, ...], None]
-    #: The degree before singular factors are removed.
+    #: The unknowns by their names.
+    unknowns: Union[tuple[str, ...], None]
+    #: The degree before factors without meaning are removed.
     degree_before: Union[int, None]
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: Different complex roots.
+    #: The factors that were removed.
+    removed: Union[tuple[RemovedFactorRecord, ...], None]
+    #: Different complex roots; null with several unknowns, and where that is not proved.
     distinct_roots: Union[int, None]
-    #: Singular factors.
-    factors: Union[tuple[SingularFactorRecord, ...], None]
-    #: The coefficients of the primitive integer polynomial as decimal text, the constant one first.
+    #: How the coefficients are known.
+    coefficients_known: Union[CoefficientsWord, None]
+    #: The exponents of the unknowns in each term.
+    exponents: Union[tuple[tuple[int, ...], ...], None]
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: Union[tuple[str, ...], None]
+    #: Bounds [low, high] of the coefficients, where they are not exact.
+    coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
+    real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
     #: How often each of them is a root.
     real_root_multiplicities: Union[tuple[int, ...], None]
+    #: Singular factors.
+    factors: Union[tuple[SingularFactorRecord, ...], None]
     #: Real poses at each of them; null where that does not follow.
     real_poses_at_roots: Union[tuple[int, ...], None]
     #: Real poses in all, proved; null where that does not follow.
@@ -1485,9 +1509,6 @@ class ExploreAnswer(Record):
     assessment: Union[AssessAnswer, None]
     #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
-    #: Conic programs that the library clarabel solved in the search for the platform; those with other
-    #: drives, for freedoms and for holes are not counted.
-    conic_programs: Union[int, None]
     #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
     price: Union[PriceRecord, None]
     #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
@@ -1566,9 +1587,6 @@ class ExploreOctahedralAnswer(Record):
     assessment: Union[AssessAnswer, None]
     #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
-    #: Conic programs that the library clarabel solved in the search for the platform; those with other
-    #: drives, for freedoms and for holes are not counted.
-    conic_programs: int
     #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
     price: Union[PriceRecord, None]
     #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
@@ -1800,8 +1818,6 @@ class FkAnswer(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
-    #: What libraries of linear algebra computed for `--method template`.
-    library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
@@ -1822,6 +1838,8 @@ class FkAnswer(Record):
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
+    #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
+    polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
     #: Counted modulo random primes; null: not counted.
     dimension: Union[int, None]
@@ -1868,8 +1886,6 @@ class FkOneAnswer(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: tuple[SolutionRecord, ...]
-    #: What libraries of linear algebra computed for `--method template`.
-    library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
@@ -1890,6 +1906,8 @@ class FkOneAnswer(Record):
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
+    #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
+    polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
     #: Counted modulo random primes; null: not counted.
     dimension: Union[int, None]
@@ -1944,8 +1962,6 @@ class FkRowRecord(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
-    #: What libraries of linear algebra computed for `--method template`.
-    library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
     #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
@@ -1963,6 +1979,8 @@ class FkRowRecord(Record):
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
+    #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
+    polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
     #: Counted modulo random primes; null: not counted.
     dimension: Union[int, None]
@@ -2446,20 +2464,6 @@ class LegSlideRecord(Record):
     squares_to_ends: tuple[ExactNumberRecord, ...]
     #: The entry of c: -t (1 - t) d^2, design units squared.
     constant: ExactNumberRecord
-
-
-class LibraryCallsRecord(Record):
-    """What a library of linear algebra computed for an answer."""
-
-    #: The library.
-    library: str
-    #: The computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised
-    #: eigenvectors.
-    computation: str
-    #: Rows and columns of the matrix.
-    size: tuple[int, ...]
-    #: How often.
-    calls: int
 
 
 class LightestDriveRecord(Record):
@@ -3314,18 +3318,34 @@ class PatternRecord(Record):
     det_zero: tuple[str, ...]
 
 
-class PlacedFirst(Record):
-    """A part of the platform that some of the legs place, before the others place the rest."""
+class PolynomialRecord(Record):
+    """A polynomial in one unknown or in several: its degrees, its coefficients and its real roots."""
 
-    part: Union[Literal["line", "joint"], None]
-    #: The body.
-    body: Union[Body, None]
-    #: The legs, counted from 1.
-    legs: Union[tuple[int, ...], None]
-    #: By which polynomial; null where the legs are dependent, or joints are no fractions.
-    class_: Union[LineClass, None]
-    #: The five other ends lie in a plane: a line-plane component.
-    other_ends_in_plane: Union[bool, None]
+    #: The unknowns by their names.
+    unknowns: tuple[str, ...]
+    #: The degree before factors without meaning are removed.
+    degree_before: int
+    #: The degree; null for the zero polynomial.
+    degree: Union[int, None]
+    #: The factors that were removed.
+    removed: tuple[RemovedFactorRecord, ...]
+    #: Different complex roots; null with several unknowns, and where that is not proved.
+    distinct_roots: Union[int, None]
+    #: How the coefficients are known.
+    coefficients_known: CoefficientsWord
+    #: The exponents of the unknowns in each term.
+    exponents: tuple[tuple[int, ...], ...]
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    coefficients: tuple[str, ...]
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
+    real_roots_by_sturm: Union[int, None]
+    #: Real roots as [low, high], rounded outwards.
+    real_roots: tuple[tuple[Union[float, None], ...], ...]
+    #: How often each of them is a root.
+    real_root_multiplicities: tuple[int, ...]
+    #: Bounds [low, high] of the coefficients, where they are not exact.
+    coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
 
 
 class PoseBoundRecord(Record):
@@ -3557,6 +3577,17 @@ class RejectedRecord(Record):
     residual: Union[float, None]
 
 
+class RemovedFactorRecord(Record):
+    """A factor that belongs to the way to the polynomial, not to its meaning."""
+
+    #: The factor in the unknowns, or in words.
+    factor: str
+    #: Its degree.
+    degree: int
+    #: How often it was removed.
+    times: int
+
+
 class RequiredSizeRecord(Record):
     """The region that a design asks for."""
 
@@ -3615,6 +3646,38 @@ class RidingRecord(Record):
     platform_growth: Union[float, None]
     #: One sentence.
     message: str
+
+
+class RotationPolynomialRecord(Record):
+    """The polynomial in a Cayley parameter of all poses."""
+
+    #: The unknowns by their names.
+    unknowns: Union[tuple[str, ...], None]
+    #: The degree before factors without meaning are removed.
+    degree_before: Union[int, None]
+    #: The degree; null for the zero polynomial.
+    degree: Union[int, None]
+    #: The factors that were removed.
+    removed: Union[tuple[RemovedFactorRecord, ...], None]
+    #: Different complex roots; null with several unknowns, and where that is not proved.
+    distinct_roots: Union[int, None]
+    #: How the coefficients are known.
+    coefficients_known: Union[CoefficientsWord, None]
+    #: The exponents of the unknowns in each term.
+    exponents: Union[tuple[tuple[int, ...], ...], None]
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    coefficients: Union[tuple[str, ...], None]
+    #: Bounds [low, high] of the coefficients, where they are not exact.
+    coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
+    real_roots_by_sturm: Union[int, None]
+    #: Real roots as [low, high], rounded outwards.
+    real_roots: tuple[tuple[Union[float, None], ...], ...]
+    #: How often each of them is a root.
+    real_root_multiplicities: Union[tuple[int, ...], None]
+    #: Why not.
+    error: Union[str, None]
 
 
 class RoundAnswer(Record):
@@ -3790,9 +3853,6 @@ class SearchRecord(Record):
     dominated: Union[int, None]
     #: Of a front: bounds that no run met.
     unmet: Union[int, None]
-    #: Conic programs that the library clarabel solved in this search; those with other drives and for
-    #: freedoms are not counted.
-    conic_programs: int
 
 
 class SearchStepRecord(Record):
@@ -3936,6 +3996,34 @@ class SingularFactorRecord(Record):
     removed: int
 
 
+class SingularLocusAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: The unit of its lengths.
+    units: str
+    #: The poses over which det J is a polynomial.
+    family: PoseFamilyWord
+    #: The position of the pose given, as exact expressions.
+    position: tuple[str, ...]
+    #: A quaternion of its orientation, scalar part first, of any norm, as exact expressions.
+    quaternion: tuple[str, ...]
+    #: The direction of the line, or the axis of the rotations, in the base frame; null for positions.
+    direction: Union[tuple[str, ...], None]
+    #: The square of the length of the axis: u is the tangent of half the angle over that length; null
+    #: without an axis.
+    axis_squared: Union[float, None]
+    #: det J up to a constant factor. The zero polynomial: every pose is singular.
+    polynomial: PolynomialRecord
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
 class SingularPosesAnswer(Record):
     """One JSON document: an answer between what all answers have."""
 
@@ -3991,15 +4079,6 @@ class SolutionRecord(Record):
     dual_quaternion: Union[ComplexRecord4, None]
     #: The pose in real numbers, where it is real.
     real_pose: Union[RealPoseRecord, None]
-
-
-class Solvability(Record):
-    """How the poses can be found in steps."""
-
-    #: A chain of quadratic equations gives all poses.
-    quadratic: bool
-    #: The parts that can be placed first; empty where the legs do not decouple in these ways.
-    placed_first: tuple[PlacedFirst, ...]
 
 
 class SolvedBudgetRecord(Record):

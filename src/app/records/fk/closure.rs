@@ -3,11 +3,10 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::Number;
+use crate::PolynomialRecord;
 use ask::Design;
 use fk::distance::SingularFactor;
 use fk::{Closure, NoClosure};
-use num::poly::{Dyadic, RealRoot};
 use platform::topology::{JointIndex, Step};
 
 /// The exact closure polynomial beside the poses.
@@ -34,21 +33,11 @@ pub struct ClosurePolynomialRecord {
     pub start: [String; 3],
     /// The trilaterations after it.
     pub sequence: Vec<TrilaterationStepRecord>,
-    /// The degree before singular factors are removed.
-    pub degree_before: usize,
-    /// The degree; null for the zero polynomial.
-    pub degree: Option<usize>,
-    /// Different complex roots.
-    pub distinct_roots: usize,
+    /// The polynomial and its real roots.
+    #[serde(flatten)]
+    pub polynomial: PolynomialRecord,
     /// Singular factors.
     pub factors: Vec<SingularFactor>,
-    /// The coefficients of the primitive integer polynomial as decimal text, the constant one first.
-    #[schemars(inner(regex(pattern = r"^-?[0-9]+$")))]
-    pub coefficients: Vec<String>,
-    /// Real roots as [low, high], rounded outwards.
-    pub real_roots: Vec<[Number; 2]>,
-    /// How often each of them is a root.
-    pub real_root_multiplicities: Vec<usize>,
     /// Real poses at each of them; null where that does not follow.
     pub real_poses_at_roots: Option<Vec<usize>>,
     /// Real poses in all, proved; null where that does not follow.
@@ -91,23 +80,10 @@ impl ClosureRecord {
             unknown: p.unknown.map(name),
             start: p.sequence.start.map(name),
             sequence: p.sequence.steps.iter().map(|s| TrilaterationStepRecord::new(s, name)).collect(),
-            degree_before: c.degrees.before,
-            degree: p.polynomial.degree(),
-            distinct_roots: p.distinct,
+            polynomial: PolynomialRecord::of_closure(c, &name),
             factors: c.degrees.factors.clone(),
-            coefficients: p.polynomial.coefficients().iter().map(ToString::to_string).collect(),
-            real_roots: p.real_roots.iter().map(enclosing).collect(),
-            real_root_multiplicities: p.real_roots.iter().map(RealRoot::multiplicity).collect(),
             real_poses_at_roots: c.real_poses.clone(),
             poses_real_proved: c.real_count(),
         }))
     }
-}
-
-/// An interval of doubles that holds the root, a point where the root is one.
-fn enclosing(root: &RealRoot) -> [Number; 2] {
-    let mut root = root.clone();
-    root.refine_relative(60);
-    let [low, high] = [root.low(), root.high()].map(Dyadic::to_f64);
-    if root.is_exact() { [low, high].map(Number) } else { [low.next_down(), high.next_up()].map(Number) }
 }

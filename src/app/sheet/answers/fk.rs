@@ -6,7 +6,7 @@ use machine::coupled::DriveSolutionWord;
 use platform::geom::{ComplexPose, Pose};
 use records::{
     ClosureRecord, DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, NearRecord, Number,
-    SolutionRecord, SolutionSetRecord, SolvedRecord,
+    RotationPolynomialRecord, SolutionRecord, SolutionSetRecord, SolvedRecord,
 };
 
 /// The answer of `fk` for a design of this name, in its units.
@@ -33,6 +33,9 @@ fn one_set(name: &str, units: &str, one: &FkOneAnswer) -> Sheet {
     }
     if let Some(found) = &one.closure {
         closure(&mut out, found);
+    }
+    if let Some(found) = &one.polynomial {
+        rotations(&mut out, found);
     }
     out
 }
@@ -301,6 +304,28 @@ fn symmetric(out: &mut Sheet, answer: &FkOneAnswer) {
     );
 }
 
+/// The polynomial in a Cayley parameter: its degree, how close its coefficients are known, its real roots.
+fn rotations(out: &mut Sheet, found: &RotationPolynomialRecord) {
+    let p = match found {
+        RotationPolynomialRecord::Polynomial(p) => p,
+        RotationPolynomialRecord::None { error } => return say!(out, "no polynomial in c3: {error}"),
+    };
+    let bounds = p.coefficient_bounds.as_deref().unwrap_or_default();
+    let most = |of: fn(&[Number; 2]) -> f64| bounds.iter().map(of).fold(0.0, f64::max);
+    let widest = most(|[low, high]| high.0 - low.0) / most(|[low, high]| low.0.abs().max(high.0.abs()));
+    say!(
+        out,
+        "polynomial in c3 = z / w of the quaternion: degree {}, {} real roots; coefficients enclosed to {widest:.0e} of the largest, see --json",
+        p.degree.unwrap_or(0),
+        p.real_roots.len()
+    );
+    let middle = |[low, high]: &[Number; 2]| format!("{:.9}", 0.5 * (low.0 + high.0));
+    let roots: Vec<String> = p.real_roots.iter().map(middle).collect();
+    if !roots.is_empty() {
+        say!(out, "its real roots: {}", roots.join(", "));
+    }
+}
+
 /// The closure polynomial in two lines.
 fn closure(out: &mut Sheet, closure: &ClosureRecord) {
     let p = match closure {
@@ -311,13 +336,13 @@ fn closure(out: &mut Sheet, closure: &ClosureRecord) {
     say!(
         out,
         "closure polynomial in the squared distance of {x} and {y}: degree {} before, {} after removal of singular factors, {} distinct roots, {} real",
-        p.degree_before,
-        p.degree.unwrap_or(0),
-        p.distinct_roots,
-        p.real_roots.len()
+        p.polynomial.degree_before,
+        p.polynomial.degree.unwrap_or(0),
+        p.polynomial.distinct_roots.unwrap_or(0),
+        p.polynomial.real_roots.len()
     );
     let middle = |[low, high]: &[Number; 2]| format!("{:.9}", 0.5 * (low.0 + high.0));
-    let roots: Vec<String> = p.real_roots.iter().map(middle).collect();
+    let roots: Vec<String> = p.polynomial.real_roots.iter().map(middle).collect();
     if !roots.is_empty() {
         say!(out, "its real roots: {}", roots.join(", "));
     }

@@ -53,7 +53,6 @@ pub fn moves(r: &MovesAnswer) -> Sheet {
 }
 
 fn describe(out: &mut Sheet, number: &str, m: &LegMoveRecord) {
-    let parameters: Vec<String> = m.parameters.iter().map(|t| t.0.to_string()).collect();
     let name = m.along.as_ref().map_or(String::new(), |n| format!(" {n}"));
     say!(
         out,
@@ -61,7 +60,7 @@ fn describe(out: &mut Sheet, number: &str, m: &LegMoveRecord) {
         m.leg,
         m.component,
         m.type_name,
-        parameters.join(", ")
+        m.parameters_written.join(", ")
     );
     let place = |l: &LegEndsRecord| {
         let (a, b) = (l.base.map(|x| x.0), l.platform.map(|x| x.0));

@@ -198,6 +198,8 @@ pub(crate) struct WrittenHome {
     pub rpy_deg: Option<[WrittenNumber; 3]>,
     /// The pose that follows.
     pub pose: Pose,
+    /// The values of the numbers.
+    pub values: Vec<RealNumber>,
 }
 
 impl WrittenHome {

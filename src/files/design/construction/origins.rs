@@ -10,6 +10,7 @@ use super::resolve::on_line;
 use super::{Construction, Constructions, LinePlace, RealPoint, Spelling, WrittenHome, WrittenNumber};
 use crate::design::DesignModel;
 use num::real::RealNumber;
+use num::surd::Surd;
 use platform::manipulator::Body;
 
 /// A share of the way from one joint to another: a decimal, or an expression such as `1/5` or `2 - sqrt(3)`, as it is
@@ -35,6 +36,12 @@ impl Share {
         let written = WrittenNumber::shortest(x)?;
         let value = RealNumber::rational(&written.expression().decimal()?).ok()?;
         Some(Self { written, value })
+    }
+
+    /// The exact number; `None` where it is known between bounds only.
+    #[must_use]
+    pub fn exact(&self) -> Option<&Surd> {
+        self.value.exact()
     }
 
     /// The nearest double.

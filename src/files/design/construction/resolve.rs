@@ -161,14 +161,10 @@ impl Constructions {
         faults: &mut Vec<Fault>,
     ) -> Option<()> {
         // all of them, so that each fault is reported
-        let values: Vec<Option<f64>> = home
-            .quantities()
-            .map(|(part, q)| {
-                let value = self.quantity((Owner::Home, Some(part)), q, parameters, faults);
-                value.as_ref().map(RealNumber::nearest)
-            })
-            .collect();
-        let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
+        let of = |(part, q)| self.quantity((Owner::Home, Some(part)), q, parameters, faults);
+        let values: Vec<Option<RealNumber>> = home.quantities().map(of).collect();
+        home.values = values.into_iter().collect::<Option<_>>()?;
+        let values: Vec<f64> = home.values.iter().map(RealNumber::nearest).collect();
         home.pose.position = Vector3::new(values[0], values[1], values[2]);
         if let [roll, pitch, yaw] = values[3..] {
             let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_radians);

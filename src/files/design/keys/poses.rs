@@ -99,7 +99,13 @@ pub(super) fn home(report: &mut Findings<'_>, node: &Node) -> Option<(Pose, Opti
     let (rpy_deg, places) = angles.unzip();
     parts.extend(places.into_iter().flatten());
     let pose = Pose { rotation, position: Vector3::zeros() };
-    Some((pose, Some((WrittenHome { position, rpy_deg, pose }, Places { whole: node.span.clone(), parts }))))
+    Some((
+        pose,
+        Some((
+            WrittenHome { position, rpy_deg, pose, values: Vec::new() },
+            Places { whole: node.span.clone(), parts },
+        )),
+    ))
 }
 
 fn pose(report: &mut Findings<'_>, node: &Node, place: &str) -> Option<Pose> {

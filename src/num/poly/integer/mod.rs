@@ -18,7 +18,7 @@ pub use complex_roots::{ComplexRoot, NotSeparated, complex_roots};
 pub use dyadic::Dyadic;
 pub use gcd::{SquarefreeFactor, gcd, squarefree_factors};
 pub use isolate::{RealRoot, real_roots};
-pub use sturm::sturm_count;
+pub use sturm::{sturm_count, sturm_count_of_line};
 
 /// `c_0 + c_1 x + .. + c_n x^n` with integer coefficients, `c_n != 0`.
 ///

@@ -14,6 +14,20 @@ pub fn sturm_count(p: &IntPoly, low: &Dyadic, high: &Dyadic) -> usize {
     changes(&chain, low).saturating_sub(changes(&chain, high))
 }
 
+/// The number of distinct real roots, by the signs of the chain at both ends of the line.
+#[must_use]
+pub fn sturm_count_of_line(p: &IntPoly) -> usize {
+    let chain = chain(p);
+    let changes = |side: i32| {
+        let far = |q: &IntPoly| {
+            let lead = q.leading().sign();
+            if side < 0 && q.degree().is_some_and(|n| n % 2 == 1) { -lead } else { lead }
+        };
+        chain.windows(2).filter(|w| far(&w[0]) != far(&w[1])).count()
+    };
+    changes(-1).saturating_sub(changes(1))
+}
+
 /// `p_0 = p`, `p_1 = p'`, `p_(k+1) = -rem(p_(k-1), p_k)` up to positive factors.
 fn chain(p: &IntPoly) -> Vec<IntPoly> {
     let mut chain = vec![signed_primitive(p), signed_primitive(&p.derivative())];

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
+use crate::app::cli::numbers;
 use crate::app::cli::rows::{self, TableName};
 use ask::Design;
 use files::design::{SeriesKind, SeriesRow, TimeSeries};
@@ -71,7 +72,8 @@ pub(in crate::app::cli::commands) fn six(text: &str, offsets: &[f64; 6]) -> Resu
         fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of six", f.len()))?;
     let mut values = [0.0; 6];
     for (i, field) in fields.iter().enumerate() {
-        values[i] = field.parse().map_err(|_| format!("value {}, `{field}`, is not a number", i + 1))?;
+        values[i] =
+            numbers::one(field).ok_or_else(|| format!("value {}, `{field}`, is not a number", i + 1))?;
     }
     ShownLengths::new(values, offsets)
 }

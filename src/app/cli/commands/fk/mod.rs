@@ -50,6 +50,10 @@ pub(crate) struct FkArgs {
     /// Show the closure polynomial in the squared distance of these two joints, one of the base and one of the platform
     #[arg(long, value_name = "JOINT,JOINT", conflicts_with_all = ["near", "csv", "angles"])]
     between: Option<String>,
+    /// Show the polynomial in the Cayley parameter c3 = z / w of the rotation's quaternion (w, x, y, z), with a root for
+    /// each pose: of degree 40 for a general platform
+    #[arg(long, conflicts_with_all = ["near", "csv", "angles"])]
+    polynomial: bool,
     /// Worker threads for the rows of a CSV file, one for each processor when absent; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -150,10 +154,12 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             if let Some(closure) = closure {
                 answer.closure = Some(ClosureRecord::new(&design, &closure));
             }
+            answer.polynomial = args.polynomial.then(|| fk::rotation_polynomial(&solutions).into());
             Ok(answered(exit, FkAnswer::One(Box::new(answer)), &design, &table))
         }
         GivenLengths::Rows(series) => {
             context.no_effect("between", "a polynomial belongs to one set of lengths")?;
+            context.no_effect("polynomial", "a polynomial belongs to one set of lengths")?;
             let table = PoseTable { time_name: series.time_name, ..table };
             let (exit, answer) = many(method, (m, &home), &series.rows, &options, threads(args.threads));
             Ok(answered(exit, answer, &design, &table))

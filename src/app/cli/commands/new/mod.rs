@@ -11,6 +11,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::numbers::number;
 use crate::app::cli::output::Answer;
 use crate::app::cli::streams;
 use ::files::design::{
@@ -29,20 +30,20 @@ use self::prompts::PromptedHexapod;
 #[derive(Debug, clap::Args)]
 pub(crate) struct NewArgs {
     /// Radius of the circle of the base joints
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = number, allow_negative_numbers = true)]
     base_radius: Option<f64>,
     /// Radius of the circle of the platform joints
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = number, allow_negative_numbers = true)]
     platform_radius: Option<f64>,
     /// Angle between the two joints of a pair on the base, seen from the centre, in degrees; 0 for one joint of two
     /// legs
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", value_parser = number, allow_negative_numbers = true)]
     base_spread: Option<f64>,
     /// The same angle on the platform
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", value_parser = number, allow_negative_numbers = true)]
     platform_spread: Option<f64>,
     /// Height of the platform frame above the base frame at home
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = number, allow_negative_numbers = true)]
     height: Option<f64>,
     /// Three corners of the base and three of the platform, each as x,y/x,y/x,y or with z: an octahedral platform
     #[arg(

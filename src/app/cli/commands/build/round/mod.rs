@@ -11,6 +11,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::numbers::number;
 use crate::app::cli::output::Answer;
 use ask::Design;
 use ask::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
@@ -26,10 +27,10 @@ pub(crate) struct BuildRoundArgs {
     /// Design file (.toml or .json) with planar bodies; its home pose, workspace and requirements judge the roundings
     design: PathBuf,
     /// Distance between neighbouring holes, instead of the grids that the design states in its table holes
-    #[arg(long, value_name = "PITCH")]
+    #[arg(long, value_name = "PITCH", value_parser = number)]
     grid: Option<f64>,
     /// Distance between neighbouring holes of the platform; that of the base when absent
-    #[arg(long, value_name = "PITCH")]
+    #[arg(long, value_name = "PITCH", value_parser = number)]
     grid_platform: Option<f64>,
     /// How the holes lie; square where neither this nor the design says it
     #[arg(long, value_enum, value_name = "PATTERN")]
@@ -45,10 +46,10 @@ pub(crate) struct BuildRoundArgs {
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     origin_platform: Option<String>,
     /// Angle by which the base grid is turned, degrees; 0 where neither this nor the design says it
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", value_parser = number, allow_hyphen_values = true)]
     angle: Option<f64>,
     /// Angle by which the platform grid is turned, degrees
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", value_parser = number, allow_hyphen_values = true)]
     angle_platform: Option<f64>,
     /// Choose the origins and angles of the grids too; the given ones are candidates
     #[arg(long)]

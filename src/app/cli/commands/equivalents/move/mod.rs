@@ -173,6 +173,8 @@ struct MovedAtOnce {
     relocation: Relocation,
     /// For each move the type of its family and the joints that span it.
     families: Vec<(String, Option<String>)>,
+    /// For each move its parameters as they are written.
+    written: Vec<Vec<String>>,
     /// The new design, when the legs make a platform.
     design: Option<Design>,
 }
@@ -222,7 +224,8 @@ fn one_step(
     if let Some(new) = &design {
         relocation.map = judged(current, new)?;
     }
-    Ok(MovedAtOnce { relocation, families: names, design })
+    let written = wanted.iter().map(|r| r.parameters.iter().map(Share::to_string).collect()).collect();
+    Ok(MovedAtOnce { relocation, families: names, written, design })
 }
 
 /// The relation of two designs, decided on their joints.

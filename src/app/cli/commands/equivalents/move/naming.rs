@@ -156,10 +156,15 @@ pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[Share]) -
     let origins = |body: Body, of: &[JointOrigin]| -> Vec<Origin> {
         let old = design.manipulator().joints(body);
         let kept: Vec<usize> = of.iter().filter_map(JointOrigin::kept).collect();
-        let pairs = || kept.iter().flat_map(|i| kept.iter().filter(move |j| *j != i).map(move |j| [*i, *j]));
+        // on a line of joints that are still there, else of joints that were
+        let all: Vec<usize> = (0..old.len()).collect();
+        let within = |list: &[usize]| -> Vec<[usize; 2]> {
+            list.iter().flat_map(|i| list.iter().filter(move |j| *j != i).map(move |j| [*i, *j])).collect()
+        };
+        let lines = [within(&kept), within(&all)].concat();
         let between = |x: &Point3<f64>| {
             let at = |[i, j]: [usize; 2], t: f64| old[i] + (old[j] - old[i]) * t;
-            let places = shares.iter().flat_map(|t| pairs().map(move |ends| (ends, t)));
+            let places = lines.iter().flat_map(|ends| shares.iter().map(move |t| (*ends, t)));
             places.into_iter().find(|(ends, t)| (at(*ends, t.nearest()) - x).norm() <= limit)
         };
         let origin = |(k, o): (usize, &JointOrigin)| match o {

@@ -43,23 +43,27 @@ impl Record<'_> {
 
 fn step(s: &MovedAtOnce) -> MoveStepRecord {
     let r: &Relocation = &s.relocation;
-    let one = |(m, (type_name, name)): (&MovedLeg, &(String, Option<String>))| LegMoveRecord {
-        leg: m.request.leg.get() + 1,
-        component: m.request.family + 1,
-        type_name: type_name.clone(),
-        along: name.clone(),
-        parameters: m.request.parameters.iter().copied().map(Number).collect(),
-        from: (&m.from).into(),
-        to: (&m.to).into(),
-        coefficients: m.coefficients.map(Number),
-        coefficient: Number(m.coefficients[m.request.leg.get()]),
-        residual: Number(m.residual),
-        exact: m.exact,
-        singular_parameters: (&m.singular).into(),
+    let one = |(k, m): (usize, &MovedLeg)| {
+        let (type_name, name) = &s.families[k];
+        LegMoveRecord {
+            leg: m.request.leg.get() + 1,
+            component: m.request.family + 1,
+            type_name: type_name.clone(),
+            along: name.clone(),
+            parameters_written: s.written[k].clone(),
+            parameters: m.request.parameters.iter().copied().map(Number).collect(),
+            from: (&m.from).into(),
+            to: (&m.to).into(),
+            coefficients: m.coefficients.map(Number),
+            coefficient: Number(m.coefficients[m.request.leg.get()]),
+            residual: Number(m.residual),
+            exact: m.exact,
+            singular_parameters: (&m.singular).into(),
+        }
     };
     MoveStepRecord {
         outcome: r.map.relation.decided(),
         det: Number(r.map.determinant),
-        moves: r.moved.iter().zip(&s.families).map(one).collect(),
+        moves: r.moved.iter().enumerate().map(one).collect(),
     }
 }

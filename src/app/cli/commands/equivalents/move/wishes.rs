@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 
 use crate::app::cli::failure::Failure;
+use crate::app::cli::numbers;
 use crate::app::cli::poses;
 use ask::Design;
 use platform::manipulator::{Body, LegIndex, inverse_condition, jacobian};
@@ -18,7 +19,7 @@ pub(in crate::app::cli::commands) struct WishArgs {
     #[arg(long)]
     no_crossing: bool,
     /// Search: least distance between two legs; the leg diameter of the design when absent, else 0
-    #[arg(long, value_name = "D", requires = "no_crossing")]
+    #[arg(long, value_name = "D", value_parser = numbers::number, requires = "no_crossing")]
     clearance: Option<f64>,
     /// Search: a joint of the body lies here, base:X,Y,Z or platform:X,Y,Z; repeat the option for several
     #[arg(long, value_name = "BODY:X,Y,Z")]
@@ -28,7 +29,7 @@ pub(in crate::app::cli::commands) struct WishArgs {
     joint: Vec<String>,
     /// Search: least distance between two joints of one body; that of the design when absent, else a hundredth of its
     /// size
-    #[arg(long, value_name = "D")]
+    #[arg(long, value_name = "D", value_parser = numbers::number)]
     spacing: Option<f64>,
     /// Search: least inverse condition number of the Jacobian; a tenth of the design's when absent
     #[arg(long, value_name = "X")]
@@ -120,11 +121,9 @@ impl WishArgs {
 }
 
 fn point(text: &str, whole: &str) -> Result<Point3<f64>, Failure> {
-    let values: Option<Vec<f64>> =
-        text.split(',').map(|x| x.trim().parse::<f64>().ok().filter(|x| x.is_finite())).collect();
-    match values.as_deref() {
-        Some([x, y, z]) => Ok(Point3::new(*x, *y, *z)),
-        _ => Err(Failure::refused(
+    match numbers::parse(text) {
+        Some([x, y, z]) => Ok(Point3::new(x, y, z)),
+        None => Err(Failure::refused(
             "move::bad_hole",
             format!("`{whole}`: `{text}` is not three finite numbers"),
         )

@@ -1,0 +1,252 @@
+//! A polynomial as an answer, and the singular poses of a family as the zeros of one.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Number;
+use fk::{Closure, NoRotationPolynomial, RotationPolynomial};
+use num::algebraic::Algebraic;
+use num::poly::{EnclosedRoot, IntPoly, sturm_count_of_line};
+use platform::topology::JointIndex;
+use synthesis::singularity::{ExactPose, LocusCoefficients, LocusPolynomial, PoseFamily};
+
+/// How the coefficients of a polynomial are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CoefficientsWord {
+    /// Integers without a common factor.
+    Integers,
+    /// Exact sums of square roots and cosines, the leading one 1.
+    Expressions,
+    /// Between two doubles.
+    Enclosed,
+}
+
+/// A polynomial in one unknown or in several: its degrees, its coefficients and its real roots.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PolynomialRecord {
+    /// The unknowns by their names.
+    pub unknowns: Vec<String>,
+    /// The degree before factors without meaning are removed.
+    pub degree_before: usize,
+    /// The degree; null for the zero polynomial.
+    pub degree: Option<usize>,
+    /// The factors that were removed.
+    pub removed: Vec<RemovedFactorRecord>,
+    /// Different complex roots; null with several unknowns, and where that is not proved.
+    pub distinct_roots: Option<usize>,
+    /// How the coefficients are known.
+    pub coefficients_known: CoefficientsWord,
+    /// The exponents of the unknowns in each term.
+    pub exponents: Vec<Vec<usize>>,
+    /// The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    pub coefficients: Vec<String>,
+    /// Bounds [low, high] of the coefficients, where they are not exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coefficient_bounds: Option<Vec<[Number; 2]>>,
+    /// Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients are not exact.
+    pub real_roots_by_sturm: Option<usize>,
+    /// Real roots as [low, high], rounded outwards.
+    pub real_roots: Vec<[Number; 2]>,
+    /// How often each of them is a root.
+    pub real_root_multiplicities: Vec<usize>,
+}
+
+/// A factor that belongs to the way to the polynomial, not to its meaning.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RemovedFactorRecord {
+    /// The factor in the unknowns, or in words.
+    pub factor: String,
+    /// Its degree.
+    pub degree: usize,
+    /// How often it was removed.
+    pub times: usize,
+}
+
+impl PolynomialRecord {
+    /// A polynomial with integer coefficients in one unknown, with its real roots where these are known already.
+    fn of_integers(unknown: String, p: &IntPoly, distinct: usize, roots: &[EnclosedRoot]) -> Self {
+        Self {
+            unknowns: vec![unknown],
+            degree_before: p.degree().unwrap_or(0),
+            degree: p.degree(),
+            removed: Vec::new(),
+            distinct_roots: Some(distinct),
+            coefficients_known: CoefficientsWord::Integers,
+            exponents: (0..p.coefficients().len()).map(|k| vec![k]).collect(),
+            coefficients: p.coefficients().iter().map(ToString::to_string).collect(),
+            coefficient_bounds: None,
+            real_roots_by_sturm: p.degree().map(|_| sturm_count_of_line(p)),
+            real_roots: roots.iter().map(|r| [r.low, r.high].map(Number)).collect(),
+            real_root_multiplicities: roots.iter().map(|r| r.multiplicity).collect(),
+        }
+    }
+
+    /// The closure polynomial, with the names of joints.
+    pub(crate) fn of_closure(c: &Closure, name: &impl Fn(JointIndex) -> String) -> Self {
+        let p = &c.polynomial;
+        let [x, y] = p.unknown.map(name);
+        let roots: Vec<EnclosedRoot> = p.real_roots.iter().map(EnclosedRoot::from).collect();
+        let removed = c.degrees.factors.iter().filter(|f| f.removed > 0).map(|f| {
+            let of = p.sequence.steps.iter().filter(|s| !s.rigid).nth(f.step);
+            let triangle = of.map_or_else(Vec::new, |s| s.from.map(name).to_vec());
+            RemovedFactorRecord {
+                factor: format!("16 area^2 of the triangle {}", triangle.join(", ")),
+                degree: f.degree,
+                times: f.removed,
+            }
+        });
+        Self {
+            degree_before: c.degrees.before,
+            removed: removed.collect(),
+            ..Self::of_integers(format!("squared distance of {x} and {y}"), &p.polynomial, p.distinct, &roots)
+        }
+    }
+
+    /// The polynomial in a Cayley parameter of all poses.
+    fn of_rotations(p: &RotationPolynomial) -> Self {
+        let degree = p.coefficients.len().saturating_sub(1);
+        Self {
+            unknowns: vec!["c3".to_owned()],
+            degree_before: degree,
+            degree: Some(degree),
+            removed: Vec::new(),
+            // the discs of the roots are disjoint
+            distinct_roots: Some(degree),
+            coefficients_known: CoefficientsWord::Enclosed,
+            exponents: (0..=degree).map(|k| vec![k]).collect(),
+            coefficients: Vec::new(),
+            coefficient_bounds: Some(p.coefficients.iter().map(|c| [c.lo(), c.hi()].map(Number)).collect()),
+            real_roots_by_sturm: None,
+            real_roots: p.real_roots.iter().map(|r| [r.low, r.high].map(Number)).collect(),
+            real_root_multiplicities: p.real_roots.iter().map(|r| r.multiplicity).collect(),
+        }
+    }
+
+    fn of_locus(found: &LocusPolynomial, unknowns: &[&str]) -> Self {
+        let own = |(square, times): &(Algebraic, usize)| RemovedFactorRecord {
+            factor: match square.to_string().as_str() {
+                "1" => "1 + u^2".to_owned(),
+                square => format!("1 + ({square})*u^2"),
+            },
+            degree: 2,
+            times: *times,
+        };
+        let (mut coefficients, mut bounds) = (Vec::new(), None);
+        let exponents = match &found.coefficients {
+            LocusCoefficients::Exact(terms) => {
+                coefficients = terms.iter().map(|(_, c)| c.to_string()).collect();
+                terms.iter().map(|(e, _)| e.clone()).collect()
+            }
+            LocusCoefficients::Enclosed(terms) => {
+                bounds = Some(terms.iter().map(|(_, c)| [c.lo(), c.hi()].map(Number)).collect());
+                terms.iter().map(|(e, _)| e.clone()).collect()
+            }
+        };
+        let fractions = |terms: &[(Vec<usize>, Algebraic)]| terms.iter().all(|t| t.1.as_rational().is_some());
+        let roots = found.roots.as_ref();
+        let real = roots.map_or(&[][..], |r| &r.real);
+        Self {
+            unknowns: unknowns.iter().map(|x| (*x).to_owned()).collect(),
+            degree_before: found.degree_before.unwrap_or(0),
+            degree: found.degree,
+            removed: found.removed.iter().filter(|(_, times)| *times > 0).map(own).collect(),
+            distinct_roots: roots.map(|r| r.distinct),
+            coefficients_known: match &found.coefficients {
+                LocusCoefficients::Exact(terms) if fractions(terms) => CoefficientsWord::Integers,
+                LocusCoefficients::Exact(_) => CoefficientsWord::Expressions,
+                LocusCoefficients::Enclosed(_) => CoefficientsWord::Enclosed,
+            },
+            exponents,
+            coefficients,
+            coefficient_bounds: bounds,
+            real_roots_by_sturm: roots.map(|r| r.sturm),
+            real_roots: real.iter().map(|r| [r.low, r.high].map(Number)).collect(),
+            real_root_multiplicities: real.iter().map(|r| r.multiplicity).collect(),
+        }
+    }
+}
+
+/// The polynomial in a Cayley parameter of all poses.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum RotationPolynomialRecord {
+    /// There is one: c3 is z / w of the quaternion (w, x, y, z) of the platform's rotation, one root for each pose.
+    Polynomial(Box<PolynomialRecord>),
+    /// There is none.
+    None {
+        /// Why not.
+        error: String,
+    },
+}
+
+impl From<Result<RotationPolynomial, NoRotationPolynomial>> for RotationPolynomialRecord {
+    fn from(found: Result<RotationPolynomial, NoRotationPolynomial>) -> Self {
+        match found {
+            Ok(p) => Self::Polynomial(Box::new(PolynomialRecord::of_rotations(&p))),
+            Err(why) => Self::None { error: why.to_string() },
+        }
+    }
+}
+
+/// The poses over which det J is a polynomial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PoseFamilyWord {
+    /// All positions at one orientation; the unknowns are x, y and z.
+    Positions,
+    /// The positions on a line at one orientation: position + u direction.
+    Line,
+    /// Rotations about an axis through the platform origin: the quaternion (1, u direction) before the one given.
+    Rotation,
+}
+
+/// The answer of `singular locus`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SingularLocusAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// The unit of its lengths.
+    pub units: String,
+    /// The poses over which det J is a polynomial.
+    pub family: PoseFamilyWord,
+    /// The position of the pose given, as exact expressions.
+    pub position: [String; 3],
+    /// A quaternion of its orientation, scalar part first, of any norm, as exact expressions.
+    pub quaternion: [String; 4],
+    /// The direction of the line, or the axis of the rotations, in the base frame; null for positions.
+    pub direction: Option<[String; 3]>,
+    /// The square of the length of the axis: u is the tangent of half the angle over that length; null without an axis.
+    pub axis_squared: Option<Number>,
+    /// det J up to a constant factor. The zero polynomial: every pose is singular.
+    pub polynomial: PolynomialRecord,
+}
+
+impl SingularLocusAnswer {
+    /// The answer for a design by its name, in its units.
+    #[must_use]
+    pub fn new(
+        [name, units]: [&str; 2],
+        pose: &ExactPose,
+        family: &PoseFamily,
+        found: &LocusPolynomial,
+    ) -> Self {
+        let (word, direction) = match family {
+            PoseFamily::Positions => (PoseFamilyWord::Positions, None),
+            PoseFamily::Line(d) => (PoseFamilyWord::Line, Some(d)),
+            PoseFamily::Rotation(n) => (PoseFamilyWord::Rotation, Some(n)),
+        };
+        let square = direction.map(|n| n.iter().map(|x| x.nearest().powi(2)).sum::<f64>());
+        let unknowns: &[&str] = if direction.is_some() { &["u"] } else { &["x", "y", "z"] };
+        Self {
+            name: name.to_owned(),
+            units: units.to_owned(),
+            family: word,
+            position: pose.position.each_ref().map(ToString::to_string),
+            quaternion: pose.quaternion.each_ref().map(ToString::to_string),
+            direction: direction.map(|d| d.each_ref().map(ToString::to_string)),
+            axis_squared: square.filter(|_| word == PoseFamilyWord::Rotation).map(Number),
+            polynomial: PolynomialRecord::of_locus(found, unknowns),
+        }
+    }
+}
