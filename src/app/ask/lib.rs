@@ -33,6 +33,8 @@ mod holding;
 #[cfg(feature = "files")]
 mod judging;
 #[cfg(feature = "files")]
+mod locus;
+#[cfg(feature = "files")]
 mod moving;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub mod optimizing;
@@ -63,6 +65,8 @@ pub use error::Error;
 pub use holding::SingularHome;
 #[cfg(feature = "files")]
 pub use judging::{AssessReport, BOX_CELLS, CheckReport, JudgedPoses};
+#[cfg(feature = "files")]
+pub use locus::{LocusOptions, LocusPoint, LocusReport, LocusWord, NoLocus, VirtualLeg};
 #[cfg(feature = "files")]
 pub use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]
