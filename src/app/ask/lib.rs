@@ -45,6 +45,8 @@ mod reaching;
 #[cfg(feature = "files")]
 mod reaching_space;
 #[cfg(feature = "files")]
+mod replaceable;
+#[cfg(feature = "files")]
 pub mod rounding;
 #[cfg(feature = "files")]
 mod self_motions;
@@ -77,6 +79,8 @@ pub use optimizing::{
 };
 #[cfg(feature = "files")]
 pub use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
+#[cfg(feature = "files")]
+pub use replaceable::{NoPlanes, NoReplaceableLegs, ReplaceableFamily, ReplaceableLegs, ReplaceableOptions};
 #[cfg(feature = "files")]
 pub use self_motions::{MotionOrigin, MotionStart, NoSelfMotion, SelfMotionOptions, SelfMotionReport};
 #[cfg(feature = "files")]

@@ -15,15 +15,15 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::{Answer, document};
 use crate::app::cli::progress::ProgressLine;
-use ask::Design;
 use ask::equivalents::NearestDesigns;
+use ask::{Design, ReplaceableOptions};
 use fk::{FkOptions, PoseCounting};
 use records::{
-    AssessAnswer, ComparedRecord, ComponentRecord, ComponentsAnswer, DesignRoleWord, ExploreAnswer,
-    ExploreGeneralAnswer, ExploreVerdict, FamiliesFoundRecord, MovesFoundRecord, NearestAnswer,
-    NearestErrorRecord, Number, PoseTotalsRecord, ProvenanceRecord, SearchWord, StageRecord, StageWord,
+    AssessAnswer, ComparedRecord, ComponentsAnswer, DesignRoleWord, ExploreAnswer, ExploreGeneralAnswer,
+    ExploreVerdict, FamiliesFoundRecord, MovesFoundRecord, NearestAnswer, NearestErrorRecord, Number,
+    PoseTotalsRecord, ProvenanceRecord, SearchWord, StageRecord, StageWord,
 };
-use synthesis::components::{ComponentOptions, Components, components};
+use synthesis::components::{ComponentOptions, Components};
 use verify::VerdictWord;
 
 /// What is worked with in all stages.
@@ -118,12 +118,11 @@ pub(super) fn run(args: &ExploreArgs, design: &Design, context: &Context) -> Res
 /// The families of replaceable legs.
 fn replaceable(run: &mut ExploreRun<'_>) -> Result<Components, Failure> {
     let options = ComponentOptions { seed: run.seed, ..ComponentOptions::default() };
-    let found =
-        components(run.design.manipulator(), options).map_err(|e| Failure::internal(e.to_string()))?;
-    let list =
-        found.components.iter().enumerate().map(|(k, family)| ComponentRecord::new(k, family, &[])).collect();
-    let answer = ComponentsAnswer::new(&run.design.name, options.tolerance, &found, list);
+    let legs = run.design.replaceable_legs(&ReplaceableOptions::all(options));
+    let legs = legs.map_err(|why| Failure::internal(why.to_string()))?;
+    let answer = ComponentsAnswer::new(&run.design.name, &legs);
     run.folder.keep(folder::COMPONENTS, document(answer, run.provenance.clone(), &[])?);
+    let found = legs.found;
     let count = found.components.len();
     let all = if found.doubts.is_empty() { "there are no others" } else { "there may be others" };
     let text = match count {

@@ -15,12 +15,12 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use ::files::design::Share;
-use ask::Design;
+use ask::{Design, NoReplaceableLegs, ReplaceableOptions};
 use naming::{Meant, family_names, list_families, moved_design, resolve};
 use platform::manipulator::Body;
 use records::MoveAnswer;
 use request::{MoveRequest, requests};
-use synthesis::components::{ComponentOptions, Components, ComponentsError, components};
+use synthesis::components::{ComponentOptions, Components, ComponentsError};
 use synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
 use synthesis::{LegMapOutcome, LegMapTolerances, Relation};
 use verify::judge;
@@ -161,9 +161,12 @@ const STAYS: f64 = 1e-9;
 
 /// The families of a design.
 fn families(design: &Design, options: ComponentOptions) -> Result<Components, Failure> {
-    components(design.manipulator(), options).map_err(|e| match e {
-        ComponentsError::Tolerance(_) => Failure::refused("move::bad_tolerance", e.to_string()),
-        _ => Failure::internal(e.to_string()),
+    let legs = design.replaceable_legs(&ReplaceableOptions::all(options));
+    legs.map(|l| l.found).map_err(|why| match why {
+        NoReplaceableLegs::Search(ComponentsError::Tolerance(_)) => {
+            Failure::refused("move::bad_tolerance", why.to_string())
+        }
+        _ => Failure::internal(why.to_string()),
     })
 }
 
