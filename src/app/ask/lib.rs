@@ -45,6 +45,8 @@ mod reaching;
 #[cfg(feature = "files")]
 mod reaching_space;
 #[cfg(feature = "files")]
+mod relocating;
+#[cfg(feature = "files")]
 mod replaceable;
 #[cfg(feature = "files")]
 pub mod rounding;
@@ -79,6 +81,8 @@ pub use optimizing::{
 };
 #[cfg(feature = "files")]
 pub use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
+#[cfg(feature = "files")]
+pub use relocating::{MoveSearchReport, MoveWishes, MovedPlatform, SearchWord, wishes_in_words};
 #[cfg(feature = "files")]
 pub use replaceable::{NoPlanes, NoReplaceableLegs, ReplaceableFamily, ReplaceableLegs, ReplaceableOptions};
 #[cfg(feature = "files")]

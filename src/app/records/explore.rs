@@ -5,10 +5,10 @@ use serde::Serialize;
 
 use super::{
     AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
-    OptimalityWord, OptimizeAnswer, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord,
+    OptimalityWord, OptimizeAnswer, RidingRecord, SolvedRecord, SymmetryRecord,
 };
 use ask::rounding::{DesignOnHoles, RoundingWay};
-use ask::{OptimizeStatus, Separation};
+use ask::{OptimizeStatus, SearchWord, Separation};
 use fk::FkSolutions;
 use machine::manufacture::{NoRounding, RoundedJoint};
 use optimize::dimensional::ChosenVariable;

@@ -5,8 +5,7 @@ use std::fmt::Write as _;
 
 use super::folder::{self, Folder};
 use super::{ExploreArgs, Verified, fk_record, original, solve, text, verification};
-use crate::app::cli::commands::equivalents::r#move::found::{FoundMoves, platforms};
-use crate::app::cli::commands::equivalents::r#move::wishes::WishArgs;
+use crate::app::cli::commands::equivalents::r#move::found::platforms;
 use crate::app::cli::commands::equivalents::nearest;
 use crate::app::cli::commands::report::page;
 use crate::app::cli::commands::verify::exit_of;
@@ -16,14 +15,15 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::output::{Answer, document};
 use crate::app::cli::progress::ProgressLine;
 use ask::equivalents::NearestDesigns;
-use ask::{Design, ReplaceableOptions};
+use ask::{Design, MoveSearchReport, MoveWishes, MovedPlatform, ReplaceableOptions, SearchWord};
 use fk::{FkOptions, PoseCounting};
 use records::{
     AssessAnswer, ComparedRecord, ComponentsAnswer, DesignRoleWord, ExploreAnswer, ExploreGeneralAnswer,
-    ExploreVerdict, FamiliesFoundRecord, MovesFoundRecord, NearestAnswer, NearestErrorRecord, Number,
-    PoseTotalsRecord, ProvenanceRecord, SearchWord, StageRecord, StageWord,
+    ExploreVerdict, FamiliesFoundRecord, MoveSearchAnswer, MovesFoundRecord, NearestAnswer,
+    NearestErrorRecord, Number, PoseTotalsRecord, ProvenanceRecord, StageRecord, StageWord, leg_number,
 };
 use synthesis::components::{ComponentOptions, Components};
+use synthesis::relocate::search::MoveSearchOptions;
 use verify::VerdictWord;
 
 /// What is worked with in all stages.
@@ -134,23 +134,28 @@ fn replaceable(run: &mut ExploreRun<'_>) -> Result<Components, Failure> {
     Ok(found)
 }
 
-/// A search with the platform that is written.
+/// A search with its answer.
 struct Moves {
-    found: FoundMoves,
-    /// Index of the first platform that fulfils every wish and has a leg that the design has not.
-    chosen: Option<usize>,
+    found: MoveSearchReport,
+    answer: MoveSearchAnswer,
 }
 
 impl Moves {
+    /// The platform that is written.
+    fn chosen(&self) -> Option<&MovedPlatform> {
+        self.found.first_other()
+    }
+
     fn design(&self) -> Option<&Design> {
-        self.found.designs[self.chosen?].as_ref()
+        self.chosen()?.design.as_ref()
     }
 
     fn record(&self) -> MovesFoundRecord {
+        let legs = |f: &MovedPlatform| f.new_legs().into_iter().map(leg_number).collect();
         MovesFoundRecord {
-            outcome: self.found.record.outcome,
-            moved_legs: self.chosen.map(|k| self.found.moved[k].clone()),
-            det: self.chosen.map(|k| self.found.record.designs[k].map.determinant),
+            outcome: self.answer.outcome,
+            moved_legs: self.chosen().map(legs),
+            det: self.chosen().map(|f| Number(f.map.determinant)),
         }
     }
 }
@@ -168,23 +173,21 @@ fn moves(run: &mut ExploreRun<'_>, families: &Components) -> Result<Option<Moves
         run.done(StageWord::Moves, "no leg can be moved");
         return Ok(None);
     }
-    let wishes = WishArgs::no_shared_joints();
-    let found = platforms(run.design, families, &wishes.wishes(run.design)?, &wishes.options(run.seed))?;
-    let candidates = &found.record.designs;
-    let fits =
-        |k: &usize| candidates[*k].fulfilled && !found.moved[*k].is_empty() && found.designs[*k].is_some();
-    let chosen = (0..candidates.len()).find(fits);
-    run.folder.keep(folder::MOVES, document(found.record.clone(), run.provenance.clone(), &[])?);
-    let moves = Moves { found, chosen };
+    let wishes = MoveWishes { no_shared_joints: true, ..MoveWishes::default() };
+    let options = MoveSearchOptions { seed: run.seed, ..MoveSearchOptions::default() };
+    let found = platforms(run.design, families, &wishes, &options)?;
+    let answer = MoveSearchAnswer::new(run.design, &found);
+    run.folder.keep(folder::MOVES, document(answer.clone(), run.provenance.clone(), &[])?);
+    let moves = Moves { found, answer };
     if let Some(design) = moves.design() {
         run.folder.keep(folder::EQUIVALENT, design.to_toml());
     }
     let explanation = match &moves.record().moved_legs {
         Some(legs) => {
             let legs: Vec<String> = legs.iter().map(ToString::to_string).collect();
-            format!("{}; the first has new legs {}", moves.found.record.explanation, legs.join(", "))
+            format!("{}; the first has new legs {}", moves.answer.explanation, legs.join(", "))
         }
-        None => moves.found.record.explanation.clone(),
+        None => moves.answer.explanation.clone(),
     };
     run.done(StageWord::Moves, explanation);
     Ok(Some(moves))
@@ -264,19 +267,17 @@ fn judged(
             (undecided, "no replaceable leg was found, but there may be some".into(), Exit::Inconclusive)
         };
     };
-    match (moves.chosen, verified, moves.found.record.outcome) {
+    match (moves.chosen(), verified, moves.answer.outcome) {
         (Some(_), Some(v), _) => (
             ExploreVerdict::Compared(v.found.verdict.word()),
             v.record.explanation.clone(),
             exit_of(&v.found.verdict),
         ),
         (_, _, SearchWord::Violated) => {
-            (ExploreVerdict::Violated, moves.found.record.explanation.clone(), Exit::No)
+            (ExploreVerdict::Violated, moves.answer.explanation.clone(), Exit::No)
         }
-        (_, _, SearchWord::Impossible) => {
-            (ExploreVerdict::None, moves.found.record.explanation.clone(), Exit::No)
-        }
-        _ => (undecided, moves.found.record.explanation.clone(), Exit::Inconclusive),
+        (_, _, SearchWord::Impossible) => (ExploreVerdict::None, moves.answer.explanation.clone(), Exit::No),
+        _ => (undecided, moves.answer.explanation.clone(), Exit::Inconclusive),
     }
 }
 

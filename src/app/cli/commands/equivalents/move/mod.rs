@@ -5,7 +5,7 @@ pub(in crate::app::cli::commands) mod found;
 mod naming;
 mod render;
 mod request;
-pub(in crate::app::cli::commands) mod wishes;
+mod wishes;
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use ::files::design::Share;
 use ask::{Design, NoReplaceableLegs, ReplaceableOptions};
-use naming::{Meant, family_names, list_families, moved_design, resolve};
+use naming::{Meant, internal, list_families, resolve};
 use platform::manipulator::Body;
 use records::MoveAnswer;
 use request::{MoveRequest, requests};
@@ -218,10 +218,11 @@ fn one_step(
     let mut names = Vec::new();
     for step in &moves {
         let type_name = found.components[step.family].type_name();
-        names.push((type_name, family_names(current, &found, step.family)?));
+        let name = current.family_name(&found, step.family).map_err(|e| internal(&e))?;
+        names.push((type_name, name));
     }
     let shares: Vec<Share> = wanted.iter().flat_map(|r| r.parameters.clone()).collect();
-    let design = moved_design(current, &relocation.assembled, &shares);
+    let design = current.with_legs_of(&relocation.assembled, &shares);
     if let Some(new) = &design {
         relocation.map = judged(current, new)?;
     }
