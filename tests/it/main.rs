@@ -71,6 +71,7 @@ mod optimizer_evidence;
 mod papers;
 mod pose_count;
 mod presets;
+mod question_doors;
 mod rearrangements;
 mod reference;
 mod singular_poses;

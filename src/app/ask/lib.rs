@@ -24,6 +24,8 @@ mod equivalence;
 #[cfg(feature = "files")]
 pub mod equivalents;
 mod error;
+#[cfg(all(feature = "files", feature = "optimize"))]
+pub mod exploring;
 #[cfg(feature = "files")]
 pub mod exporting;
 #[cfg(feature = "files")]
@@ -63,8 +65,13 @@ pub use comparing::{DesignFigures, FigureOptions, Separation};
 #[cfg(feature = "files")]
 pub use design::Design;
 #[cfg(feature = "files")]
-pub use equivalence::{SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
+pub use equivalence::{ComparedDesigns, SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
 pub use error::Error;
+#[cfg(all(feature = "files", feature = "optimize"))]
+pub use exploring::{
+    ExploreJudgement, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
+    ExploredDesign, LengthsOrigin, NoExploration, NoOwnPoses, OwnPoses,
+};
 #[cfg(feature = "files")]
 pub use holding::SingularHome;
 #[cfg(feature = "files")]

@@ -7,10 +7,10 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::output::Answer;
-use ask::{Design, MoveSearchReport, MoveWishes, SearchWord};
+use ask::{Design, SearchWord};
 use records::{MoveAnswer, MoveSearchAnswer};
-use synthesis::components::{ComponentOptions, Components};
-use synthesis::relocate::search::{MoveSearchOptions, SearchError};
+use synthesis::components::ComponentOptions;
+use synthesis::relocate::search::SearchError;
 
 /// Searches, and writes the designs found.
 pub(super) fn run(
@@ -21,7 +21,8 @@ pub(super) fn run(
 ) -> Result<Answer, Failure> {
     let wishes = args.wishes(design)?;
     let families = super::families(design, options)?;
-    let found = platforms(design, &families, &wishes, &args.options(options.seed))?;
+    let found =
+        design.search_moves(&families, &wishes, &args.options(options.seed)).map_err(|e| failed(&e))?;
     let mut record = MoveSearchAnswer::new(design, &found);
     if let Some(folder) = output {
         files::make_folder(folder)?;
@@ -42,20 +43,15 @@ pub(super) fn run(
     Ok(Answer::new(exit, MoveAnswer::Search(Box::new(record)), text))
 }
 
-/// The equivalent platforms that fulfil the wishes.
-pub(in crate::app::cli::commands) fn platforms(
-    design: &Design,
-    families: &Components,
-    wishes: &MoveWishes,
-    options: &MoveSearchOptions,
-) -> Result<MoveSearchReport, Failure> {
-    design.search_moves(families, wishes, options).map_err(|e| match e {
+/// A search that could not be asked or carried out.
+pub(in crate::app::cli::commands) fn failed(why: &SearchError) -> Failure {
+    match why {
         SearchError::NearlyDependent(_) => {
-            Failure::new(Exit::Inconclusive, "move::nearly_singular_design", e.to_string())
+            Failure::new(Exit::Inconclusive, "move::nearly_singular_design", why.to_string())
         }
-        SearchError::Linalg(_) => Failure::internal(e.to_string()),
-        SearchError::Dependent(_) => Failure::refused("move::singular_design", e.to_string())
+        SearchError::Linalg(_) => Failure::internal(why.to_string()),
+        SearchError::Dependent(_) => Failure::refused("move::singular_design", why.to_string())
             .with_help("`equipod check DESIGN` says why"),
-        _ => Failure::refused("move::bad_wish", e.to_string()),
-    })
+        _ => Failure::refused("move::bad_wish", why.to_string()),
+    }
 }
