@@ -291,6 +291,11 @@ pub mod methods {
     pub mod poly {
         pub use ::num::poly::*;
     }
+    /// The questions that a design answers, with their options and answers: one function each, which all doors call.
+    #[cfg(feature = "files")]
+    pub mod questions {
+        pub use ::ask::*;
+    }
     /// How far the platform may move from a pose before a requirement binds, and the allowed pose nearest to one asked
     /// for.
     #[cfg(feature = "synthesis")]

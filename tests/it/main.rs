@@ -72,6 +72,7 @@ mod papers;
 mod pentapod;
 mod pose_count;
 mod presets;
+mod question_doors;
 mod rearrangements;
 mod reference;
 mod singular_poses;

@@ -12,77 +12,13 @@
 #[cfg(feature = "lab")]
 pub mod bench;
 #[cfg(feature = "files")]
-pub mod calibrating;
-#[cfg(feature = "files")]
-mod comparing;
-#[cfg(feature = "files")]
-pub mod design;
-#[cfg(feature = "files")]
-pub mod driving;
-#[cfg(feature = "files")]
-mod equivalence;
-#[cfg(feature = "files")]
-pub mod equivalents;
+mod designs;
 mod error;
-#[cfg(feature = "files")]
-pub mod exporting;
-#[cfg(feature = "files")]
-mod file_io;
-#[cfg(feature = "files")]
-mod holding;
-#[cfg(feature = "files")]
-mod judging;
-#[cfg(feature = "files")]
-mod moving;
-#[cfg(all(feature = "files", feature = "optimize"))]
-pub mod optimizing;
-#[cfg(feature = "files")]
-mod pentapod;
-#[cfg(feature = "files")]
-pub mod presets;
-#[cfg(feature = "files")]
-mod reaching;
-#[cfg(feature = "files")]
-mod reaching_space;
-#[cfg(feature = "files")]
-pub mod rounding;
-#[cfg(feature = "files")]
-mod self_motions;
-#[cfg(feature = "files")]
-mod singular_poses;
 mod solving;
-#[cfg(all(feature = "files", not(target_family = "wasm")))]
-pub mod whole;
 
 #[cfg(feature = "files")]
-pub use comparing::{DesignFigures, FigureOptions, Separation};
-#[cfg(feature = "files")]
-pub use design::Design;
-#[cfg(feature = "files")]
-pub use equivalence::{SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
+pub use designs::*;
 pub use error::Error;
-#[cfg(feature = "files")]
-pub use holding::SingularHome;
-#[cfg(feature = "files")]
-pub use judging::{AssessReport, BOX_CELLS, CheckReport, JudgedPoses};
-#[cfg(feature = "files")]
-pub use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
-#[cfg(all(feature = "files", feature = "optimize"))]
-pub use optimizing::{
-    Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, EasedDemand,
-    FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, FreedomWord, OpenedFreedom, OptimizeEvidence,
-    OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, SearchedDrive,
-};
-#[cfg(feature = "files")]
-pub use pentapod::{HeldLine, PentapodReport, about_five_legs};
-#[cfg(feature = "files")]
-pub use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
-#[cfg(feature = "files")]
-pub use self_motions::{MotionOrigin, MotionStart, NoSelfMotion, SelfMotionOptions, SelfMotionReport};
-#[cfg(feature = "files")]
-pub use singular_poses::{
-    NoSingularPoses, PoseFigures, SignPath, SignsBetween, SingularPosesOptions, SingularPosesReport,
-};
 #[cfg(feature = "files")]
 pub use solving::solve_angles;
 pub use solving::{Batch, Kinematics, Solver, Tracker};

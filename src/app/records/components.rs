@@ -5,10 +5,11 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Number, leg_number};
+use ask::{ReplaceableFamily, ReplaceableLegs};
 use platform::manipulator::{Leg, LegIndex};
 use synthesis::components::{
-    Component, Components, CubicPencil, CurvePart, Decision, ExactCurve, ExactPart, ExactPoint, FlatPair,
-    MovingPoint, NoExactCurve, Parametrisation, PlaneCurve, SampledLeg, flat_name,
+    Component, CubicPencil, CurvePart, Decision, ExactCurve, ExactPart, ExactPoint, FlatPair, MovingPoint,
+    NoExactCurve, Parametrisation, PlaneCurve, SampledLeg, flat_name,
 };
 
 /// The answer of `equivalents components`.
@@ -460,9 +461,12 @@ impl ComponentRecord {
 }
 
 impl ComponentsAnswer {
-    /// The answer about a design of this name: everything found, and of the families those in `components`.
+    /// The answer about a design of this name: everything found, and the families asked for.
     #[must_use]
-    pub fn new(name: &str, tolerance: f64, found: &Components, components: Vec<ComponentRecord>) -> Self {
+    pub fn new(name: &str, replaceable: &ReplaceableLegs) -> Self {
+        let ReplaceableLegs { found, families, search } = replaceable;
+        let component =
+            |f: &ReplaceableFamily| ComponentRecord::new(f.index, &found.components[f.index], &f.samples);
         let planes = found.planes.iter().map(|p| PlanePairRecord {
             pair: p.pair + 1,
             legs: legs(&found.pairs[p.pair].legs),
@@ -474,7 +478,7 @@ impl ComponentsAnswer {
         });
         Self {
             name: name.to_owned(),
-            tolerance,
+            tolerance: search.tolerance,
             leg_rank: found.leg_rank.value,
             leg_rank_decision: (&found.leg_rank).into(),
             count: found.components.len(),
@@ -482,7 +486,7 @@ impl ComponentsAnswer {
             doubts: found.doubts.clone(),
             pairs: found.pairs.iter().map(FlatPairRecord::from).collect(),
             planes: planes.collect(),
-            components,
+            components: families.iter().map(component).collect(),
         }
     }
 }

@@ -5,14 +5,13 @@ use serde::Serialize;
 
 use super::{
     AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
-    OptimalityWord, OptimizeAnswer, RidingRecord, SearchWord, SolvedRecord, SymmetryRecord,
+    OptimalityWord, OptimizeAnswer, RidingRecord, SolvedRecord, SymmetryRecord,
 };
 use ask::rounding::{DesignOnHoles, RoundingWay};
-use ask::{OptimizeStatus, Separation};
-use fk::FkSolutions;
+use ask::{ExploreVerdict, LengthsOrigin, OptimizeStatus, OwnPoses, SearchWord, Separation};
 use machine::manufacture::{NoRounding, RoundedJoint};
 use optimize::dimensional::ChosenVariable;
-use verify::{VerdictWord, Verification};
+use verify::Verification;
 
 /// The poses of the original, with the lengths they belong to.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -24,16 +23,6 @@ pub struct FkRunRecord {
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
-}
-
-/// Whose leg lengths poses belong to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LengthsOrigin {
-    /// Those of the design.
-    Design,
-    /// The design has none: those of its home pose.
-    Home,
 }
 
 /// The answer of `explore`.
@@ -333,41 +322,6 @@ impl From<&Result<DesignOnHoles, NoRounding>> for OnHolesRecord {
     }
 }
 
-/// The verdict of `explore`: that of the comparison, or why there was none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ExploreVerdict {
-    /// Every branch of offsets is proved to violate the limits, or no start met the requirements together.
-    Infeasible,
-    /// No platform without shared joints other than the design itself is equivalent to it: no leg can be replaced, or
-    /// every platform that its replaceable legs make shares joints.
-    None,
-    /// The platform found misses requirements.
-    Violated,
-    /// The platform meets its requirements; its triangles were chosen too, so that it is not equivalent to the design.
-    NewKinematics,
-    /// The platform meets its requirements with its joints on the holes that the design states.
-    OnHoles,
-    /// What the comparison says; `inconclusive` too where no offsets were found and some branches are not proved empty.
-    #[serde(untagged)]
-    Compared(VerdictWord),
-}
-
-impl ExploreVerdict {
-    /// The word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Infeasible => "infeasible",
-            Self::None => "none",
-            Self::Violated => "violated",
-            Self::NewKinematics => "new_kinematics",
-            Self::OnHoles => "on_holes",
-            Self::Compared(verdict) => verdict.name(),
-        }
-    }
-}
-
 /// How many platforms are equivalent to an octahedral one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamilySizeRecord {
@@ -456,15 +410,22 @@ pub struct PoseTotalsRecord {
 }
 
 impl PoseTotalsRecord {
-    /// Counts of the poses with lengths of that origin.
+    /// Counts of the poses of a design.
     #[must_use]
-    pub fn new(lengths_from: LengthsOrigin, s: &FkSolutions) -> Self {
+    pub fn new(poses: &OwnPoses) -> Self {
+        let s = &poses.solutions;
         Self {
-            lengths_from,
+            lengths_from: poses.origin,
             finite_count: s.roots.len(),
             real_count: s.assembly_modes().count(),
             certified_count: s.roots.iter().filter(|r| r.certified()).count(),
             all_paths_accounted: s.all_accounted(),
         }
+    }
+}
+
+impl From<&OwnPoses> for FkRunRecord {
+    fn from(poses: &OwnPoses) -> Self {
+        Self { lengths: poses.lengths.get(), lengths_from: poses.origin, solved: (&poses.solutions).into() }
     }
 }

@@ -3,15 +3,16 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::Number;
-use files::plot::LocusMeeting;
-use fk::Method;
+use super::{Number, leg_number};
+use ask::{LocusPoint, LocusReport, LocusWord};
+use files::plot::{LocusMeeting, locus_meetings};
+use fk::{Method, Reality};
 
 /// The answer of `plot locus`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LocusAnswer {
     /// The leg that varies, from 1.
-    pub leg: u8,
+    pub leg: usize,
     /// Base joint and platform joint of the virtual leg.
     pub between: [String; 2],
     /// One for each length.
@@ -37,33 +38,6 @@ pub struct LocusRowRecord {
     pub values: Vec<LocusValueRecord>,
 }
 
-/// What the poses at one length form.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LocusWord {
-    /// Isolated poses.
-    Isolated,
-    /// No pose.
-    Empty,
-    /// Curves or surfaces.
-    PositiveDimensional,
-    /// They could not be computed.
-    Failed,
-}
-
-impl LocusWord {
-    /// The word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Isolated => "isolated",
-            Self::Empty => "empty",
-            Self::PositiveDimensional => "positive_dimensional",
-            Self::Failed => "failed",
-        }
-    }
-}
-
 /// The squared length of the virtual leg at one pose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LocusValueRecord {
@@ -77,4 +51,39 @@ pub struct LocusValueRecord {
     pub certified: bool,
     /// Paths, or roots of a polynomial, that end at the pose.
     pub multiplicity: u32,
+}
+
+impl From<&LocusReport> for LocusAnswer {
+    fn from(found: &LocusReport) -> Self {
+        let row = |(step, point): (usize, &LocusPoint)| LocusRowRecord {
+            step,
+            length: Number(point.length),
+            status: point.word(),
+            all_paths_accounted: point.is_complete(),
+            method: point.found.as_ref().map(|f| f.0.method),
+            values: values(point),
+        };
+        Self {
+            leg: leg_number(found.leg),
+            between: found.between.names.clone(),
+            rows: found.points.iter().enumerate().map(row).collect(),
+            meetings: locus_meetings(&found.steps()),
+        }
+    }
+}
+
+fn values(point: &LocusPoint) -> Vec<LocusValueRecord> {
+    let all = point.found.iter().flat_map(|(solutions, values)| solutions.roots.iter().zip(values));
+    let value = all.map(|(root, v)| LocusValueRecord {
+        re: Number(v.re),
+        im: Number(v.im),
+        real: match root.reality {
+            Reality::Real => Some(true),
+            Reality::NonReal => Some(false),
+            Reality::Undecided => None,
+        },
+        certified: root.certified(),
+        multiplicity: root.multiplicity,
+    });
+    value.collect()
 }

@@ -3,11 +3,14 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{AssessAnswer, DesignRecord, LegEndsRecord, MapRecord, Number};
+use super::{AssessAnswer, DesignRecord, DesignRoleWord, LegEndsRecord, MapRecord, Number, leg_number};
+use ask::{Design, MoveSearchReport, MovedPlatform, SearchWord};
 use platform::manipulator::Body;
 use synthesis::Relation;
 use synthesis::relocate::SingularParameters;
-use synthesis::relocate::search::{self, Hole, HoleAnswer, HoleWord, SearchVerdict, WishMargin, Wishes};
+use synthesis::relocate::search::{
+    self, Hole, HoleAnswer, HoleWord, Placement, SearchVerdict, WishMargin, Wishes,
+};
 
 /// The answer of `equivalents move`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -150,32 +153,6 @@ pub struct MoveSearchAnswer {
     pub paths: Vec<String>,
 }
 
-/// What came of a search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SearchWord {
-    /// A platform that fulfils every wish and meets the requirements of the design.
-    Found,
-    /// Platforms that fulfil every wish were found, and each of them violates requirements of the design.
-    Violated,
-    /// There is none.
-    Impossible,
-    /// None was found, which proves nothing.
-    Undecided,
-}
-
-impl SearchWord {
-    /// The word for a verdict, and the reason where it is impossible.
-    #[must_use]
-    pub fn of(verdict: SearchVerdict) -> (Self, Option<String>) {
-        match verdict {
-            SearchVerdict::Found => (Self::Found, None),
-            SearchVerdict::Undecided => (Self::Undecided, None),
-            SearchVerdict::Impossible(why) => (Self::Impossible, Some(why.name().into())),
-        }
-    }
-}
-
 /// What an equivalent platform should fulfil.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct WishesRecord {
@@ -241,7 +218,7 @@ impl From<&search::JudgedHole> for HoleRecord {
             body: *body,
             point: [point.x, point.y, point.z].map(Number),
             answer: h.answer.word(),
-            legs: legs.iter().copied().map(super::leg_number).collect(),
+            legs: legs.iter().copied().map(leg_number).collect(),
             dimension,
             exact_rank_defect: h.exact,
             singular_value: Number(h.singular_value),
@@ -289,4 +266,65 @@ pub struct PlacementRecord {
     pub coefficient: Number,
     /// What is left of its leg vector.
     pub residual: Number,
+}
+
+impl MoveSearchAnswer {
+    /// The answer about a design; no file is written yet.
+    #[must_use]
+    pub fn new(design: &Design, found: &MoveSearchReport) -> Self {
+        let o = &found.outcome;
+        let reason = match o.verdict {
+            SearchVerdict::Impossible(why) => Some(why.name().to_owned()),
+            SearchVerdict::Found | SearchVerdict::Undecided => None,
+        };
+        Self {
+            name: design.name.clone(),
+            mode: "search".into(),
+            outcome: found.word(),
+            reason,
+            explanation: found.to_string(),
+            patterns: o.patterns,
+            patterns_searched: o.searched,
+            least_shared_joints: o.least_shared,
+            complete: o.complete,
+            wishes: (&o.wishes).into(),
+            holes: o.holes.iter().map(HoleRecord::from).collect(),
+            designs: found.platforms.iter().map(|f| CandidateRecord::new(design, f)).collect(),
+            paths: Vec::new(),
+        }
+    }
+}
+
+impl CandidateRecord {
+    /// A platform that is equivalent to a design.
+    #[must_use]
+    pub fn new(given: &Design, found: &MovedPlatform) -> Self {
+        let c = &found.candidate;
+        let place = |(p, source): (&Placement, &String)| PlacementRecord {
+            leg: leg_number(p.leg),
+            from: source.clone(),
+            parameters: p.parameters.iter().copied().map(Number).collect(),
+            to: (&c.assembled.legs[p.leg.get()]).into(),
+            coefficient: Number(c.map.closest.a[(p.leg.get(), p.leg.get())]),
+            residual: Number(c.map.residuals[p.leg.get()]),
+        };
+        let judged = found.design.as_ref().zip(found.assessed.as_ref());
+        // the requirements are those of the given design, and so is the name
+        let assessment = judged.map(|(design, a)| AssessAnswer {
+            name: given.name.clone(),
+            role: DesignRoleWord::Equivalent,
+            ..AssessAnswer::new(design, a)
+        });
+        Self {
+            fulfilled: found.is_fulfilled(),
+            wishes_fulfilled: c.fulfilled,
+            assessment,
+            worst: Number(c.worst),
+            shared_joints: c.shared_joints,
+            margins: c.margins.clone(),
+            moves: c.placements.iter().zip(&found.sources).map(place).collect(),
+            map: (&found.map).into(),
+            design: found.design.as_ref().map(DesignRecord::from),
+        }
+    }
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{ComplexRecord, FramesRecord, MapRecord, Number, PoseRecord, leg_number};
+use ask::ComparedDesigns;
 use fk::{CompletenessWord, FkSolutions, Method};
 use platform::geom::{ComplexPose, SamplePlan};
 use synthesis::LegMapOutcome;
@@ -237,5 +238,11 @@ impl From<&SamplePlan> for SamplingRecord {
             translation_half_widths: plan.translation.into(),
             rotation_half_widths_rad: plan.rotation.into(),
         }
+    }
+}
+
+impl From<&ComparedDesigns> for VerifyAnswer {
+    fn from(compared: &ComparedDesigns) -> Self {
+        Self::new(&compared.found, &compared.plan, FramesRecord::default())
     }
 }

@@ -7,11 +7,11 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
-use ask::{Design, SAMPLES, sample_plan};
+use ask::{SAMPLES, sample_plan};
 use fk::FkOptions;
-use records::{FramesRecord, VerifyAnswer};
+use records::VerifyAnswer;
 use synthesis::Relation;
-use verify::{Verdict, Verification, VerifyError, verify_mapped};
+use verify::{Verdict, VerifyError, verify_mapped};
 
 /// Arguments of `verify`.
 #[derive(Debug, clap::Args)]
@@ -56,19 +56,6 @@ pub(crate) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Answer, Fa
     let record = VerifyAnswer::new(&found, &plan, second.record());
     let sheet = sheet::answers::verify(&record, &a.name, &b.name);
     Ok(Answer::new(exit_of(&found.verdict), record, sheet))
-}
-
-/// Two designs in the frames that they are given in, compared at the lengths of so many sample poses of the first.
-pub(super) fn compared(
-    [a, b]: [&Design; 2],
-    samples: usize,
-    options: &FkOptions,
-) -> Result<(Verification, VerifyAnswer), Failure> {
-    let plan = sample_plan(a, samples, options.seed);
-    let found =
-        verify::verify(a.manipulator(), b.manipulator(), &plan, options).map_err(|e| failure_of(&e))?;
-    let answer = VerifyAnswer::new(&found, &plan, FramesRecord::default());
-    Ok((found, answer))
 }
 
 /// What the verdict means for the exit code.

@@ -50,7 +50,7 @@ pub use limits::limits;
 pub use locus::locus;
 pub use map::{leg_map, map};
 pub use motion::motion;
-pub use moves::{move_search, moves, wishes_in_words};
+pub use moves::{move_search, moves};
 pub use nearest::nearest;
 pub use optimize::{optimize, search, tried_drives};
 pub use pentapod::pentapod;

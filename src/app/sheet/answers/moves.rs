@@ -3,8 +3,10 @@
 use super::assess;
 use super::map::leg_map;
 use crate::{Sheet, Table, left, right};
+use ask::wishes_in_words;
 use records::{
-    AssessAnswer, LegEndsRecord, LegMoveRecord, MoveSearchAnswer, MovesAnswer, SingularParametersRecord,
+    AssessAnswer, CandidateRecord, LegEndsRecord, LegMoveRecord, MoveSearchAnswer, MovesAnswer,
+    SingularParametersRecord,
 };
 use synthesis::Relation;
 
@@ -104,7 +106,7 @@ pub fn move_search(r: &MoveSearchAnswer) -> Sheet {
             out,
             "\n{}. {}, det A = {:.6}, sigma_min/sigma_max of A {:.3e}, shared joints {}",
             k + 1,
-            wishes_in_words(c.wishes_fulfilled, c.assessment.as_ref()),
+            fulfilled(c),
             c.map.determinant.0,
             c.map.inverse_condition.0,
             c.shared_joints
@@ -140,18 +142,11 @@ pub fn move_search(r: &MoveSearchAnswer) -> Sheet {
     out
 }
 
-/// What a platform fulfils and what it misses.
-#[must_use]
-pub fn wishes_in_words(wishes: bool, assessment: Option<&AssessAnswer>) -> String {
-    let names = |a: &AssessAnswer, met: Option<bool>| {
-        let kinds = a.requirements.iter().filter(|m| m.met == met).map(|m| m.name.code());
-        kinds.chain((a.regular.met == met).then_some("singularity")).collect::<Vec<_>>().join(", ")
+/// The wishes and the requirements that a platform fulfils and misses.
+fn fulfilled(c: &CandidateRecord) -> String {
+    let names = |a: &AssessAnswer| {
+        let kinds = a.requirements.iter().filter(|m| m.met == a.met).map(|m| m.name.code());
+        kinds.chain((a.regular.met == a.met).then_some("singularity")).collect::<Vec<_>>().join(", ")
     };
-    let wishes = if wishes { "every wish fulfilled" } else { "not every wish fulfilled" };
-    match assessment.map(|a| (a, a.met)) {
-        None => wishes.to_owned(),
-        Some((_, Some(true))) => format!("{wishes}, all requirements met"),
-        Some((a, Some(false))) => format!("{wishes}, requirements violated: {}", names(a, Some(false))),
-        Some((a, None)) => format!("{wishes}, requirements not proved: {}", names(a, None)),
-    }
+    wishes_in_words(c.wishes_fulfilled, c.assessment.as_ref().map(|a| (a.met, names(a))))
 }

@@ -83,7 +83,7 @@ pub(crate) fn run(args: &DesignConvertArgs, context: &mut Context) -> Result<Ans
         None => files::write_design(&args.output, &design)?,
     }
     let output = args.output.display().to_string();
-    let mut text: String = sentences.iter().map(|sentence| format!("{sentence}\n")).collect();
-    text.push_str(&format!("wrote {output}\n"));
+    sentences.push(format!("wrote {output}\n"));
+    let text = sentences.join("\n");
     Ok(Answer::new(Exit::Yes, ConvertAnswer { name: design.name.clone(), output, format }, text))
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::commands::verify::compared;
+use crate::app::cli::commands::verify::failure_of;
 use crate::app::cli::commands::{GENERAL, NEAREST};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -10,12 +10,11 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use ::files::design::Share;
-use ask::Design;
 use ask::equivalents::{Original, Origins};
-use ask::{SAMPLES, leg_map};
+use ask::{ComparedDesigns, Design, SAMPLES, leg_map};
 use fk::FkOptions;
 use platform::manipulator::Octahedral;
-use records::{DerivationRecord, FamilyAnswer, InstanceRecord};
+use records::{DerivationRecord, FamilyAnswer, InstanceRecord, VerifyAnswer};
 use sheet::Sheet;
 use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
@@ -170,6 +169,7 @@ fn explain(
     let steps = original.derivation(pattern, built);
     let steps = steps.ok_or_else(|| Failure::internal("an edge of the octahedral platform has no length"))?;
     let options = FkOptions::new().seed(context.seed());
-    let (_, verification) = compared([&original.design, built], SAMPLES, &options)?;
+    let compared = ComparedDesigns::of([&original.design, built], SAMPLES, &options);
+    let verification = VerifyAnswer::from(&compared.map_err(|e| failure_of(&e))?);
     Ok(DerivationRecord::new(&steps, original, verification))
 }

@@ -8,15 +8,9 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use ask::Design;
 use ask::equivalents::NearestDesigns;
-use optimize::offsets::DEFAULT_MIN_ABS_DET;
+use ask::exploring::{NEAREST_EXTENSION, nearest_options};
 use records::NearestAnswer;
-use synthesis::NearestOptions;
-
-/// How far a joint of the design may stand beyond a corner of the triangles sought, in lengths of the side, where
-/// nothing is said: what exists is recognised, nothing is chosen.
-pub(in crate::app::cli::commands) const EXTENSION: f64 = 1.0;
 
 /// Arguments of `equivalents nearest`.
 #[derive(Debug, clap::Args)]
@@ -24,7 +18,7 @@ pub(crate) struct EquivalentsNearestArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// How far a joint may lie outside its side, on its extension, in lengths of the side
-    #[arg(long, value_name = "X", default_value_t = EXTENSION)]
+    #[arg(long, value_name = "X", default_value_t = NEAREST_EXTENSION)]
     extension: f64,
     /// Write the octahedral platform as a design
     #[arg(short, long, value_name = "FILE")]
@@ -34,16 +28,11 @@ pub(crate) struct EquivalentsNearestArgs {
     beside: Option<OutputPath>,
 }
 
-/// The limits for a design.
-pub(in crate::app::cli::commands) fn options(design: &Design, extension: f64) -> NearestOptions {
-    NearestOptions { extension, min_abs_det: design.optimize.min_abs_det.unwrap_or(DEFAULT_MIN_ABS_DET) }
-}
-
 /// Finds it, and writes the designs asked for.
 pub(crate) fn run(args: &EquivalentsNearestArgs, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
-    let options = options(&design, args.extension);
+    let options = nearest_options(&design, args.extension);
     let near = NearestDesigns::of(&design, &options);
     let mut answer = NearestAnswer::new(&design, &options, near.as_ref());
     if let Some(near) = &near {

@@ -2,13 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::ExplorePoses;
-use super::search::ExploreSearch;
-use ask::Design;
+use ask::{Design, LengthsOrigin, OptimizeReport, OwnPoses};
 use files::plot::{ModesFigure, OffsetPlane, PlaneAxis, PlanePoint, assembly_modes, determinant_plane};
 use fk::Reality;
 use platform::manipulator::Octahedral;
-use records::LengthsOrigin;
 use synthesis::edge_lengths;
 
 /// Edges or offsets that agree this well are equal for a picture.
@@ -34,9 +31,9 @@ fn common(edges: [f64; 3]) -> Option<f64> {
 pub(super) fn determinant(
     design: &Design,
     octahedral: &Octahedral,
-    search: &ExploreSearch,
+    search: &OptimizeReport,
 ) -> Option<String> {
-    let has_plane = search.keeps_class() && (search.optimised().is_none() || search.offsets().is_some());
+    let has_plane = search.keeps_class() && (search.design().is_none() || search.offsets().is_some());
     if !has_plane {
         return None;
     }
@@ -68,7 +65,7 @@ pub(super) fn determinant(
 }
 
 /// The chosen offsets, a base and a platform offset at a time; equal pairs are one mark.
-fn points(octahedral: &Octahedral, search: &ExploreSearch) -> (Vec<PlanePoint>, String) {
+fn points(octahedral: &Octahedral, search: &OptimizeReport) -> (Vec<PlanePoint>, String) {
     let Some((t, det)) = search.offsets() else {
         return (Vec::new(), "no offsets were found that keep the limits".to_owned());
     };
@@ -99,12 +96,12 @@ fn points(octahedral: &Octahedral, search: &ExploreSearch) -> (Vec<PlanePoint>, 
 }
 
 /// The real poses.
-pub(super) fn modes(design: &Design, poses: &ExplorePoses) -> String {
+pub(super) fn modes(design: &Design, poses: &OwnPoses) -> String {
     let s = &poses.solutions;
     let real = s.roots.iter().enumerate().filter(|(_, r)| r.reality == Reality::Real);
     let undecided = s.roots.iter().filter(|r| r.reality == Reality::Undecided).count();
     let lengths: Vec<String> = poses.lengths.get().iter().map(|l| short(*l)).collect();
-    let whose = if poses.from == LengthsOrigin::Design { "" } else { " (home pose)" };
+    let whose = if poses.origin == LengthsOrigin::Design { "" } else { " (home pose)" };
     let mut note = format!(
         "{} finite poses, {} real; leg lengths {}{}{whose}; numbers as in the list of fk",
         s.roots.len(),

@@ -4,34 +4,27 @@
 use std::fmt::Write as _;
 
 use super::folder::{self, Folder};
-use super::{ExploreArgs, Verified, fk_record, original, solve, text, verification};
-use crate::app::cli::commands::equivalents::r#move::found::{FoundMoves, platforms};
-use crate::app::cli::commands::equivalents::r#move::wishes::WishArgs;
-use crate::app::cli::commands::equivalents::nearest;
+use super::{ExploreArgs, exit_of, text, verification};
 use crate::app::cli::commands::report::page;
-use crate::app::cli::commands::verify::exit_of;
 use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::{Answer, document};
 use crate::app::cli::progress::ProgressLine;
-use ask::Design;
-use ask::equivalents::NearestDesigns;
-use fk::{FkOptions, PoseCounting};
+use ask::exploring::NEAREST_EXTENSION;
+use ask::{Design, ExploreVerdict, ExploredDesign, MovedPlatform};
 use records::{
-    AssessAnswer, ComparedRecord, ComponentRecord, ComponentsAnswer, DesignRoleWord, ExploreAnswer,
-    ExploreGeneralAnswer, ExploreVerdict, FamiliesFoundRecord, MovesFoundRecord, NearestAnswer,
-    NearestErrorRecord, Number, PoseTotalsRecord, ProvenanceRecord, SearchWord, StageRecord, StageWord,
+    AssessAnswer, ComparedRecord, ComponentsAnswer, DesignRoleWord, ExploreAnswer, ExploreGeneralAnswer,
+    FamiliesFoundRecord, FkRunRecord, MoveSearchAnswer, MovesFoundRecord, NearestAnswer, NearestErrorRecord,
+    Number, PoseTotalsRecord, ProvenanceRecord, StageRecord, StageWord, VerifyAnswer, leg_number,
 };
-use synthesis::components::{ComponentOptions, Components, components};
 use verify::VerdictWord;
 
-/// What is worked with in all stages.
+/// The design with its results, and the files and sentences made of them.
 struct ExploreRun<'a> {
     design: &'a Design,
+    found: &'a ExploredDesign,
     folder: Folder,
     provenance: ProvenanceRecord,
-    seed: u64,
     stages: Vec<StageRecord>,
 }
 
@@ -41,38 +34,24 @@ impl ExploreRun<'_> {
     }
 }
 
-/// Runs all stages; each file is written when its stage is finished.
-pub(super) fn run(args: &ExploreArgs, design: &Design, context: &Context) -> Result<Answer, Failure> {
-    let mut progress = ProgressLine::new(context.quiet());
-    let seed = context.seed();
-    let mut run = ExploreRun {
-        design,
-        folder: Folder::prepare(&args.output)?,
-        provenance: context.provenance(),
-        seed,
-        stages: Vec::new(),
-    };
-    run.folder.keep(folder::ORIGINAL, original(design, seed).to_toml());
-
-    progress.stage(1, "replaceable legs");
-    let families = replaceable(&mut run)?;
-    progress.stage(2, "equivalent platforms");
-    let moves = moves(&mut run, &families)?;
-    progress.stage(3, "nearest octahedral platform");
-    let extension = args.extension.unwrap_or(nearest::EXTENSION);
-    let near = nearest_platform(&mut run, extension)?;
-    progress.stage(4, "requirements");
-    let met = requirements(&mut run, near.as_ref().map(|n| &n.0))?;
-    progress.stage(5, "comparison");
-    let options = FkOptions::new().seed(seed).pose_count(PoseCounting::Never);
-    let verified = compared(&mut run, args.samples, &options, moves.as_ref(), near.as_ref().map(|n| &n.0))?;
-
-    progress.stage(6, "forward kinematics");
-    let poses = solve(design, &options)?;
-    let document_of_poses = document(fk_record(&poses), run.provenance.clone(), &[])?;
+/// The answer, with its files.
+pub(super) fn written(
+    args: &ExploreArgs,
+    design: &Design,
+    found: &ExploredDesign,
+    folder: Folder,
+    (progress, context): (&mut ProgressLine, &Context),
+) -> Result<Answer, Failure> {
+    let mut run = ExploreRun { design, found, folder, provenance: context.provenance(), stages: Vec::new() };
+    replaceable(&mut run)?;
+    let moves = moves(&mut run)?;
+    let nearest = nearest_platform(&mut run)?;
+    let met = requirements(&mut run)?;
+    let verified = compared(&mut run)?;
+    let document_of_poses = document(FkRunRecord::from(&found.poses), run.provenance.clone(), &[])?;
     run.folder.keep(folder::FK, document_of_poses);
-    run.folder.keep(folder::MODES, super::figures::modes(design, &poses));
-    let totals = PoseTotalsRecord::new(poses.from, &poses.solutions);
+    run.folder.keep(folder::MODES, super::figures::modes(design, &found.poses));
+    let totals = PoseTotalsRecord::new(&found.poses);
     run.done(
         StageWord::Fk,
         format!(
@@ -82,7 +61,8 @@ pub(super) fn run(args: &ExploreArgs, design: &Design, context: &Context) -> Res
     );
 
     progress.stage(7, "report");
-    let (verdict, explanation, exit) = judged(&families, moves.as_ref(), verified.as_ref());
+    let verdict = found.verdict();
+    let explanation = explanation(found, moves.as_ref(), verified.as_ref());
     let ExploreRun { mut folder, stages, .. } = run;
     let mut answer = ExploreGeneralAnswer {
         verdict,
@@ -91,20 +71,21 @@ pub(super) fn run(args: &ExploreArgs, design: &Design, context: &Context) -> Res
         paths: Vec::new(),
         stages,
         components: FamiliesFoundRecord {
-            count: families.components.len(),
-            complete: families.doubts.is_empty(),
+            count: found.families.found.components.len(),
+            complete: found.families.found.doubts.is_empty(),
         },
-        moves: moves.as_ref().map(Moves::record),
-        nearest: near.as_ref().map(|n| n.1),
+        moves: moves.as_ref().map(|m| moves_found(found, m)),
+        nearest,
         nearest_meets_requirements: met,
-        verify: verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
+        verify: found.compared.as_ref().map(|c| ComparedRecord::from(&c.found)),
         fk: totals,
     };
     let repeat = format!(
-        "equipod explore {} -o DIR --seed {seed} --samples {} --extension {}",
+        "equipod explore {} -o DIR --seed {} --samples {} --extension {}",
         folder::ORIGINAL,
+        context.seed(),
         args.samples,
-        extension
+        args.extension.unwrap_or(NEAREST_EXTENSION)
     );
     folder.keep(folder::REPORT, markdown(&answer, design, &repeat));
     let files = folder.results();
@@ -112,110 +93,85 @@ pub(super) fn run(args: &ExploreArgs, design: &Design, context: &Context) -> Res
     folder.finish()?;
     answer.paths = folder.paths().collect();
     let text = text(&answer.name, answer.verdict, &answer.explanation, &answer.paths, None);
-    Ok(Answer::new(exit, ExploreAnswer::General(Box::new(answer)), text))
+    Ok(Answer::new(exit_of(verdict), ExploreAnswer::General(Box::new(answer)), text))
 }
 
 /// The families of replaceable legs.
-fn replaceable(run: &mut ExploreRun<'_>) -> Result<Components, Failure> {
-    let options = ComponentOptions { seed: run.seed, ..ComponentOptions::default() };
-    let found =
-        components(run.design.manipulator(), options).map_err(|e| Failure::internal(e.to_string()))?;
-    let list =
-        found.components.iter().enumerate().map(|(k, family)| ComponentRecord::new(k, family, &[])).collect();
-    let answer = ComponentsAnswer::new(&run.design.name, options.tolerance, &found, list);
+fn replaceable(run: &mut ExploreRun<'_>) -> Result<(), Failure> {
+    let families = &run.found.families;
+    let answer = ComponentsAnswer::new(&run.design.name, families);
     run.folder.keep(folder::COMPONENTS, document(answer, run.provenance.clone(), &[])?);
-    let count = found.components.len();
-    let all = if found.doubts.is_empty() { "there are no others" } else { "there may be others" };
-    let text = match count {
+    let all = if families.found.doubts.is_empty() { "there are no others" } else { "there may be others" };
+    let text = match families.found.components.len() {
         0 => format!("no leg belongs to a family of replaceable legs; {all}"),
         1 => format!("one family of legs that can be replaced without changing the platform; {all}"),
         n => format!("{n} families of legs that can be replaced without changing the platform; {all}"),
     };
     run.done(StageWord::Components, text);
-    Ok(found)
+    Ok(())
 }
 
-/// A search with the platform that is written.
-struct Moves {
-    found: FoundMoves,
-    /// Index of the first platform that fulfils every wish and has a leg that the design has not.
-    chosen: Option<usize>,
-}
-
-impl Moves {
-    fn design(&self) -> Option<&Design> {
-        self.found.designs[self.chosen?].as_ref()
-    }
-
-    fn record(&self) -> MovesFoundRecord {
-        MovesFoundRecord {
-            outcome: self.found.record.outcome,
-            moved_legs: self.chosen.map(|k| self.found.moved[k].clone()),
-            det: self.chosen.map(|k| self.found.record.designs[k].map.determinant),
-        }
-    }
-}
-
-/// Equivalent platforms without shared joints; `None` where there is nothing to search.
-fn moves(run: &mut ExploreRun<'_>, families: &Components) -> Result<Option<Moves>, Failure> {
-    if families.leg_rank.value < 6 {
-        run.done(
-            StageWord::Moves,
-            "the design is architecturally singular, and so is every platform made of its legs",
-        );
+/// Equivalent platforms without shared joints; `None` where there was nothing to search.
+fn moves(run: &mut ExploreRun<'_>) -> Result<Option<MoveSearchAnswer>, Failure> {
+    let Some(moves) = &run.found.moves else {
+        let why = if run.found.is_singular() {
+            "the design is architecturally singular, and so is every platform made of its legs"
+        } else {
+            "no leg can be moved"
+        };
+        run.done(StageWord::Moves, why);
         return Ok(None);
-    }
-    if families.components.is_empty() {
-        run.done(StageWord::Moves, "no leg can be moved");
-        return Ok(None);
-    }
-    let wishes = WishArgs::no_shared_joints();
-    let found = platforms(run.design, families, &wishes.wishes(run.design)?, &wishes.options(run.seed))?;
-    let candidates = &found.record.designs;
-    let fits =
-        |k: &usize| candidates[*k].fulfilled && !found.moved[*k].is_empty() && found.designs[*k].is_some();
-    let chosen = (0..candidates.len()).find(fits);
-    run.folder.keep(folder::MOVES, document(found.record.clone(), run.provenance.clone(), &[])?);
-    let moves = Moves { found, chosen };
-    if let Some(design) = moves.design() {
+    };
+    let answer = MoveSearchAnswer::new(run.design, moves);
+    run.folder.keep(folder::MOVES, document(answer.clone(), run.provenance.clone(), &[])?);
+    if let Some(design) = run.found.equivalent() {
         run.folder.keep(folder::EQUIVALENT, design.to_toml());
     }
-    let explanation = match &moves.record().moved_legs {
-        Some(legs) => {
-            let legs: Vec<String> = legs.iter().map(ToString::to_string).collect();
-            format!("{}; the first has new legs {}", moves.found.record.explanation, legs.join(", "))
+    let explanation = match run.found.chosen() {
+        Some(chosen) => {
+            let legs: Vec<String> = new_legs(chosen).iter().map(ToString::to_string).collect();
+            format!("{}; the first has new legs {}", answer.explanation, legs.join(", "))
         }
-        None => moves.found.record.explanation.clone(),
+        None => answer.explanation.clone(),
     };
     run.done(StageWord::Moves, explanation);
-    Ok(Some(moves))
+    Ok(Some(answer))
 }
 
-/// The nearest octahedral platform with its error.
-fn nearest_platform(
-    run: &mut ExploreRun<'_>,
-    extension: f64,
-) -> Result<Option<(NearestDesigns, NearestErrorRecord)>, Failure> {
-    let options = nearest::options(run.design, extension);
-    let near = NearestDesigns::of(run.design, &options);
-    let answer = NearestAnswer::new(run.design, &options, near.as_ref());
+fn new_legs(platform: &MovedPlatform) -> Vec<usize> {
+    platform.new_legs().into_iter().map(leg_number).collect()
+}
+
+fn moves_found(found: &ExploredDesign, moves: &MoveSearchAnswer) -> MovesFoundRecord {
+    MovesFoundRecord {
+        outcome: moves.outcome,
+        moved_legs: found.chosen().map(new_legs),
+        det: found.chosen().map(|f| Number(f.map.determinant)),
+    }
+}
+
+/// The error of the nearest octahedral platform.
+fn nearest_platform(run: &mut ExploreRun<'_>) -> Result<Option<NearestErrorRecord>, Failure> {
+    let near = run.found.near.as_ref();
+    let answer = NearestAnswer::new(run.design, &run.found.limits, near);
     let error = answer.nearest.as_ref().map(NearestErrorRecord::from);
     run.done(StageWord::Nearest, answer.explanation.clone());
     run.folder.keep(folder::NEAREST, document(answer, run.provenance.clone(), &[])?);
-    let Some(found) = near.zip(error) else { return Ok(None) };
-    run.folder.keep(folder::NEAREST_OCTAHEDRAL, found.0.octahedral.to_toml());
-    run.folder.keep(folder::BESIDE, found.0.beside.to_toml());
-    Ok(Some(found))
+    if let Some(near) = near {
+        run.folder.keep(folder::NEAREST_OCTAHEDRAL, near.octahedral.to_toml());
+        run.folder.keep(folder::BESIDE, near.beside.to_toml());
+    }
+    Ok(error)
 }
 
 /// Whether the equivalent of the nearest octahedral platform meets the requirements of the design.
-fn requirements(run: &mut ExploreRun<'_>, near: Option<&NearestDesigns>) -> Result<Option<bool>, Failure> {
-    let Some(near) = near else { return Ok(None) };
-    let Some(answer) = AssessAnswer::of(&near.beside, run.seed) else {
+fn requirements(run: &mut ExploreRun<'_>) -> Result<Option<bool>, Failure> {
+    let Some(near) = &run.found.near else { return Ok(None) };
+    let Some(assessed) = &run.found.assessed else {
         run.done(StageWord::Assess, "the design has no requirements");
         return Ok(None);
     };
-    let answer = answer.with_role(DesignRoleWord::NearestEquivalent);
+    let answer = AssessAnswer::new(&near.beside, assessed).with_role(DesignRoleWord::NearestEquivalent);
     let met = answer.met;
     let text = format!("the equivalent of the nearest octahedral platform {}", answer.explanation);
     run.folder.keep(folder::ASSESS, document(answer, run.provenance.clone(), &[])?);
@@ -223,61 +179,36 @@ fn requirements(run: &mut ExploreRun<'_>, near: Option<&NearestDesigns>) -> Resu
     Ok(met)
 }
 
-/// The design compared with the equivalent found, else the nearest octahedral platform with its equivalent.
-fn compared(
-    run: &mut ExploreRun<'_>,
-    samples: usize,
-    options: &FkOptions,
-    moves: Option<&Moves>,
-    near: Option<&NearestDesigns>,
-) -> Result<Option<Verified>, Failure> {
-    let (a, b, who) = match (moves.and_then(Moves::design), near) {
-        (Some(new), _) => (run.design, new, "the design and the equivalent found"),
-        (None, Some(near)) => {
-            (&near.octahedral, &near.beside, "the nearest octahedral platform and its equivalent")
-        }
-        (None, None) => return Ok(None),
+/// The answer of `verify`.
+fn compared(run: &mut ExploreRun<'_>) -> Result<Option<VerifyAnswer>, Failure> {
+    let Some(compared) = &run.found.compared else { return Ok(None) };
+    let who = match run.found.equivalent() {
+        Some(_) => "the design and the equivalent found",
+        None => "the nearest octahedral platform and its equivalent",
     };
-    let verified = verification(a, b, samples, options, &run.provenance, &mut run.folder)?;
-    let word = verified.found.verdict.name().replace('_', " ");
-    run.done(StageWord::Verify, format!("{who}: {word}, {}", verified.record.explanation));
-    Ok(Some(verified))
+    let answer = verification(compared, &run.provenance, &mut run.folder)?;
+    let word = compared.found.verdict.name().replace('_', " ");
+    run.done(StageWord::Verify, format!("{who}: {word}, {}", answer.explanation));
+    Ok(Some(answer))
 }
 
-/// The answer to the whole: is there an equivalent platform without shared joints other than the design?
-fn judged(
-    families: &Components,
-    moves: Option<&Moves>,
-    verified: Option<&Verified>,
-) -> (ExploreVerdict, String, Exit) {
-    let undecided = ExploreVerdict::Compared(VerdictWord::Inconclusive);
-    let Some(moves) = moves else {
-        return if families.leg_rank.value < 6 {
-            (
-                ExploreVerdict::Compared(VerdictWord::Singular),
-                "the design is architecturally singular".into(),
-                Exit::No,
-            )
-        } else if families.doubts.is_empty() {
-            let text = "no leg can be replaced: no platform other than the design is equivalent to it";
-            (ExploreVerdict::None, text.into(), Exit::No)
-        } else {
-            (undecided, "no replaceable leg was found, but there may be some".into(), Exit::Inconclusive)
-        };
-    };
-    match (moves.chosen, verified, moves.found.record.outcome) {
-        (Some(_), Some(v), _) => (
-            ExploreVerdict::Compared(v.found.verdict.word()),
-            v.record.explanation.clone(),
-            exit_of(&v.found.verdict),
-        ),
-        (_, _, SearchWord::Violated) => {
-            (ExploreVerdict::Violated, moves.found.record.explanation.clone(), Exit::No)
+/// The verdict in a sentence.
+fn explanation(
+    found: &ExploredDesign,
+    moves: Option<&MoveSearchAnswer>,
+    verified: Option<&VerifyAnswer>,
+) -> String {
+    match (moves, found.chosen(), verified) {
+        (Some(_), Some(_), Some(verified)) => verified.explanation.clone(),
+        (Some(moves), ..) => moves.explanation.clone(),
+        (None, ..) => match found.verdict() {
+            ExploreVerdict::Compared(VerdictWord::Singular) => "the design is architecturally singular",
+            ExploreVerdict::None => {
+                "no leg can be replaced: no platform other than the design is equivalent to it"
+            }
+            _ => "no replaceable leg was found, but there may be some",
         }
-        (_, _, SearchWord::Impossible) => {
-            (ExploreVerdict::None, moves.found.record.explanation.clone(), Exit::No)
-        }
-        _ => (undecided, moves.found.record.explanation.clone(), Exit::Inconclusive),
+        .into(),
     }
 }
 

@@ -8,13 +8,13 @@ mod report;
 mod search;
 
 use std::fmt::Write as _;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use self::folder::Folder;
-use self::search::ExploreSearch;
 use super::build::drives;
 use super::build::round::render::RoundReport;
-use super::equivalents::r#move as relocation;
+use super::equivalents::r#move::{self as relocation, found};
 use super::report::page;
 use super::{export, fk as fk_command, optimize, verify as verify_command};
 use crate::app::cli::context::Context;
@@ -22,29 +22,28 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::{Answer, document};
-use crate::app::cli::poses;
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::app::cli::streams::output_is_terminal;
 use ::files::design::DriveTable;
 use ::files::export::{ExportFormat, PartLine};
-use ask::Design;
 use ask::equivalents::Original;
 use ask::exporting::octahedral_of_controllers;
-use ask::optimizing::{EXTENSION, RESERVE_PERCENT, with_default_reserve};
+use ask::optimizing::{EXTENSION, RESERVE_PERCENT};
 use ask::rounding::DesignOnHoles;
-use ask::{FreedomWord, OptimizeEvidence, SAMPLES};
-use fk::{self, FkOptions, FkSolutions, PoseCounting};
-use machine::manufacture::NoRounding;
-use machine::requirements::KeptSymmetry;
-use platform::manipulator::{LegLengths, Octahedral};
+use ask::{
+    ComparedDesigns, Design, ExploreJudgement, ExploreOptions, ExploreReport, ExploreVerdict, ExploredClass,
+    FreedomWord, NoExploration, NoOwnPoses, OptimizeEvidence, SAMPLES,
+};
+use fk::FkOptions;
+use platform::manipulator::Octahedral;
 use records::{
     AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
-    ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, LengthsOrigin,
-    OnHolesRecord, OptimizeAnswer, OptimizedRecord, PoseTotalsRecord, PriceRecord, ProvenanceRecord,
-    RoundAnswer, VerifyAnswer,
+    ExploreOctahedralAnswer, FamilyAnswer, FamilySizeRecord, FkRunRecord, OnHolesRecord, OptimizeAnswer,
+    OptimizeFiles, OptimizedRecord, PoseTotalsRecord, PriceRecord, ProvenanceRecord, RoundAnswer,
+    VerifyAnswer,
 };
-use synthesis::{Family, FamilyMember};
-use verify::{VerdictWord, Verification};
+use synthesis::FamilyMember;
+use verify::VerdictWord;
 
 /// Arguments of `explore`.
 #[derive(Debug, clap::Args)]
@@ -74,105 +73,35 @@ pub(crate) struct ExploreArgs {
     time_limit: Option<TimeLimit>,
 }
 
-/// The verification with its answer.
-#[derive(Debug)]
-struct Verified {
-    found: Verification,
-    record: VerifyAnswer,
-    /// The number of random sets of leg lengths.
-    samples: usize,
-}
-
-/// Poses for one set of leg lengths.
-#[derive(Debug)]
-struct ExplorePoses {
-    lengths: LegLengths,
-    from: LengthsOrigin,
-    solutions: FkSolutions,
-}
-
-/// All results.
+/// All results about an octahedral design.
 #[derive(Debug)]
 struct Results {
     design: Design,
-    /// What became of the default reserve; `None` where the design states one.
-    reserve: Option<DefaultReserve>,
-    family: Family,
-    search: ExploreSearch,
+    found: ExploredClass,
     /// The answer of `optimize`.
     answer: OptimizeAnswer,
-    /// The platform on the holes that the design states; `None` where it states none, or no platform was found.
-    holes: Option<Result<DesignOnHoles, NoRounding>>,
     /// What `assess` says of the platform found, on its holes where the design states them.
     assessment: Option<AssessAnswer>,
     /// Parts and files for other programs, where the design states holes.
     machine: Option<MachineFiles>,
-    /// Absent when no platform was found, or one with other triangles.
-    verified: Option<Verified>,
-    poses: ExplorePoses,
+    /// The answer of `verify`.
+    verified: Option<VerifyAnswer>,
     options: FkOptions,
+    samples: usize,
     extension: f64,
 }
 
 impl Results {
-    /// The platform to build: that on the holes, where the design states them.
-    fn built(&self) -> Option<&Design> {
-        match &self.holes {
-            Some(Ok(on)) => on.found.as_ref().map(|(_, design)| design),
-            Some(Err(_)) => None,
-            None => self.search.optimised(),
-        }
-    }
-
     /// What separate joints cost in the platform to build.
     fn price(&self) -> Option<PriceRecord> {
-        let found = self.design.separation(self.built()?, self.options.seed);
+        let found = self.design.separation(self.found.built()?, self.options.seed);
         Some(PriceRecord::new(&found, &self.design.units))
     }
 
-    /// What the platform found is judged by: its requirements first, then the comparison.
-    fn judgement(&self) -> JudgedBy<'_> {
-        match &self.holes {
-            Some(Err(why)) => return JudgedBy::NoHoles(why.to_string()),
-            Some(Ok(on)) => {
-                let Some((_, design)) = &on.found else { return JudgedBy::NoHoles(why_none(on)) };
-                return match on.met() {
-                    Some(true) => JudgedBy::OnHoles,
-                    Some(false) => JudgedBy::Violated(design),
-                    None => JudgedBy::Unproved(design),
-                };
-            }
-            None => (),
-        }
-        match (self.search.optimised(), self.search.met(), &self.verified) {
-            (None, ..) if self.search.exit() == Exit::No => JudgedBy::Infeasible,
-            (None, ..) => JudgedBy::NotFound,
-            (Some(design), Some(false), _) => JudgedBy::Violated(design),
-            (Some(design), None, _) => JudgedBy::Unproved(design),
-            (Some(_), Some(true), Some(v)) => JudgedBy::Compared(v),
-            (Some(_), Some(true), None) => JudgedBy::New,
-        }
-    }
-
-    /// The word for the whole run.
-    fn verdict(&self) -> ExploreVerdict {
-        match self.judgement() {
-            JudgedBy::Infeasible => ExploreVerdict::Infeasible,
-            JudgedBy::Violated(_) | JudgedBy::NoHoles(_) => ExploreVerdict::Violated,
-            JudgedBy::OnHoles => ExploreVerdict::OnHoles,
-            JudgedBy::New => ExploreVerdict::NewKinematics,
-            JudgedBy::Compared(v) => ExploreVerdict::Compared(v.found.verdict.word()),
-            JudgedBy::NotFound | JudgedBy::Unproved(_) => ExploreVerdict::Compared(VerdictWord::Inconclusive),
-        }
-    }
-
     fn exit(&self) -> Exit {
-        match self.judgement() {
-            JudgedBy::Infeasible | JudgedBy::Violated(_) | JudgedBy::NoHoles(_) => Exit::No,
-            JudgedBy::OnHoles => Exit::Yes,
-            JudgedBy::NotFound | JudgedBy::Unproved(_) => Exit::Inconclusive,
-            JudgedBy::Compared(v) => verify_command::exit_of(&v.found.verdict),
-            JudgedBy::New => self.search.exit(),
+        match self.found.verdict() {
+            ExploreVerdict::NewKinematics => optimize::exit_of(self.found.search.status),
+            verdict => exit_of(verdict),
         }
     }
 
@@ -192,67 +121,42 @@ impl Results {
                 sheet::answers::sentence,
             )
         };
-        let of_offsets = matches!(self.search.found.evidence, OptimizeEvidence::Offsets(_));
-        match (self.judgement(), of_offsets) {
-            (JudgedBy::Infeasible, true) => {
+        let of_offsets = matches!(self.found.search.evidence, OptimizeEvidence::Offsets(_));
+        match (self.found.judgement(), of_offsets) {
+            (ExploreJudgement::Infeasible, true) => {
                 "every branch of offsets is proved to violate the limits".into()
             }
-            (JudgedBy::Infeasible, false) => {
+            (ExploreJudgement::Infeasible, false) => {
                 format!(
                     "no start met the requirements together; the conflict stands in optimize.json{}",
                     self.what_resolves_it()
                 )
             }
-            (JudgedBy::NotFound, true) => {
+            (ExploreJudgement::NotFound, true) => {
                 "no offsets were found that keep the limits, but some branches are not proved empty".into()
             }
-            (JudgedBy::NotFound, false) => {
+            (ExploreJudgement::NotFound, false) => {
                 format!(
                     "no platform that meets the requirements was found, and no conflict{}",
                     self.what_resolves_it()
                 )
             }
-            (JudgedBy::Violated(design) | JudgedBy::Unproved(design), _) => judged(design),
-            (JudgedBy::OnHoles, _) => match (self.built(), &self.assessment) {
+            (ExploreJudgement::Violated(design) | ExploreJudgement::Unproved(design), _) => judged(design),
+            (ExploreJudgement::OnHoles, _) => match (self.found.built(), &self.assessment) {
                 (Some(_), Some(a)) => {
                     format!("{}; its joints are on the holes", sheet::answers::sentence(a))
                 }
                 _ => "all joints are on the holes; nothing is required besides".into(),
             },
-            (JudgedBy::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
-            (JudgedBy::Compared(v), _) => v.record.explanation.clone(),
-            (JudgedBy::New, _) => {
+            (ExploreJudgement::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
+            (ExploreJudgement::Compared(_), _) => {
+                self.verified.as_ref().map_or_else(String::new, |v| v.explanation.clone())
+            },
+            (ExploreJudgement::New, _) => {
                 "the platform meets its requirements; its triangles were chosen too, so that its kinematics are new".into()
             }
         }
     }
-}
-
-/// What decides about the platform found.
-enum JudgedBy<'a> {
-    /// There is none, and that is known.
-    Infeasible,
-    /// None was found.
-    NotFound,
-    /// It misses requirements.
-    Violated(&'a Design),
-    /// It is not proved to meet its requirements.
-    Unproved(&'a Design),
-    /// It meets its requirements, and this is how it compares with the design.
-    Compared(&'a Verified),
-    /// It meets its requirements, and is not meant to have the kinematics of the design.
-    New,
-    /// It meets its requirements with its joints on the holes that the design states.
-    OnHoles,
-    /// No platform has its joints on those holes, and why.
-    NoHoles(String),
-}
-
-/// What stands against both roundings.
-fn why_none(on: &DesignOnHoles) -> String {
-    let exact = on.rounding.exact.as_ref().err().map(ToString::to_string);
-    let nearest = on.rounding.nearest.as_ref().err().map(ToString::to_string);
-    exact.into_iter().chain(nearest).collect::<Vec<_>>().join("; ")
 }
 
 /// The machine in files for other programs.
@@ -290,11 +194,42 @@ fn round_record(on: &DesignOnHoles, assessment: Option<AssessAnswer>) -> RoundAn
     report.record()
 }
 
-/// Runs all stages; each file is written when its stage is finished.
+/// What the verdict means for the exit code.
+fn exit_of(verdict: ExploreVerdict) -> Exit {
+    match verdict {
+        ExploreVerdict::OnHoles | ExploreVerdict::NewKinematics => Exit::Yes,
+        ExploreVerdict::Infeasible | ExploreVerdict::None | ExploreVerdict::Violated => Exit::No,
+        ExploreVerdict::Compared(word) => match word {
+            VerdictWord::Equivalent => Exit::Yes,
+            VerdictWord::NotEquivalent | VerdictWord::Singular => Exit::No,
+            VerdictWord::Inconclusive => Exit::Inconclusive,
+        },
+    }
+}
+
+/// Why a design could not be explored.
+fn failed(why: NoExploration) -> Failure {
+    match why {
+        NoExploration::Search(why) => optimize::failed(why),
+        NoExploration::Moves(why) => found::failed(&why),
+        NoExploration::Comparison(why) => verify_command::failure_of(&why),
+        NoExploration::Poses(why) => no_poses(&why),
+        NoExploration::Holes(_) | NoExploration::Families(_) => Failure::internal(why.to_string()),
+    }
+}
+
+fn no_poses(why: &NoOwnPoses) -> Failure {
+    match why {
+        NoOwnPoses::NoLengths => Failure::refused("explore::no_lengths", why.to_string()),
+        NoOwnPoses::Fk(why) => fk_command::failure_of(why),
+    }
+}
+
+/// Goes through all stages and writes their files.
 pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, Failure> {
     args.extension.map_or(Ok(()), optimize::check_extension)?;
     let design = context.load(&args.design)?;
-    let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
+    if Octahedral::recognise(design.manipulator()).is_err() {
         let why = "no platform is searched under the requirements of a design that is not octahedral";
         context.no_effect("drives", why)?;
         context.no_effect("time_limit", why)?;
@@ -311,8 +246,8 @@ pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, F
             "explore::fixed",
             "the search for equivalents of a design that is not octahedral moves legs to places of its own",
         )?;
-        return general::run(args, &design, context);
-    };
+        return explored(args, design, None, context);
+    }
     let extension = args.extension.unwrap_or(EXTENSION);
     optimize::refuse_singular_home(&design, extension, "explore::singular_home")?;
     search::refuse_front(&design)?;
@@ -321,82 +256,82 @@ pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, F
         export::plain(&design)?; // units that are no lengths: now, and not after the search
     }
     let table = drives::asked(args.drives.as_deref(), &args.design, &design, context)?;
+    explored(args, design, table.as_ref(), context)
+}
+
+/// Explores and writes the files of the folder.
+fn explored(
+    args: &ExploreArgs,
+    design: Design,
+    table: Option<&DriveTable>,
+    context: &Context,
+) -> Result<Answer, Failure> {
     let mut folder = Folder::prepare(&args.output)?;
-    let mut progress = ProgressLine::new(context.quiet());
-    let seed = context.seed();
-    let provenance = context.provenance();
-    let options = FkOptions::new().seed(seed).pose_count(PoseCounting::Never);
-    let copy = with_table_beside(&design, args, &mut folder, seed)?;
+    let copy = with_table_beside(&design, args, &mut folder, context.seed())?;
     folder.keep(folder::ORIGINAL, copy.to_toml());
+    let mut progress = ProgressLine::new(context.quiet());
+    // only the search of an octahedral design can be ended
+    let octahedral = Octahedral::recognise(design.manipulator()).is_ok();
+    let interrupt = octahedral.then(|| Interrupt::watch_for(args.time_limit));
+    let options = ExploreOptions::new()
+        .seed(context.seed())
+        .samples(args.samples)
+        .extension(args.extension)
+        .drives(table)
+        .until(interrupt.as_ref().and_then(Interrupt::until))
+        .on_progress(|p| {
+            search::show(&mut progress, &p);
+            interrupt.as_ref().map_or(ControlFlow::Continue(()), Interrupt::flow)
+        });
+    match design.explore(options).map_err(failed)? {
+        ExploreReport::Class(found) => written(args, design, *found, folder, (&mut progress, context)),
+        ExploreReport::General(found) => {
+            general::written(args, &design, &found, folder, (&mut progress, context))
+        }
+    }
+}
 
-    progress.stage(1, "equivalence class");
-    let family = Family::octahedral();
-    let members: Vec<&FamilyMember> = family.members().iter().collect();
-    folder.keep(
-        folder::FAMILY,
-        document(
-            FamilyAnswer::new(
-                &design.name,
-                &Original::octahedral(&design, octahedral.clone()),
-                &family,
-                &members,
-            ),
-            provenance.clone(),
-            &[],
-        )?,
-    );
-
-    progress.stage(2, "the best platform");
-    let interrupt = Interrupt::watch_for(args.time_limit);
-    let careful = with_default_reserve(&design);
-    let asked = ExploreQuestion {
-        design: &design,
-        drives: table.as_ref(),
-        extension,
-        explains: true,
-        context,
-        interrupt: &interrupt,
-    };
-    let Careful { found, holes, reserve } = searched_carefully(&asked, careful.as_ref(), &mut progress)?;
-    let mut found = found.with_lengths_of(&design);
-    let answer = found.answer(&asked, &mut progress, &mut folder)?;
+/// The answer about an octahedral design, with its files.
+fn written(
+    args: &ExploreArgs,
+    design: Design,
+    found: ExploredClass,
+    mut folder: Folder,
+    (progress, context): (&mut ProgressLine, &Context),
+) -> Result<Answer, Failure> {
+    let provenance = context.provenance();
+    let members: Vec<&FamilyMember> = found.family.members().iter().collect();
+    let original = Original::octahedral(&design, found.octahedral.clone());
+    let family = FamilyAnswer::new(&design.name, &original, &found.family, &members);
+    folder.keep(folder::FAMILY, document(family, provenance.clone(), &[])?);
+    let answer = OptimizeAnswer::new(&found.search, &platforms_of_freedoms(&found, &mut folder));
     folder.keep(folder::OPTIMIZE, document(&answer, provenance.clone(), &[])?);
-    if let Some(new) = found.optimised() {
-        folder.keep(folder::OPTIMISED, new.to_toml());
+    match (found.search.design(), found.search.closest()) {
+        (Some(new), _) => _ = folder.keep(folder::OPTIMISED, new.to_toml()),
+        (None, Some(closest)) => _ = folder.keep(folder::CLOSEST, closest.to_toml()),
+        (None, None) => (),
     }
-    if let (None, Some(closest)) = (found.optimised(), found.closest()) {
-        folder.keep(folder::CLOSEST, closest.to_toml());
-    }
-    if let Some(picture) = figures::determinant(&design, &octahedral, &found) {
+    if let Some(picture) = figures::determinant(&design, &found.octahedral, &found.search) {
         folder.keep(folder::DETERMINANT, picture);
     }
+    let verified = found.compared.as_ref().map(|c| verification(c, &provenance, &mut folder)).transpose()?;
+    folder.keep(folder::FK, document(FkRunRecord::from(&found.poses), provenance.clone(), &[])?);
+    folder.keep(folder::MODES, figures::modes(&design, &found.poses));
 
-    progress.stage(3, "verification");
-    let verified = found
-        .optimised()
-        .filter(|_| found.keeps_class())
-        .map(|new| verification(&design, new, args.samples, &options, &provenance, &mut folder))
-        .transpose()?;
-
-    progress.stage(4, "forward kinematics");
-    let poses = solve(&design, &options)?;
-    folder.keep(folder::FK, document(fk_record(&poses), provenance, &[])?);
-    folder.keep(folder::MODES, figures::modes(&design, &poses));
-
-    let mut assessment = found.assessment();
+    let of_search = found.search.checked().and_then(|c| Some((&c.design, c.assessed.as_ref()?)));
+    let mut assessment = of_search.map(|(d, a)| AssessAnswer::new(d, a).with_role(DesignRoleWord::Optimised));
     let mut built = None;
-    if let Some(Ok(on)) = &holes {
+    if let Some(Ok(on)) = &found.holes {
         let new = on.found.as_ref().map(|(_, design)| design);
         assessment = new
             .zip(on.assessed.as_ref())
             .map(|(d, a)| AssessAnswer::new(d, a).with_role(DesignRoleWord::OnHoles));
         let rounding = round_record(on, assessment.clone());
-        folder.keep(folder::ROUND, document(rounding, context.provenance(), &[])?);
+        folder.keep(folder::ROUND, document(rounding, provenance.clone(), &[])?);
         if let Some(new) = new {
             folder.keep(folder::ROUNDED, new.to_toml());
             if let Some(found) = &assessment {
-                let text = document(found.clone(), context.provenance(), &[])?;
-                folder.keep(folder::ROUNDED_ASSESS, text);
+                folder.keep(folder::ROUNDED_ASSESS, document(found.clone(), provenance, &[])?);
             }
             built = Some(machine(new, &mut folder)?);
         }
@@ -405,25 +340,22 @@ pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, F
     progress.stage(5, "report");
     let results = Results {
         design,
-        reserve,
-        family,
-        search: found,
+        found,
         answer,
-        holes,
         assessment,
         machine: built,
         verified,
-        poses,
-        options,
-        extension,
+        options: FkOptions::new().seed(context.seed()),
+        samples: args.samples,
+        extension: args.extension.unwrap_or(EXTENSION),
     };
-    let short = headline(&record(&results, &folder));
-    folder.keep(folder::REPORT, report::markdown(&results, &short));
+    let mut record = record(&results);
+    folder.keep(folder::REPORT, report::markdown(&results, &headline(&record)));
     let files = folder.results();
     folder.keep(folder::PAGE, page(files, None));
     folder.finish()?;
-    let record = record(&results, &folder);
-    let lead = results.built().zip(record.assessment.as_ref());
+    record.paths = folder.paths().collect();
+    let lead = results.found.built().zip(record.assessment.as_ref());
     let lead = lead.map(|(design, a)| sheet::answers::requirements(&design.name, Some(a)));
     let notes = notes(&record);
     let lead = lead.map_or_else(|| notes.clone(), |lead| format!("{notes}{lead}"));
@@ -433,86 +365,16 @@ pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, F
     Ok(Answer::new(results.exit(), ExploreAnswer::Octahedral(Box::new(record)), text))
 }
 
-/// What is searched for, and how.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ExploreQuestion<'a> {
-    design: &'a Design,
-    /// The drives to choose from, where a table was given.
-    drives: Option<&'a DriveTable>,
-    extension: f64,
-    /// Whether a conflict is looked for where nothing meets the requirements.
-    explains: bool,
-    context: &'a Context,
-    interrupt: &'a Interrupt,
-}
-
-/// What became of the reserve that a design does not state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum DefaultReserve {
-    /// The platform found keeps it.
-    Kept,
-    /// No platform that keeps it was found: the answer is that of the search without it.
-    GivenUp,
-}
-
-/// A search with what became of the default reserve.
-struct Careful {
-    found: ExploreSearch,
-    holes: OnHoles,
-    reserve: Option<DefaultReserve>,
-}
-
-/// The search with the default reserve first, where the design states none, and without it where that leads to no
-/// platform.
-fn searched_carefully(
-    asked: &ExploreQuestion<'_>,
-    careful: Option<&Design>,
-    progress: &mut ProgressLine,
-) -> Result<Careful, Failure> {
-    let Some(careful) = careful else {
-        let (found, holes) = searched(asked, progress)?;
-        return Ok(Careful { found, holes, reserve: None });
-    };
-    let (found, holes) = searched(&ExploreQuestion { design: careful, explains: false, ..*asked }, progress)?;
-    let keeps = match &holes {
-        None => found.optimised().is_some() && found.met() == Some(true),
-        Some(_) => is_met(&holes),
-    };
-    if keeps || asked.interrupt.flow().is_break() {
-        return Ok(Careful { found, holes, reserve: Some(DefaultReserve::Kept) });
+/// Keeps the platforms that one more freedom each has led to.
+fn platforms_of_freedoms(found: &ExploredClass, folder: &mut Folder) -> OptimizeFiles {
+    let mut files = OptimizeFiles::default();
+    for opened in found.search.freedoms.iter().flatten() {
+        if let Some(design) = opened.design() {
+            let path = folder.keep(&optimize::opened_file(opened.freedom), design.to_toml());
+            files.freedoms.push((opened.freedom, path));
+        }
     }
-    let (found, holes) = searched(asked, progress)?;
-    Ok(Careful { found, holes, reserve: Some(DefaultReserve::GivenUp) })
-}
-
-/// A platform with its joints on the holes that the design states; `None` where it states none, or no platform was
-/// found.
-type OnHoles = Option<Result<DesignOnHoles, NoRounding>>;
-
-/// The best platform, and the same on the holes that the design states. Where a symmetry that nobody asked for leads to
-/// a platform on the holes that is not proved to meet its requirements, the search without it is the answer if it leads
-/// to one that is.
-fn searched(
-    asked: &ExploreQuestion<'_>,
-    progress: &mut ProgressLine,
-) -> Result<(ExploreSearch, OnHoles), Failure> {
-    let found = search::search(asked, progress)?;
-    let holes = found.on_holes(asked, progress)?;
-    let is_last = holes.is_none() || is_met(&holes) || asked.interrupt.flow().is_break();
-    if is_last || !found.keeps_symmetry_of_start() {
-        return Ok((found, holes));
-    }
-    let mut free = asked.design.clone();
-    free.search.symmetry = Some(KeptSymmetry::None);
-    let free = ExploreQuestion { design: &free, ..*asked };
-    let other = search::search(&free, progress)?;
-    let on_holes = other.on_holes(&free, progress)?;
-    Ok(if is_met(&on_holes) { (other.without_symmetry_of_start(), on_holes) } else { (found, holes) })
-}
-
-/// Whether a platform stands on the holes and is proved to meet its requirements.
-fn is_met(holes: &OnHoles) -> bool {
-    matches!(holes, Some(Ok(on)) if on.found.is_some() && on.met() == Some(true))
+    files
 }
 
 /// The lines below the verdict: the price of separate joints, what the platform rides on, and the reserve.
@@ -570,63 +432,43 @@ fn original(design: &Design, seed: u64) -> Design {
     copy
 }
 
+/// Keeps the answer of `verify`.
 fn verification(
-    design: &Design,
-    new: &Design,
-    samples: usize,
-    options: &FkOptions,
+    compared: &ComparedDesigns,
     provenance: &ProvenanceRecord,
     folder: &mut Folder,
-) -> Result<Verified, Failure> {
-    let (found, record) = verify_command::compared([design, new], samples, options)?;
-    folder.keep(folder::VERIFY, document(&record, provenance.clone(), &[])?);
-    Ok(Verified { found, record, samples })
-}
-
-/// The poses at the design's own lengths, or at those of its home pose.
-fn solve(design: &Design, options: &FkOptions) -> Result<ExplorePoses, Failure> {
-    let m = design.manipulator();
-    let home = || poses::home(design).lengths(m);
-    let (lengths, from) = if let Some(lengths) = design.lengths {
-        (lengths, LengthsOrigin::Design)
-    } else {
-        let none = || Failure::refused("explore::no_lengths", "the home pose has no finite leg lengths");
-        (home().ok_or_else(none)?, LengthsOrigin::Home)
-    };
-    let solutions =
-        fk::solver(None).solve(m, &lengths.squared(), options).map_err(|e| fk_command::failure_of(&e))?;
-    Ok(ExplorePoses { lengths, from, solutions })
+) -> Result<VerifyAnswer, Failure> {
+    let answer = VerifyAnswer::from(compared);
+    folder.keep(folder::VERIFY, document(&answer, provenance.clone(), &[])?);
+    Ok(answer)
 }
 
 /// The real poses of a design at its own lengths, or at those of its home pose.
 pub(super) fn modes_picture(design: &Design, options: &FkOptions) -> Result<String, Failure> {
-    Ok(figures::modes(design, &solve(design, options)?))
+    let poses = design.own_poses(options).map_err(|why| no_poses(&why))?;
+    Ok(figures::modes(design, &poses))
 }
 
-fn fk_record(poses: &ExplorePoses) -> FkRunRecord {
-    FkRunRecord { lengths: poses.lengths.get(), lengths_from: poses.from, solved: (&poses.solutions).into() }
-}
-
-/// What `--json` writes to standard output.
-fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
-    let c = r.family.counts();
+/// What `--json` writes to standard output; no file is written yet.
+fn record(r: &Results) -> ExploreOctahedralAnswer {
+    let (c, found) = (r.found.family.counts(), &r.found);
     ExploreOctahedralAnswer {
-        verdict: r.verdict(),
+        verdict: found.verdict(),
         explanation: r.explanation(),
         assessment: r.assessment.clone(),
         name: r.design.name.clone(),
-        paths: folder.paths().collect(),
+        paths: Vec::new(),
         family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
         optimize: OptimizedRecord::new(&r.answer),
         conic_programs: r.answer.search.conic_programs,
         price: r.price(),
-        reserve: r.reserve.map(|r| DefaultReserveRecord::new(RESERVE_PERCENT, r == DefaultReserve::Kept)),
-        verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
-        holes: r.holes.as_ref().map(OnHolesRecord::from),
+        reserve: found.keeps_reserve.map(|kept| DefaultReserveRecord::new(RESERVE_PERCENT, kept)),
+        verify: found.compared.as_ref().map(|c| ComparedRecord::from(&c.found)),
+        holes: found.holes.as_ref().map(OnHolesRecord::from),
         symmetry: r.answer.symmetry.clone(),
         drive_search: r.answer.drive_search.clone(),
         freedoms: r.answer.freedoms.clone(),
-        fk: PoseTotalsRecord::new(r.poses.from, &r.poses.solutions),
+        fk: PoseTotalsRecord::new(&found.poses),
     }
 }
 

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use super::{MachineFiles, Results, Verified, folder};
-use ask::OptimizeEvidence;
+use super::{MachineFiles, Results, folder};
 use ask::equivalents::Original;
 use ask::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
+use ask::{LengthsOrigin, OptimizeEvidence};
 use files::export::{PART_COLUMNS, PartLine};
 use fk::{Completeness, FkSolutions};
-use records::{AssessAnswer, DerivationRecord, LengthsOrigin};
+use records::{AssessAnswer, DerivationRecord, VerifyAnswer};
 use sheet::{Sheet, Table, answers, left, markdown_escaped as plain};
 use synthesis::Pattern;
 
@@ -19,19 +19,19 @@ pub(super) fn markdown(r: &Results, headline: &[String]) -> String {
         out,
         "# {}: {}\n\nEvidence: {}.\n",
         plain(&r.design.name),
-        r.verdict().name().replace('_', " "),
+        r.found.verdict().name().replace('_', " "),
         plain(&r.explanation())
     );
     for line in headline {
         let _ = writeln!(out, "{}.\n", sentence(line));
     }
-    if let (Some(_), Some(a)) = (r.built(), &r.assessment) {
+    if let (Some(_), Some(a)) = (r.found.built(), &r.assessment) {
         requirements(&mut out, a);
     }
     if let Some(machine) = &r.machine {
         parts(&mut out, machine);
     }
-    if let Some(Ok(on)) = &r.holes {
+    if let Some(Ok(on)) = &r.found.holes {
         holes(&mut out, on, &r.design.units);
     }
     inputs(&mut out, r);
@@ -56,7 +56,7 @@ fn inputs(out: &mut String, r: &Results) {
 }
 
 fn class(out: &mut String, r: &Results) {
-    let c = r.family.counts();
+    let c = r.found.family.counts();
     let _ = writeln!(
         out,
         "## Equivalence class\n\n{} patterns of legs equivalent to the octahedral one, {} up to symmetry ({} when base \
@@ -151,14 +151,14 @@ fn sentence(text: &str) -> String {
 }
 
 /// The verdict of the comparison, and the map that proves it.
-fn verification(out: &mut String, r: &Results, v: &Verified) {
+fn verification(out: &mut String, r: &Results, v: &VerifyAnswer) {
     let [design, optimised] = [r.design.name.as_str(), "the platform found"];
-    let verdict = answers::verify(&v.record, design, optimised).markdown();
-    let map = answers::leg_map(&v.record.map, design, optimised).markdown();
+    let verdict = answers::verify(v, design, optimised).markdown();
+    let map = answers::leg_map(&v.map, design, optimised).markdown();
     let _ = writeln!(
         out,
         "## Verdict: {}\n\n{verdict}\nDetails: [{1}]({1}).\n\n## Leg map\n\n{map}",
-        v.record.verdict.name().replace('_', " "),
+        v.verdict.name().replace('_', " "),
         folder::VERIFY
     );
     if let Some(steps) = derivation(r, v) {
@@ -168,18 +168,18 @@ fn verification(out: &mut String, r: &Results, v: &Verified) {
 }
 
 /// The steps to the platform without shared joints, where that is what was found.
-fn derivation(r: &Results, v: &Verified) -> Option<DerivationRecord> {
-    r.search.offsets()?;
+fn derivation(r: &Results, v: &VerifyAnswer) -> Option<DerivationRecord> {
+    r.found.search.offsets()?;
     let original = Original::of(&r.design)?;
-    let steps = original.derivation(&Pattern::new([false; 6], [1; 6])?, r.search.optimised()?)?;
-    Some(DerivationRecord::new(&steps, &original, v.record.clone()))
+    let steps = original.derivation(&Pattern::new([false; 6], [1; 6])?, r.found.search.design()?)?;
+    Some(DerivationRecord::new(&steps, &original, v.clone()))
 }
 
 /// What the search found.
 fn search(out: &mut String, r: &Results) {
     let found = answers::search(&r.design.name, &r.answer).markdown();
     let _ = writeln!(out, "## Search\n\n{found}\nDetails: [{0}]({0}).", folder::OPTIMIZE);
-    if r.search.offsets().is_some() || matches!(r.search.found.evidence, OptimizeEvidence::Offsets(_)) {
+    if r.found.search.offsets().is_some() || matches!(r.found.search.evidence, OptimizeEvidence::Offsets(_)) {
         let _ = writeln!(out, "\n![det A over the two offsets]({})", folder::DETERMINANT);
     }
     out.push('\n');
@@ -190,9 +190,9 @@ fn certified(s: &FkSolutions) -> usize {
 }
 
 fn poses(out: &mut String, r: &Results) {
-    let s = &r.poses.solutions;
-    let lengths: Vec<String> = r.poses.lengths.get().iter().map(ToString::to_string).collect();
-    let whose = match r.poses.from {
+    let s = &r.found.poses.solutions;
+    let lengths: Vec<String> = r.found.poses.lengths.get().iter().map(ToString::to_string).collect();
+    let whose = match r.found.poses.origin {
         LengthsOrigin::Design => "its own leg lengths",
         LengthsOrigin::Home => "the leg lengths of its home pose (the design gives none)",
     };
@@ -221,7 +221,7 @@ fn poses(out: &mut String, r: &Results) {
 }
 
 fn reproduction(out: &mut String, r: &Results) {
-    let (t, samples) = (r.options.tolerances, r.verified.as_ref().map_or(0, |v| v.samples));
+    let (t, samples) = (r.options.tolerances, r.verified.as_ref().map_or(0, |_| r.samples));
     let _ = writeln!(
         out,
         "## To repeat this\n\n    equipod explore {} -o DIR --seed {} --samples {} --extension {}\n\nequipod {}. Tolerances of forward \

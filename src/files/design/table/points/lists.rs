@@ -64,13 +64,13 @@ fn tokens(text: &str) -> Option<Vec<Token>> {
                 _ if c.is_whitespace() => {}
                 '#' | '%' => break,
                 '/' if rest.starts_with("//") => break,
-                '/' if rest.starts_with("/*") => match rest.split_once("*/") {
-                    Some((before, _)) => skip = before.len() + 2,
-                    None => {
+                '/' if rest.starts_with("/*") => {
+                    let Some((before, _)) = rest.split_once("*/") else {
                         in_comment = true;
                         break;
-                    }
-                },
+                    };
+                    skip = before.len() + 2;
+                }
                 '-' if at_start && rest[1..].starts_with(' ') => {
                     out.push(Token::Item);
                     rest = &rest[skip..];
@@ -413,7 +413,7 @@ pub(super) fn read(text: &str) -> Option<Result<PointTable, InvalidPointTable>> 
     let values = named_values(text)?;
     let mut guesses = Vec::new();
     let bodies = points(&values, &mut guesses).or_else(|| polar(&values, text, &mut guesses))?;
-    Some(bodies.map(|bodies| table(bodies, &values, text, guesses)))
+    Some(bodies.map(|bodies| table(&bodies, &values, text, guesses)))
 }
 
 fn points(
@@ -544,12 +544,12 @@ pub(super) fn angle_unit<'a>(
 const HEIGHTS: [&str; 7] = ["height", "h", "z0", "home", "homeheight", "h0", "zhome"];
 
 fn table(
-    bodies: [ListedBody; 2],
+    bodies: &[ListedBody; 2],
     values: &[(String, ListValue)],
     text: &str,
     mut guesses: Vec<String>,
 ) -> PointTable {
-    let [first, second] = &bodies;
+    let [first, second] = bodies;
     let order = bodies_of_words(&plain(&first.name), &plain(&second.name), &mut Vec::new());
     guesses.push(told_apart([&first.name, &second.name], order));
     let (base, platform) = if order[0] == Body::Base { (first, second) } else { (second, first) };
@@ -613,18 +613,16 @@ fn table(
 
 /// The unit that a comment names: `# anchors in mm`.
 fn unit_of_comment(text: &str) -> Option<&'static str> {
-    let comments = text.lines().filter_map(|line| {
+    let mut comments = text.lines().filter_map(|line| {
         let at = line.find(['#', '%']).or_else(|| line.find("//")).or_else(|| line.find("/*"))?;
         Some(line[at..].to_lowercase())
     });
-    comments
-        .filter_map(|comment| {
-            let words: Vec<&str> =
-                comment.split(|c: char| !c.is_alphabetic()).filter(|w| !w.is_empty()).collect();
-            let unit = |word: &str| {
-                UNITS.iter().find(|(spelling, _)| *spelling == word && word != "in").map(|(_, label)| *label)
-            };
-            words.windows(2).find_map(|pair| if pair[0] == "in" { unit(pair[1]) } else { None })
-        })
-        .next()
+    comments.find_map(|comment| {
+        let words: Vec<&str> =
+            comment.split(|c: char| !c.is_alphabetic()).filter(|w| !w.is_empty()).collect();
+        let unit = |word: &str| {
+            UNITS.iter().find(|(spelling, _)| *spelling == word && word != "in").map(|(_, label)| *label)
+        };
+        words.windows(2).find_map(|pair| if pair[0] == "in" { unit(pair[1]) } else { None })
+    })
 }

@@ -1,7 +1,5 @@
 //! `equipod equivalents components`: the families of replaceable legs of a design.
 
-mod figure;
-
 use std::path::PathBuf;
 
 use crate::app::cli::context::Context;
@@ -9,12 +7,10 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use ask::Design;
-use num::Purpose;
-use records::{ComponentRecord, ComponentsAnswer};
-use synthesis::components::{
-    Component, ComponentOptions, Components, ComponentsError, SampledLeg, components,
-};
+use ::files::plot::component_curves;
+use ask::{Design, NoPlanes, NoReplaceableLegs, ReplaceableLegs, ReplaceableOptions};
+use records::ComponentsAnswer;
+use synthesis::components::{ComponentOptions, ComponentsError};
 
 /// Arguments of `equivalents components`.
 #[derive(Debug, clap::Args)]
@@ -38,16 +34,20 @@ pub(crate) struct EquivalentsComponentsArgs {
     tolerance: f64,
 }
 
-fn search(design: &Design, options: ComponentOptions) -> Result<Components, Failure> {
-    components(design.manipulator(), options).map_err(|e| match e {
-        ComponentsError::Tolerance(_) => Failure::refused("components::bad_tolerance", e.to_string()),
-        _ => Failure::internal(e.to_string()),
+fn search(design: &Design, options: &ReplaceableOptions) -> Result<ReplaceableLegs, Failure> {
+    design.replaceable_legs(options).map_err(|why| match why {
+        NoReplaceableLegs::Search(ComponentsError::Tolerance(_)) => {
+            Failure::refused("components::bad_tolerance", why.to_string())
+        }
+        NoReplaceableLegs::Family { .. } => Failure::refused("components::no_such_family", why.to_string()),
+        _ => Failure::internal(why.to_string()),
     })
 }
 
-fn picture(design: &Design, found: &Components, pair: Option<usize>, seed: u64) -> Result<String, Failure> {
-    figure::picture(design, found, pair.map(|k| k.wrapping_sub(1)), seed)
-        .ok_or_else(|| Failure::refused("components::no_planes", figure::refusal(found)))
+fn picture(design: &Design, found: &ReplaceableLegs, pair: Option<usize>) -> Result<String, Failure> {
+    let curves = found.curves(design, pair.map(|k| k.wrapping_sub(1)));
+    let failure = |why: NoPlanes| Failure::refused("components::no_planes", why.to_string());
+    curves.map(|figure| component_curves(&figure)).map_err(failure)
 }
 
 /// The curves of a design, of all pairs of planes or of one, counted from 1.
@@ -57,51 +57,25 @@ pub(in crate::app::cli::commands) fn drawing(
     tolerance: f64,
     seed: u64,
 ) -> Result<String, Failure> {
-    picture(design, &search(design, ComponentOptions { tolerance, seed })?, pair, seed)
+    picture(design, &search(design, &ReplaceableOptions::all(ComponentOptions { tolerance, seed }))?, pair)
 }
 
 /// Lists the families.
 pub(crate) fn run(args: &EquivalentsComponentsArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
-    let found = search(&design, options)?;
-    let count = found.components.len();
-    if let Some(k) = args.family.filter(|k| *k == 0 || *k > count) {
-        let message = format!("{} has {count} families, there is no number {k}", design.name);
-        return Err(Failure::refused("components::no_such_family", message));
-    }
+    let options = ReplaceableOptions {
+        search: ComponentOptions { tolerance: args.tolerance, seed: context.seed() },
+        family: args.family.map(|k| k.wrapping_sub(1)),
+        samples: args.samples,
+    };
+    let legs = search(&design, &options)?;
     if let Some(path) = &args.svg {
         let failure =
             |f: Failure| f.with_help("leave out --svg: the picture shows two planes with their curves");
-        files::write_text(path, &picture(&design, &found, args.pair, context.seed()).map_err(failure)?)?;
+        files::write_text(path, &picture(&design, &legs, args.pair).map_err(failure)?)?;
     }
-    let wanted: Vec<usize> =
-        (0..count).filter(|k| args.family.is_none_or(|wanted| wanted == k + 1)).collect();
-    let mut samples = Vec::new();
-    for k in &wanted {
-        samples.push(draw(&found, &found.components[*k], args.samples, context.seed(), *k)?);
-    }
-    let list = wanted.iter().zip(&samples);
-    let list = list.map(|(k, s)| ComponentRecord::new(*k, &found.components[*k], s)).collect();
-    let answer = ComponentsAnswer::new(&design.name, options.tolerance, &found, list);
-    let exit = if found.doubts.is_empty() { Exit::Yes } else { Exit::Inconclusive };
+    let answer = ComponentsAnswer::new(&design.name, &legs);
+    let exit = if legs.found.doubts.is_empty() { Exit::Yes } else { Exit::Inconclusive };
     let sheet = sheet::answers::components(&answer);
     Ok(Answer::new(exit, answer, sheet))
-}
-
-/// Family `k` draws from a stream of its own: `--family` does not change what is drawn.
-fn draw(
-    found: &Components,
-    component: &Component,
-    count: u64,
-    seed: u64,
-    k: usize,
-) -> Result<Vec<SampledLeg>, Failure> {
-    let mut rng = Purpose::SAMPLED_LEGS.item(seed, k as u64);
-    let mut out = Vec::new();
-    for _ in 0..count {
-        let leg = component.sample(&found.span, &mut rng);
-        out.extend(leg.map_err(|e| Failure::internal(e.to_string()))?);
-    }
-    Ok(out)
 }

@@ -5,7 +5,7 @@ pub(in crate::app::cli::commands) mod found;
 mod naming;
 mod render;
 mod request;
-pub(in crate::app::cli::commands) mod wishes;
+mod wishes;
 
 use std::path::PathBuf;
 
@@ -15,12 +15,12 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use ::files::design::Share;
-use ask::Design;
-use naming::{Meant, family_names, list_families, moved_design, resolve};
+use ask::{Design, NoReplaceableLegs, ReplaceableOptions};
+use naming::{Meant, internal, list_families, resolve};
 use platform::manipulator::Body;
 use records::MoveAnswer;
 use request::{MoveRequest, requests};
-use synthesis::components::{ComponentOptions, Components, ComponentsError, components};
+use synthesis::components::{ComponentOptions, Components, ComponentsError};
 use synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
 use synthesis::{LegMapOutcome, LegMapTolerances, Relation};
 use verify::judge;
@@ -161,9 +161,12 @@ const STAYS: f64 = 1e-9;
 
 /// The families of a design.
 fn families(design: &Design, options: ComponentOptions) -> Result<Components, Failure> {
-    components(design.manipulator(), options).map_err(|e| match e {
-        ComponentsError::Tolerance(_) => Failure::refused("move::bad_tolerance", e.to_string()),
-        _ => Failure::internal(e.to_string()),
+    let legs = design.replaceable_legs(&ReplaceableOptions::all(options));
+    legs.map(|l| l.found).map_err(|why| match why {
+        NoReplaceableLegs::Search(ComponentsError::Tolerance(_)) => {
+            Failure::refused("move::bad_tolerance", why.to_string())
+        }
+        _ => Failure::internal(why.to_string()),
     })
 }
 
@@ -217,10 +220,11 @@ fn one_step(
     let mut names = Vec::new();
     for step in &moves {
         let type_name = found.components[step.family].type_name();
-        names.push((type_name, family_names(current, &found, step.family)?));
+        let name = current.family_name(&found, step.family).map_err(|e| internal(&e))?;
+        names.push((type_name, name));
     }
     let shares: Vec<Share> = wanted.iter().flat_map(|r| r.parameters.clone()).collect();
-    let design = moved_design(current, &relocation.assembled, &shares);
+    let design = current.with_legs_of(&relocation.assembled, &shares);
     if let Some(new) = &design {
         relocation.map = judged(current, new)?;
     }

@@ -1,17 +1,15 @@
-//! Names: of families by the joints that span them, of joints that come apart.
+//! Families by the names of the joints that span them.
 
 use nalgebra::Point3;
 
 use super::request::NamedFamily;
 use crate::app::cli::failure::Failure;
-use ::files::design::{DesignModel, Origin, Share};
 use ask::Design;
 use num::linalg::LinalgError;
-use platform::manipulator::Body;
 use synthesis::components::{Components, Parametrisation};
-use synthesis::relocate::{Assembled, JointOrigin, counted_from, family_between, spanning_joints};
+use synthesis::relocate::{counted_from, family_between};
 
-fn internal(e: &LinalgError) -> Failure {
+pub(super) fn internal(e: &LinalgError) -> Failure {
     Failure::internal(e.to_string())
 }
 
@@ -101,20 +99,6 @@ fn points(text: &str, joints: &[(&str, Point3<f64>)]) -> Option<Vec<Point3<f64>>
     None
 }
 
-/// `P1:P4-P5`, when joints of the platform span the family.
-pub(super) fn family_names(
-    design: &Design,
-    found: &Components,
-    family: usize,
-) -> Result<Option<String>, Failure> {
-    let joints = spanning_joints(design.manipulator(), found, family).map_err(|e| internal(&e))?;
-    let join = |list: &[usize], names: &[String]| {
-        list.iter().map(|k| names[*k].as_str()).collect::<Vec<_>>().join("-")
-    };
-    Ok(joints
-        .map(|[a, b]| format!("{}:{}", join(&a, design.base_names()), join(&b, design.platform_names()))))
-}
-
 /// What can be asked for, in one line.
 pub(super) fn list_families(design: &Design, found: &Components) -> Result<String, Failure> {
     if found.components.is_empty() {
@@ -123,68 +107,12 @@ pub(super) fn list_families(design: &Design, found: &Components) -> Result<Strin
     let mut entries = Vec::new();
     for (k, c) in found.components.iter().enumerate() {
         let legs: Vec<String> = c.support.iter().map(|l| (l.get() + 1).to_string()).collect();
-        let name = family_names(design, found, k)?.map_or(String::new(), |n| format!(" {n}"));
+        let name = design
+            .family_name(found, k)
+            .map_err(|e| internal(&e))?
+            .map_or(String::new(), |n| format!(" {n}"));
         let (dimension, legs) = (c.dimension, legs.join(" "));
         entries.push(format!("{}{name} ({}, {dimension} parameter(s), legs {legs})", k + 1, c.type_name()));
     }
     Ok(format!("families, with the legs they can replace: {}", entries.join("; ")))
-}
-
-/// The design with the joints of the new platform: one that all legs left keeps its name where the first of them goes,
-/// the ends of others that left get the name with a letter. `None` when the legs make no platform.
-///
-/// A new joint that is at one of the `shares` of the way between two joints that stay is constructed there: then it is
-/// exact.
-pub(super) fn moved_design(design: &Design, new: &Assembled, shares: &[Share]) -> Option<Design> {
-    let platform = new.platform.clone().ok()?;
-    let points = [platform.base_joints().to_vec(), platform.platform_joints().to_vec()];
-    let mut taken: Vec<String> = design.base_names().iter().chain(design.platform_names()).cloned().collect();
-    let mut names = |origins: &[JointOrigin], old: &[String]| -> Vec<String> {
-        origins
-            .iter()
-            .map(|o| match o {
-                JointOrigin::Kept(k) | JointOrigin::Displaced(k) => old[*k].clone(),
-                JointOrigin::Split(k) => fresh(&old[*k], &mut taken),
-            })
-            .collect()
-    };
-    let base = names(&new.base, design.base_names());
-    let on_platform = names(&new.platform_joints, design.platform_names());
-    let built = DesignModel::new(design.name.clone(), design.units.clone(), platform)
-        .with_joint_names(base, on_platform);
-    let limit = ON_LINE * design.manipulator().size();
-    let origins = |body: Body, of: &[JointOrigin]| -> Vec<Origin> {
-        let old = design.manipulator().joints(body);
-        let kept: Vec<usize> = of.iter().filter_map(JointOrigin::kept).collect();
-        // on a line of joints that are still there, else of joints that were
-        let all: Vec<usize> = (0..old.len()).collect();
-        let within = |list: &[usize]| -> Vec<[usize; 2]> {
-            list.iter().flat_map(|i| list.iter().filter(move |j| *j != i).map(move |j| [*i, *j])).collect()
-        };
-        let lines = [within(&kept), within(&all)].concat();
-        let between = |x: &Point3<f64>| {
-            let at = |[i, j]: [usize; 2], t: f64| old[i] + (old[j] - old[i]) * t;
-            let places = lines.iter().flat_map(|ends| shares.iter().map(move |t| (*ends, t)));
-            places.into_iter().find(|(ends, t)| (at(*ends, t.nearest()) - x).norm() <= limit)
-        };
-        let origin = |(k, o): (usize, &JointOrigin)| match o {
-            JointOrigin::Kept(k) => Origin::Kept(*k),
-            JointOrigin::Displaced(_) | JointOrigin::Split(_) => between(&points[body.index()][k])
-                .map_or(Origin::New, |(ends, t)| Origin::Between(ends, Box::new(t.clone()))),
-        };
-        of.iter().enumerate().map(origin).collect()
-    };
-    let kept = [origins(Body::Base, &new.base), origins(Body::Platform, &new.platform_joints)];
-    built.ok().map(|d| d.with_tables_of(design).constructed_from(design, [&kept[0], &kept[1]]).into())
-}
-
-/// A joint is on a line of others within this share of the size.
-const ON_LINE: f64 = 1e-12;
-
-fn fresh(name: &str, taken: &mut Vec<String>) -> String {
-    let letters = ('a'..='z').map(|c| format!("{name}{c}"));
-    let numbers = (1..).map(|k| format!("{name}_{k}"));
-    let new = letters.chain(numbers).find(|n| !taken.contains(n)).unwrap_or_default();
-    taken.push(new.clone());
-    new
 }

@@ -4,10 +4,9 @@ use nalgebra::Point3;
 
 use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers;
-use crate::app::cli::poses;
-use ask::Design;
-use platform::manipulator::{Body, LegIndex, inverse_condition, jacobian};
-use synthesis::relocate::search::{Hole, MoveSearchOptions, Wishes};
+use ask::{Design, MoveWishes};
+use platform::manipulator::{Body, LegIndex};
+use synthesis::relocate::search::{Hole, MoveSearchOptions};
 
 /// What an equivalent platform is to fulfil.
 #[derive(Debug, Default, clap::Args)]
@@ -45,13 +44,6 @@ pub(in crate::app::cli::commands) struct WishArgs {
     count: Option<usize>,
 }
 
-/// Share of the size that two joints keep apart when nothing else is said.
-const SPACING_SHARE: f64 = 0.01;
-/// Share of the design's own inverse condition number that is asked for.
-const CONDITIONING_SHARE: f64 = 0.1;
-/// Default of `--reach`.
-const REACH: f64 = 1.5;
-
 impl WishArgs {
     /// The first wish that is there.
     pub(super) fn first_given(&self) -> Option<&'static str> {
@@ -69,13 +61,8 @@ impl WishArgs {
         given.into_iter().find(|(is, _)| *is).map(|(_, name)| name)
     }
 
-    /// The one wish that no joint is shared, everything else by default.
-    pub(in crate::app::cli::commands) fn no_shared_joints() -> Self {
-        Self { no_shared_joints: true, ..Self::default() }
-    }
-
-    /// The wishes, with defaults from the design.
-    pub(in crate::app::cli::commands) fn wishes(&self, design: &Design) -> Result<Wishes, Failure> {
+    /// The wishes.
+    pub(in crate::app::cli::commands) fn wishes(&self, design: &Design) -> Result<MoveWishes, Failure> {
         let asked =
             self.no_shared_joints || self.no_crossing || !self.hole.is_empty() || !self.joint.is_empty();
         if !asked && self.spacing.is_none() && self.conditioning.is_none() && self.reach.is_none() {
@@ -83,16 +70,6 @@ impl WishArgs {
                 "--no-shared-joints, --no-crossing, --hole, --joint, --spacing, --conditioning, --reach",
             ));
         }
-        let m = design.manipulator();
-        let (size, hardware) = (m.size(), design.hardware);
-        let home = poses::home(design);
-        let poses = if self.workspace { design.workspace.sample(&home) } else { vec![home] };
-        let length = design.characteristic_length();
-        let own = poses.iter().map(|p| inverse_condition(&jacobian(m, p, length))).fold(f64::MAX, f64::min);
-        let housings = Body::BOTH.into_iter().flat_map(|body| (0..6).map(move |leg| (body, leg)));
-        let widths =
-            housings.filter_map(|(body, leg)| hardware.housing(body, leg)).map(|h| h.greatest_width());
-        let spacing = self.spacing.or(widths.reduce(f64::max)).or(design.optimize.min_joint_distance);
         let mut holes = Vec::new();
         for text in &self.hole {
             holes.push(hole(text)?);
@@ -100,17 +77,15 @@ impl WishArgs {
         for text in &self.joint {
             holes.push(joint(text, design)?);
         }
-        Ok(Wishes {
+        Ok(MoveWishes {
             no_shared_joints: self.no_shared_joints,
-            spacing: spacing.unwrap_or(SPACING_SHARE * size),
-            clearance: self
-                .no_crossing
-                .then(|| self.clearance.or(hardware.leg_body.map(|b| b.diameter)).unwrap_or(0.0)),
+            no_crossing: self.no_crossing,
+            clearance: self.clearance,
             holes,
-            conditioning: self.conditioning.unwrap_or(CONDITIONING_SHARE * own),
-            reach: self.reach.unwrap_or(REACH) * size,
-            poses,
-            characteristic_length: length,
+            spacing: self.spacing,
+            conditioning: self.conditioning,
+            reach: self.reach,
+            workspace: self.workspace,
         })
     }
 

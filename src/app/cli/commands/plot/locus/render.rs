@@ -1,36 +1,28 @@
-//! Picture, table and JSON of a locus.
+//! Picture and table of a locus.
 
 use std::fmt::Write as _;
 
-use num_complex::Complex64;
+use ask::{LocusReport, LocusWord};
+use files::plot::{LocusFigure, locus_chart};
+use records::{LocusAnswer, leg_number};
 
-use super::{Row, RowPoses, VirtualLeg};
-use files::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
-use fk::{FkRoot, Reality};
-use records::{LocusAnswer, LocusRowRecord, LocusValueRecord, LocusWord, Number};
-
-pub(super) fn picture(
-    name: &str,
-    leg: u8,
-    between: &VirtualLeg,
-    rows: &[Row],
-    steps: &[LocusStep],
-) -> String {
-    let without = rows.iter().filter(|r| r.status() != LocusWord::Isolated).count();
-    let mut note = format!("{} lengths", rows.len());
+pub(super) fn picture(name: &str, found: &LocusReport) -> String {
+    let (points, [base, platform]) = (&found.points, &found.between.names);
+    let without = points.iter().filter(|p| p.word() != LocusWord::Isolated).count();
+    let mut note = format!("{} lengths", points.len());
     if without > 0 {
         let _ = write!(note, ", {without} of them without isolated poses");
     }
-    let incomplete = rows.iter().filter(|r| !r.complete()).count();
+    let incomplete = points.iter().filter(|p| !p.is_complete()).count();
     if incomplete > 0 {
         let _ = write!(note, ", {incomplete} of them perhaps with poses missing");
     }
     locus_chart(&LocusFigure {
-        title: format!("{name}: squared distance of {} and {} at all poses", between.base, between.platform),
+        title: format!("{name}: squared distance of {base} and {platform} at all poses"),
         note,
-        quantity: format!("|{} {}|\u{b2}", between.base, between.platform),
-        parameter: format!("length of leg {leg}"),
-        steps: steps.to_vec(),
+        quantity: format!("|{base} {platform}|\u{b2}"),
+        parameter: format!("length of leg {}", leg_number(found.leg)),
+        steps: found.steps(),
     })
 }
 
@@ -48,36 +40,4 @@ pub(super) fn csv(answer: &LocusAnswer) -> String {
         }
     }
     out
-}
-
-fn values(found: &RowPoses) -> Vec<LocusValueRecord> {
-    let value = |(root, v): (&FkRoot, &Complex64)| LocusValueRecord {
-        re: Number(v.re),
-        im: Number(v.im),
-        real: match root.reality {
-            Reality::Real => Some(true),
-            Reality::NonReal => Some(false),
-            Reality::Undecided => None,
-        },
-        certified: root.certified(),
-        multiplicity: root.multiplicity,
-    };
-    found.solutions.roots.iter().zip(&found.values).map(value).collect()
-}
-
-pub(super) fn record(leg: u8, between: &VirtualLeg, rows: &[Row], steps: &[LocusStep]) -> LocusAnswer {
-    let row = |(step, row): (usize, &Row)| LocusRowRecord {
-        step,
-        length: Number(row.length),
-        status: row.status(),
-        all_paths_accounted: row.complete(),
-        method: row.found.as_ref().map(|f| f.solutions.method),
-        values: row.found.as_ref().map_or_else(Vec::new, values),
-    };
-    LocusAnswer {
-        leg,
-        between: [between.base.clone(), between.platform.clone()],
-        rows: rows.iter().enumerate().map(row).collect(),
-        meetings: locus_meetings(steps),
-    }
 }

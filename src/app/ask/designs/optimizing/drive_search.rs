@@ -264,7 +264,7 @@ mod tests {
     }
 
     fn bench(limits: &str) -> Design {
-        let text = include_str!("../../../../designs/presets/bench-l16.toml");
+        let text = include_str!("../../../../../designs/presets/bench-l16.toml");
         parse(&format!("{text}\n{limits}"), Format::Toml).unwrap().0
     }
 

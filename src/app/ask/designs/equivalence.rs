@@ -129,6 +129,27 @@ pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result
     Ok(found)
 }
 
+/// Two designs compared, with the sample poses.
+#[derive(Debug)]
+pub struct ComparedDesigns {
+    /// The comparison.
+    pub found: Verification,
+    /// The poses of the first design.
+    pub plan: SamplePlan,
+}
+
+impl ComparedDesigns {
+    /// Two designs in the frames that they are given in, compared at the lengths of so many sample poses of the first.
+    ///
+    /// # Errors
+    /// Those of the comparison.
+    pub fn of([a, b]: [&Design; 2], samples: usize, options: &FkOptions) -> Result<Self, VerifyError> {
+        let plan = sample_plan(a, samples, options.seed);
+        let found = verify::verify(a.manipulator(), b.manipulator(), &plan, options)?;
+        Ok(Self { found, plan })
+    }
+}
+
 /// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none:
 /// decided in exact arithmetic on the joints as the designs say them, with the level of the proof.
 ///

@@ -206,7 +206,7 @@ impl AssessReport {
     }
 
     /// The requirements with this answer, singularity among them.
-    fn names(&self, wanted: Option<bool>) -> String {
+    pub(super) fn names(&self, wanted: Option<bool>) -> String {
         let mut names = self.kinds(|b| b.verdict.is_met(), wanted);
         names.extend((self.regularity.is_regular() == wanted).then_some("singularity"));
         names.join(", ")

@@ -1,0 +1,292 @@
+//! All about a design: the best platform of its class, or an equivalent platform of a design that is not octahedral.
+
+mod general;
+mod octahedral;
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use thiserror::Error as ThisError;
+
+pub use self::general::{ExploredDesign, NEAREST_EXTENSION, nearest_options};
+pub use self::octahedral::{ExploreJudgement, ExploredClass};
+use crate::optimizing::EXTENSION;
+use crate::{Design, Error, NoReplaceableLegs, OptimizeOptions, OptimizeProgress, SAMPLES};
+use files::design::DriveTable;
+use fk::{FkError, FkOptions, FkSolutions, PoseCounting};
+use num::Cancel;
+use platform::manipulator::{LegLengths, Octahedral};
+use synthesis::relocate::search::SearchError;
+use verify::{VerdictWord, VerifyError};
+
+/// How far the exploration is.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum ExploreProgress {
+    /// A stage begins: its number, from 1, and its name.
+    Stage(usize, &'static str),
+    /// Of the search for the best platform, and of the search for one on holes.
+    Search(OptimizeProgress),
+    /// A search has ended, and another one may begin.
+    Searched,
+}
+
+type OnProgress<'a> = Box<dyn FnMut(ExploreProgress) -> ControlFlow<()> + 'a>;
+
+/// Options of [`Design::explore`].
+pub struct ExploreOptions<'a> {
+    seed: u64,
+    samples: usize,
+    extension: Option<f64>,
+    drives: Option<&'a DriveTable>,
+    until: Option<Instant>,
+    cancel: Cancel,
+    on_progress: Option<OnProgress<'a>>,
+}
+
+impl std::fmt::Debug for ExploreOptions<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ExploreOptions")
+            .field("seed", &self.seed)
+            .field("samples", &self.samples)
+            .field("extension", &self.extension)
+            .field("drives", &self.drives.map(|table| table.drives.len()))
+            .field("until", &self.until)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Default for ExploreOptions<'_> {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            samples: SAMPLES,
+            extension: None,
+            drives: None,
+            until: None,
+            cancel: Cancel::new(),
+            on_progress: None,
+        }
+    }
+}
+
+impl<'a> ExploreOptions<'a> {
+    /// The defaults: seed 1, ten samples of the comparison.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Seed of all random numbers.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// How many sets of lengths two designs are solved and compared at.
+    #[must_use]
+    pub fn samples(mut self, samples: usize) -> Self {
+        self.samples = samples;
+        self
+    }
+
+    /// How far a joint may stand beyond a corner, on the extension of its side, in lengths of the side; 0.3 when
+    /// absent, and 1 for the nearest octahedral platform of a design that is not octahedral.
+    #[must_use]
+    pub fn extension(mut self, extension: Option<f64>) -> Self {
+        self.extension = extension;
+        self
+    }
+
+    /// The drives to choose from, for octahedral designs ([`OptimizeOptions::drives`]).
+    #[must_use]
+    pub fn drives(mut self, table: Option<&'a DriveTable>) -> Self {
+        self.drives = table;
+        self
+    }
+
+    /// When the judging ends of what a search found that is ended otherwise.
+    #[must_use]
+    pub fn until(mut self, until: Option<Instant>) -> Self {
+        self.until = until;
+        self
+    }
+
+    /// What ends the search for the best platform before its time; the answer has the best until then.
+    #[must_use]
+    pub fn cancel(mut self, cancel: &Cancel) -> Self {
+        self.cancel = cancel.clone();
+        self
+    }
+
+    /// Is told how far the exploration is, and may end the search for the best platform.
+    #[must_use]
+    pub fn on_progress(mut self, look: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) -> Self {
+        self.on_progress = Some(Box::new(look));
+        self
+    }
+
+    fn flow(&mut self, progress: ExploreProgress) -> ControlFlow<()> {
+        if self.cancel.is_cancelled() {
+            return ControlFlow::Break(());
+        }
+        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |look| look(progress))
+    }
+
+    /// All stages are gone through: only searches can be ended.
+    fn stage(&mut self, number: usize, name: &'static str) {
+        let _ = self.flow(ExploreProgress::Stage(number, name));
+    }
+
+    /// Options of forward kinematics.
+    fn fk(&self) -> FkOptions {
+        FkOptions::new().seed(self.seed).pose_count(PoseCounting::Never)
+    }
+
+    /// Options of the search for the best platform.
+    fn optimize(&mut self, explains: bool) -> OptimizeOptions<'_> {
+        let Self { seed, extension, drives, until, cancel, on_progress, .. } = self;
+        let options = OptimizeOptions::new()
+            .seed(*seed)
+            .extension(extension.unwrap_or(EXTENSION))
+            .explains(explains)
+            .until(*until)
+            .cancel(cancel)
+            .on_progress(|p| match on_progress {
+                Some(look) => look(ExploreProgress::Search(p)),
+                None => ControlFlow::Continue(()),
+            });
+        match drives {
+            Some(table) => options.drives(table),
+            None => options,
+        }
+    }
+}
+
+/// Why a design is not explored.
+#[derive(Debug, ThisError)]
+pub enum NoExploration {
+    /// The best platform cannot be searched.
+    #[error(transparent)]
+    Search(Error),
+    /// Its joints cannot be put on holes.
+    #[error(transparent)]
+    Holes(Error),
+    /// The families of replaceable legs cannot be found.
+    #[error(transparent)]
+    Families(#[from] NoReplaceableLegs),
+    /// Equivalent platforms cannot be searched.
+    #[error(transparent)]
+    Moves(#[from] SearchError),
+    /// Two designs cannot be compared.
+    #[error(transparent)]
+    Comparison(#[from] VerifyError),
+    /// There are no poses.
+    #[error(transparent)]
+    Poses(#[from] NoOwnPoses),
+}
+
+/// All about a design.
+#[derive(Debug)]
+pub enum ExploreReport {
+    /// An octahedral design.
+    Class(Box<ExploredClass>),
+    /// Another design.
+    General(Box<ExploredDesign>),
+}
+
+/// The verdict of `explore`: that of the comparison, or why there was none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ExploreVerdict {
+    /// Every branch of offsets is proved to violate the limits, or no start met the requirements together.
+    Infeasible,
+    /// No platform without shared joints other than the design itself is equivalent to it: no leg can be replaced, or
+    /// every platform that its replaceable legs make shares joints.
+    None,
+    /// The platform found misses requirements.
+    Violated,
+    /// The platform meets its requirements; its triangles were chosen too, so that it is not equivalent to the design.
+    NewKinematics,
+    /// The platform meets its requirements with its joints on the holes that the design states.
+    OnHoles,
+    /// What the comparison says; `inconclusive` too where no offsets were found and some branches are not proved empty.
+    #[serde(untagged)]
+    Compared(VerdictWord),
+}
+
+impl ExploreVerdict {
+    /// The word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Infeasible => "infeasible",
+            Self::None => "none",
+            Self::Violated => "violated",
+            Self::NewKinematics => "new_kinematics",
+            Self::OnHoles => "on_holes",
+            Self::Compared(verdict) => verdict.name(),
+        }
+    }
+}
+
+/// Whose leg lengths poses belong to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LengthsOrigin {
+    /// Those of the design.
+    Design,
+    /// The design has none: those of its home pose.
+    Home,
+}
+
+/// All poses of a design at its own leg lengths.
+#[derive(Debug)]
+pub struct OwnPoses {
+    /// The lengths.
+    pub lengths: LegLengths,
+    /// Whose they are.
+    pub origin: LengthsOrigin,
+    /// The poses.
+    pub solutions: FkSolutions,
+}
+
+/// Why there are no poses.
+#[derive(Debug, Clone, PartialEq, ThisError)]
+pub enum NoOwnPoses {
+    /// The design has no lengths, and its home pose none either.
+    #[error("the home pose has no finite leg lengths")]
+    NoLengths,
+    /// Forward kinematics failed.
+    #[error(transparent)]
+    Fk(#[from] FkError),
+}
+
+impl Design {
+    /// The poses at the lengths of the design, or at those of its home pose.
+    ///
+    /// # Errors
+    /// [`NoOwnPoses`].
+    pub fn own_poses(&self, options: &FkOptions) -> Result<OwnPoses, NoOwnPoses> {
+        let m = self.manipulator();
+        let (lengths, origin) = match self.lengths {
+            Some(lengths) => (lengths, LengthsOrigin::Design),
+            None => (self.home_or_default().lengths(m).ok_or(NoOwnPoses::NoLengths)?, LengthsOrigin::Home),
+        };
+        let solutions = fk::solver(None).solve(m, &lengths.squared(), options)?;
+        Ok(OwnPoses { lengths, origin, solutions })
+    }
+
+    /// All about the design. Octahedral: the best platform without shared joints, its comparison with the design. Other
+    /// designs: replaceable legs, an equivalent platform by moves of legs, the nearest octahedral platform.
+    ///
+    /// # Errors
+    /// [`NoExploration`].
+    pub fn explore(&self, options: ExploreOptions<'_>) -> Result<ExploreReport, NoExploration> {
+        Ok(match Octahedral::recognise(self.manipulator()) {
+            Ok(octahedral) => ExploreReport::Class(Box::new(ExploredClass::of(self, octahedral, options)?)),
+            Err(_) => ExploreReport::General(Box::new(ExploredDesign::of(self, options)?)),
+        })
+    }
+}

@@ -1,0 +1,288 @@
+//! Octahedral designs.
+
+use super::{ExploreOptions, ExploreProgress, ExploreVerdict, NoExploration, OwnPoses};
+use crate::optimizing::with_default_reserve;
+use crate::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
+use crate::{
+    Checked, ComparedDesigns, Design, FoundOffsets, OptimizeEvidence, OptimizeProgress, OptimizeReport,
+    OptimizeStatus,
+};
+use machine::manufacture::NoRounding;
+use machine::requirements::{KeptSymmetry, StartSymmetry};
+use optimize::dimensional::Triangles;
+use platform::manipulator::Octahedral;
+use synthesis::Family;
+use verify::{Verdict, VerdictWord};
+
+/// A platform with its joints on the holes that the design states; `None` where it states none, or no platform was
+/// found.
+type OnHoles = Option<Result<DesignOnHoles, NoRounding>>;
+
+/// All about an octahedral design.
+#[derive(Debug)]
+pub struct ExploredClass {
+    /// Its triangles.
+    pub octahedral: Octahedral,
+    /// The platforms that are equivalent to an octahedral one.
+    pub family: Family,
+    /// The best platform.
+    pub search: OptimizeReport,
+    /// The platform on the holes that the design states; `None` where it states none, or no platform was found.
+    pub holes: Option<Result<DesignOnHoles, NoRounding>>,
+    /// Whether the best platform keeps the default reserve; `None` where the design states one.
+    pub keeps_reserve: Option<bool>,
+    /// The design compared with the best platform; `None` where there is none, or one with other triangles.
+    pub compared: Option<ComparedDesigns>,
+    /// Poses of the design.
+    pub poses: OwnPoses,
+}
+
+/// What decides about the platform found: its requirements first, then the comparison.
+#[derive(Debug)]
+pub enum ExploreJudgement<'a> {
+    /// There is none, and that is known.
+    Infeasible,
+    /// None was found.
+    NotFound,
+    /// It misses requirements.
+    Violated(&'a Design),
+    /// It is not proved to meet its requirements.
+    Unproved(&'a Design),
+    /// It meets its requirements, and this is how it compares with the design.
+    Compared(&'a ComparedDesigns),
+    /// It meets its requirements, and is not meant to have the kinematics of the design.
+    New,
+    /// It meets its requirements with its joints on the holes that the design states.
+    OnHoles,
+    /// No platform has its joints on those holes, and why.
+    NoHoles(String),
+}
+
+impl ExploredClass {
+    pub(super) fn of(
+        design: &Design,
+        octahedral: Octahedral,
+        mut options: ExploreOptions<'_>,
+    ) -> Result<Self, NoExploration> {
+        options.stage(1, "equivalence class");
+        let family = Family::octahedral();
+
+        options.stage(2, "the best platform");
+        let (mut search, holes, keeps_reserve) = searched_carefully(design, &mut options)?;
+        search.take_lengths_of(design);
+        search.open_freedoms(&mut options.optimize(true)).map_err(NoExploration::Search)?;
+
+        options.stage(3, "verification");
+        let new = search.design().filter(|_| search.keeps_class());
+        let compared =
+            new.map(|new| ComparedDesigns::of([design, new], options.samples, &options.fk())).transpose()?;
+
+        options.stage(4, "forward kinematics");
+        let poses = design.own_poses(&options.fk())?;
+        Ok(Self { octahedral, family, search, holes, keeps_reserve, compared, poses })
+    }
+
+    /// The platform to build: that on the holes, where the design states them.
+    #[must_use]
+    pub fn built(&self) -> Option<&Design> {
+        match &self.holes {
+            Some(Ok(on)) => on.found.as_ref().map(|(_, design)| design),
+            Some(Err(_)) => None,
+            None => self.search.design(),
+        }
+    }
+
+    /// What decides about the platform found.
+    #[must_use]
+    pub fn judgement(&self) -> ExploreJudgement<'_> {
+        match &self.holes {
+            Some(Err(why)) => return ExploreJudgement::NoHoles(why.to_string()),
+            Some(Ok(on)) => {
+                let Some((_, design)) = &on.found else { return ExploreJudgement::NoHoles(why_none(on)) };
+                return match on.met() {
+                    Some(true) => ExploreJudgement::OnHoles,
+                    Some(false) => ExploreJudgement::Violated(design),
+                    None => ExploreJudgement::Unproved(design),
+                };
+            }
+            None => (),
+        }
+        match (self.search.design(), self.search.met(), &self.compared) {
+            (None, ..) => match self.search.status {
+                OptimizeStatus::Infeasible | OptimizeStatus::Violated => ExploreJudgement::Infeasible,
+                _ => ExploreJudgement::NotFound,
+            },
+            (Some(design), Some(false), _) => ExploreJudgement::Violated(design),
+            (Some(design), None, _) => ExploreJudgement::Unproved(design),
+            (Some(_), Some(true), Some(compared)) => ExploreJudgement::Compared(compared),
+            (Some(_), Some(true), None) => ExploreJudgement::New,
+        }
+    }
+
+    /// The word for all of it.
+    #[must_use]
+    pub fn verdict(&self) -> ExploreVerdict {
+        match self.judgement() {
+            ExploreJudgement::Infeasible => ExploreVerdict::Infeasible,
+            ExploreJudgement::Violated(_) | ExploreJudgement::NoHoles(_) => ExploreVerdict::Violated,
+            ExploreJudgement::OnHoles => ExploreVerdict::OnHoles,
+            ExploreJudgement::New => ExploreVerdict::NewKinematics,
+            ExploreJudgement::Compared(c) => ExploreVerdict::Compared(c.found.verdict.word()),
+            ExploreJudgement::NotFound | ExploreJudgement::Unproved(_) => {
+                ExploreVerdict::Compared(VerdictWord::Inconclusive)
+            }
+        }
+    }
+}
+
+/// What stands against both roundings.
+fn why_none(on: &DesignOnHoles) -> String {
+    let exact = on.rounding.exact.as_ref().err().map(ToString::to_string);
+    let nearest = on.rounding.nearest.as_ref().err().map(ToString::to_string);
+    exact.into_iter().chain(nearest).collect::<Vec<_>>().join("; ")
+}
+
+/// The search with the default reserve first, where the design states none, and without it where that leads to no
+/// platform; with whether the platform keeps that reserve.
+fn searched_carefully(
+    design: &Design,
+    options: &mut ExploreOptions<'_>,
+) -> Result<(OptimizeReport, OnHoles, Option<bool>), NoExploration> {
+    let Some(careful) = with_default_reserve(design) else {
+        let (found, holes) = searched(design, true, options)?;
+        return Ok((found, holes, None));
+    };
+    let (found, holes) = searched(&careful, false, options)?;
+    let keeps = match &holes {
+        None => found.design().is_some() && found.met() == Some(true),
+        Some(_) => is_met(&holes),
+    };
+    if keeps || options.flow(ExploreProgress::Searched).is_break() {
+        return Ok((found, holes, Some(true)));
+    }
+    let (found, holes) = searched(design, true, options)?;
+    Ok((found, holes, Some(false)))
+}
+
+/// The best platform, and the same on the holes that the design states. Where a symmetry that nobody asked for leads to
+/// a platform on the holes that is not proved to meet its requirements, the search without it is the answer if it leads
+/// to one that is.
+fn searched(
+    design: &Design,
+    explains: bool,
+    options: &mut ExploreOptions<'_>,
+) -> Result<(OptimizeReport, OnHoles), NoExploration> {
+    let (found, holes) = search_once(design, explains, options)?;
+    let is_last = holes.is_none() || is_met(&holes) || options.flow(ExploreProgress::Searched).is_break();
+    if is_last || found.symmetry() != Some(StartSymmetry::Kept) {
+        return Ok((found, holes));
+    }
+    let mut free = design.clone();
+    free.search.symmetry = Some(KeptSymmetry::None);
+    let (mut other, on_holes) = search_once(&free, explains, options)?;
+    if !is_met(&on_holes) {
+        return Ok((found, holes));
+    }
+    if let OptimizeEvidence::Dimensions(found) = &mut other.evidence {
+        found.symmetry = Some(StartSymmetry::GivenUp);
+    }
+    Ok((other, on_holes))
+}
+
+/// Whether freedoms are opened is decided later.
+fn search_once(
+    design: &Design,
+    explains: bool,
+    options: &mut ExploreOptions<'_>,
+) -> Result<(OptimizeReport, OnHoles), NoExploration> {
+    let found = design.optimize_with(options.optimize(explains).freedoms(false));
+    let found = found.map_err(NoExploration::Search)?;
+    let holes = on_holes(design, &found, options)?;
+    Ok((found, holes))
+}
+
+/// The closest platform with its joints on the holes that the design states; `None` without such a platform or holes.
+fn on_holes(
+    design: &Design,
+    found: &OptimizeReport,
+    options: &mut ExploreOptions<'_>,
+) -> Result<OnHoles, NoExploration> {
+    let Some((grids, wanted)) = design.holes.zip(found.closest()) else { return Ok(None) };
+    let first = match &found.evidence {
+        OptimizeEvidence::Dimensions(of_shape) => {
+            let solution = of_shape.report.solution().or(of_shape.report.nearest.as_deref());
+            let (design, problem) = (&found.asked, &of_shape.problem);
+            solution.map(|s| FirstSearch { design, problem, point: &s.point })
+        }
+        OptimizeEvidence::Offsets(_) | OptimizeEvidence::Front(_) => None,
+    };
+    let search = options.optimize(true).search();
+    let rounded = on_stated_holes(wanted, &grids, first, &search, &mut |p| {
+        options.flow(ExploreProgress::Search(OptimizeProgress::Dimensions(p)))
+    });
+    rounded.map(Some).map_err(NoExploration::Holes)
+}
+
+/// Whether a platform stands on the holes and is proved to meet its requirements.
+fn is_met(holes: &OnHoles) -> bool {
+    matches!(holes, Some(Ok(on)) if on.found.is_some() && on.met() == Some(true))
+}
+
+impl OptimizeReport {
+    /// The platform found, or the one that misses the requirements least.
+    #[must_use]
+    pub fn closest(&self) -> Option<&Design> {
+        self.checked().or(self.nearest()).map(|c| &c.design)
+    }
+
+    /// Whether the platform found meets what is required; `Some(true)` where nothing is.
+    #[must_use]
+    pub fn met(&self) -> Option<bool> {
+        self.checked().map_or(Some(true), Checked::met)
+    }
+
+    /// Whether the platform has the kinematics of the design by its making: with other triangles it has not.
+    #[must_use]
+    pub fn keeps_class(&self) -> bool {
+        match &self.evidence {
+            OptimizeEvidence::Dimensions(found) => found.problem.variables.triangles == Triangles::Fixed,
+            OptimizeEvidence::Offsets(_) | OptimizeEvidence::Front(_) => true,
+        }
+    }
+
+    /// The offsets and `det A` of the map from the design, where there are both.
+    #[must_use]
+    pub fn offsets(&self) -> Option<([f64; 6], f64)> {
+        match &self.evidence {
+            OptimizeEvidence::Offsets(found) => found.report.solution().map(|s| (s.offsets, s.recheck.det)),
+            OptimizeEvidence::Dimensions(found) => {
+                let offsets = found.report.solution()?.offsets?;
+                let map = &found.checked.as_ref()?.verification.as_ref()?.map;
+                Some((offsets, map.determinant))
+            }
+            OptimizeEvidence::Front(_) => None,
+        }
+    }
+
+    /// Gives the platform found the leg lengths of the pose at which the design has its own.
+    fn take_lengths_of(&mut self, design: &Design) {
+        let lengths = design.lengths.map(|l| l.squared());
+        match &mut self.evidence {
+            OptimizeEvidence::Offsets(found) => {
+                let FoundOffsets { checked, report, .. } = &mut **found;
+                if let (Some(c), Some(s)) = (checked, report.solution()) {
+                    c.design.lengths = lengths.and_then(|l| s.map.apply(&l).ok()).map(|s| s.lengths());
+                }
+            }
+            OptimizeEvidence::Dimensions(found) => {
+                if let Some(c) = &mut found.checked {
+                    let kept = c.verification.as_ref().filter(|v| v.verdict == Verdict::Equivalent);
+                    let map = kept.map(|v| &v.map.closest);
+                    c.design.lengths =
+                        map.zip(lengths).and_then(|(m, l)| m.apply(&l).ok()).map(|s| s.lengths());
+                }
+            }
+            OptimizeEvidence::Front(_) => (),
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! The questions that are put to a design with names, units and requirements.
+
+pub mod calibrating;
+mod comparing;
+pub mod design;
+pub mod driving;
+mod equivalence;
+pub mod equivalents;
+#[cfg(feature = "optimize")]
+pub mod exploring;
+pub mod exporting;
+mod file_io;
+mod holding;
+mod judging;
+mod locus;
+mod moving;
+#[cfg(feature = "optimize")]
+pub mod optimizing;
+mod pentapod;
+pub mod presets;
+mod reaching;
+mod reaching_space;
+mod relocating;
+mod replaceable;
+pub mod rounding;
+mod self_motions;
+mod singular_poses;
+#[cfg(not(target_family = "wasm"))]
+pub mod whole;
+
+use crate::Error;
+
+pub use comparing::{DesignFigures, FigureOptions, Separation};
+pub use design::Design;
+pub use equivalence::{ComparedDesigns, SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
+#[cfg(feature = "optimize")]
+pub use exploring::{
+    ExploreJudgement, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
+    ExploredDesign, LengthsOrigin, NoExploration, NoOwnPoses, OwnPoses,
+};
+pub use holding::SingularHome;
+pub use judging::{AssessReport, BOX_CELLS, CheckReport, JudgedPoses};
+pub use locus::{LocusOptions, LocusPoint, LocusReport, LocusWord, NoLocus, VirtualLeg};
+pub use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
+#[cfg(feature = "optimize")]
+pub use optimizing::{
+    Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, EasedDemand,
+    FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, FreedomWord, OpenedFreedom, OptimizeEvidence,
+    OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, SearchedDrive,
+};
+pub use pentapod::{HeldLine, PentapodReport, about_five_legs};
+pub use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
+pub use relocating::{MoveSearchReport, MoveWishes, MovedPlatform, SearchWord, wishes_in_words};
+pub use replaceable::{NoPlanes, NoReplaceableLegs, ReplaceableFamily, ReplaceableLegs, ReplaceableOptions};
+pub use self_motions::{MotionOrigin, MotionStart, NoSelfMotion, SelfMotionOptions, SelfMotionReport};
+pub use singular_poses::{
+    NoSingularPoses, PoseFigures, SignPath, SignsBetween, SingularPosesOptions, SingularPosesReport,
+};
