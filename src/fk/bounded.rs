@@ -7,7 +7,7 @@
 
 use super::evidence::reject_others;
 use super::judge::are_distinct;
-use super::{BoundedProof, Completeness, FkError, FkSolutions, Theorem};
+use super::{BoundedProof, Completeness, FkError, FkRoot, FkSolutions, Theorem};
 use crate::solve::certify::far::{FarPoint, FarRoot, FarSystem};
 use crate::solve::certify::{PoseEnclosure, SquareData};
 use crate::solve::far_points;
@@ -34,23 +34,40 @@ pub(super) fn conclude_far(
     s: &SquaredLegLengths,
     points: &[FarPoint],
 ) -> Result<bool, FkError> {
-    let near = found.certified_count();
     let Some(system) = FarSystem::new(m, &SquareData::from(s)) else { return Ok(false) };
+    if !are_distinct(found) {
+        return Ok(false);
+    }
     let mut far: Vec<FarRoot> = Vec::new();
+    let prove = |far: &mut Vec<FarRoot>, start: &FarPoint| {
+        let root = system.root_near(start).filter(|root| far.iter().all(|other| root.is_apart(other)));
+        far.extend(root);
+    };
     for start in points.iter().filter_map(|point| system.starts(point)).flatten() {
-        if let Some(root) = system.root_near(&start).filter(|root| far.iter().all(|other| root.is_apart(other))) {
-            far.push(root);
+        prove(&mut far, &start);
+    }
+    // of two that are very close, the first one shows where the other is
+    if far.len() + found.certified_count() < Theorem::SixLegs.bound() {
+        let others: Vec<FarPoint> =
+            far.iter().filter_map(|root| Some(system.starts(&root.centre())?[1])).collect();
+        for start in &others {
+            prove(&mut far, start);
         }
     }
+    // roots of the list that are as far out may be among these, and are not counted twice
     let rotation = far.iter().map(|root| root.rotation).fold(f64::INFINITY, f64::min);
     let within = |e: &PoseEnclosure| e.rotation.iter().flatten().all(|entry| entry.magnitude() < rotation);
-    let certificates = found.roots.iter().filter_map(|r| r.certificate.as_ref());
-    if far.is_empty() || !are_distinct(found) || !certificates.map(|c| c.enclosure()).all(within) {
+    let is_near = |r: &&FkRoot| r.certificate.as_ref().is_some_and(|c| within(c.enclosure()));
+    let near: usize = found.roots.iter().filter(is_near).map(|r| r.multiplicity as usize).sum();
+    if far.is_empty() {
         return Ok(false);
     }
     let (total, bound) = (near + far.len(), Theorem::SixLegs.bound());
     if total > bound {
-        let what = format!("{near} near and {} far poses are certified, but six legs have at most {bound}", far.len());
+        let what = format!(
+            "{near} near and {} far poses are certified, but six legs have at most {bound}",
+            far.len()
+        );
         return Err(FkError::Contradiction { what });
     }
     if total < bound {

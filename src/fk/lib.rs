@@ -47,7 +47,9 @@ pub use bounds::pose_bound;
 pub use choose::{Automatic, solver};
 pub use closure::{Closure, NoClosure, closure, closure_between};
 pub use closure_poses::closure_candidates;
-pub use completeness::{BoundedProof, Completeness, CompletenessWord, PathsEnded, Reason, Reasons, Theorem, Tried};
+pub use completeness::{
+    BoundedProof, Completeness, CompletenessWord, PathsEnded, Reason, Reasons, Theorem, Tried,
+};
 pub use homotopy::Homotopy;
 pub use near::NearNumbers;
 use near::NeedsStart;

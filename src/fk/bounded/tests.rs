@@ -60,7 +60,9 @@ fn a_hexapod_typed_in_digits_has_all_real_poses_and_twelve_far_ones() {
     let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
     let Completeness::ProvedBounded { proof } = found.completeness else { panic!("{found}") };
     assert_eq!((proof.poses, proof.far), (28, 12));
-    assert!(proof.rotation > 1e6 && found.is_complete() && found.all_accounted() && found.missing().is_none());
+    assert!(
+        proof.rotation > 1e6 && found.is_complete() && found.all_accounted() && found.missing().is_none()
+    );
 }
 
 #[test]
@@ -105,7 +107,11 @@ fn proportion_of_rounded_designs_proved() {
             for k in 0..designs {
                 let mut rng = Rng::stream(17, k);
                 let m = match class {
-                    "hexapod" => hexapod([1.0, rng.uniform(0.4, 0.9)], [rng.uniform(10.0, 50.0), rng.uniform(10.0, 50.0)], digits),
+                    "hexapod" => hexapod(
+                        [1.0, rng.uniform(0.4, 0.9)],
+                        [rng.uniform(10.0, 50.0), rng.uniform(10.0, 50.0)],
+                        digits,
+                    ),
                     _ => griffis_duffy(&mut rng, digits),
                 };
                 let s = lengths(&m, &mut rng);
@@ -118,7 +124,9 @@ fn proportion_of_rounded_designs_proved() {
                 proved += usize::from(matches!(found.completeness, Completeness::ProvedBounded { .. }));
                 whole += usize::from(found.completeness.is_proved());
                 if !found.is_complete() {
-                    *words.entry(format!("{} near, {points} points", found.certified_count())).or_default() += 1;
+                    *words
+                        .entry(format!("{} near, {points} points", found.certified_count()))
+                        .or_default() += 1;
                 }
             }
             let each = |t: f64| 1e3 * t / designs as f64;

@@ -14,7 +14,7 @@ use platform::manipulator::Manipulator;
 
 /// Random starts, and how many in turn may find nothing new.
 const STARTS: usize = 1500;
-const VAIN: usize = 400;
+const VAIN: usize = 200;
 /// Steps of one search.
 const STEPS: usize = 40;
 /// Largest residual of what may be a common point: joints are rounded.

@@ -45,13 +45,11 @@ pub(crate) const D: [f64; 3] = [-0.375, 0.875, 0.5];
 /// The patch `l`.
 pub(crate) const PATCH: [f64; 4] = [0.375, 0.8125, -0.6875, 0.53125];
 /// Entries of `R` of a far pose are at least this large: those of real poses are at most one.
-const FAR: f64 = 1e3;
+const FAR: f64 = 1e2;
 /// Newton steps from a start.
 const STEPS: usize = 40;
-/// A step below this, relative, in doubles goes on in double-double.
-const SETTLED: f64 = 1e-10;
-/// Steps with values in double-double.
-const FINE_STEPS: usize = 6;
+/// A step below this, relative, is the last one: values are in double-double.
+const SETTLED: f64 = 1e-22;
 
 /// A number of the equations: a disc, or a disc with its derivatives.
 trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
@@ -151,11 +149,14 @@ pub(crate) struct FarRoot {
     discs: [WideDisc; N],
     /// Lower bound of the largest entry of `R`; infinite at infinity.
     pub(crate) rotation: f64,
-    /// `gamma` and hence `e.e` is not zero: a finite pose.
-    pub(crate) finite: bool,
 }
 
 impl FarRoot {
+    /// The nearest doubles to the middle.
+    pub(crate) fn centre(&self) -> FarPoint {
+        std::array::from_fn(|k| self.discs[k].centre.hi())
+    }
+
     /// Whether two zeros are proved to be different.
     pub(crate) fn is_apart(&self, other: &Self) -> bool {
         self.discs.iter().zip(&other.discs).any(|(x, y)| x.is_disjoint(y))
@@ -179,7 +180,10 @@ impl FarSystem {
         let square = inverse * inverse;
         let mut middle = s.middle;
         for x in &mut middle {
-            let (hi, lo) = (super::system::exact_product(x.hi(), square)?, super::system::exact_product(x.lo(), square)?);
+            let (hi, lo) = (
+                super::system::exact_product(x.hi(), square)?,
+                super::system::exact_product(x.lo(), square)?,
+            );
             *x = DoubleDouble::from_sum(hi, lo);
         }
         Some(Self { a, b, s: middle, s_radius: s.radius.map(|r| super::system::scaled_radius(r, square)) })
@@ -213,7 +217,8 @@ impl FarSystem {
     /// Values at a point and the derivatives there, in discs about doubles; derivatives over the polydisc.
     fn derivatives(&self, x: &[Disc; N]) -> [Dual; N] {
         let dual = std::array::from_fn(|j| {
-            let by = std::array::from_fn(|k| Disc::point(if j == k { Complex64::ONE } else { Complex64::ZERO }));
+            let by =
+                std::array::from_fn(|k| Disc::point(if j == k { Complex64::ONE } else { Complex64::ZERO }));
             Dual { value: x[j], by }
         });
         self.values(&dual)
@@ -221,10 +226,7 @@ impl FarSystem {
 
     fn jacobian(&self, x: &FarPoint) -> (Vector, Matrix) {
         let rows = self.derivatives(&x.map(Disc::point));
-        (
-            Vector::from_fn(|i, _| rows[i].value.centre),
-            Matrix::from_fn(|i, j| rows[i].by[j].centre),
-        )
+        (Vector::from_fn(|i, _| rows[i].value.centre), Matrix::from_fn(|i, j| rows[i].by[j].centre))
     }
 
     /// Both zeros near a common point at infinity of a design next to this one: a Newton step onto the linear equations,
@@ -246,7 +248,8 @@ impl FarSystem {
             direction = lu.solve(&one)?;
         }
         let point = |t: Complex64| x + direction * t;
-        let quadric = |y: &Vector| y[6] * y[6] - y[7] * (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + y[3] * y[3]);
+        let quadric =
+            |y: &Vector| y[6] * y[6] - y[7] * (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + y[3] * y[3]);
         let c = quadric(&x);
         let (mut slope, mut bend) = (direction[6] * x[6] * 2.0, direction[6] * direction[6]);
         for k in 0..4 {
@@ -262,30 +265,26 @@ impl FarSystem {
 
     /// The zero that Newton's method finds from a start, if it is proved and far out.
     pub(crate) fn root_near(&self, start: &FarPoint) -> Option<FarRoot> {
-        let mut x = Vector::from_column_slice(start);
-        let size = |v: &Vector| v.iter().map(|z| z.norm()).fold(0.0, f64::max);
-        for step in 0..STEPS {
-            let (f, j) = self.jacobian(&x.as_slice().try_into().ok()?);
-            let delta = j.lu().solve(&f)?;
-            x -= delta;
-            if !(size(&x) < 1e9) || step + 1 == STEPS {
+        let wide = |z: Complex64| WideDisc::about(z, Complex64::ZERO, 0.0).centre;
+        let size = |v: &[Complex64]| v.iter().map(|z| z.norm()).fold(0.0, f64::max);
+        let mut x = start.map(wide);
+        for _ in 0..STEPS {
+            let rounded = x.map(ComplexDoubleDouble::hi);
+            if !(size(&rounded) < 1e9) {
                 return None;
             }
-            if size(&delta) < SETTLED * (1.0 + size(&x)) {
-                break;
-            }
-        }
-        let (_, j) = self.jacobian(&x.as_slice().try_into().ok()?);
-        let inverse = j.try_inverse()?;
-        let mut wide: [ComplexDoubleDouble; N] = std::array::from_fn(|k| WideDisc::point_of(x[k]).centre);
-        for _ in 0..FINE_STEPS {
-            let f = self.values(&wide.map(WideDisc::point)).map(|v| v.centre.hi());
-            let delta = inverse * Vector::from_column_slice(&f);
+            let f = self.values(&x.map(WideDisc::point)).map(|v| v.centre.hi());
+            let (_, j) = self.jacobian(&rounded);
+            let lu = j.lu();
+            let step = lu.solve(&Vector::from_column_slice(&f))?;
             for k in 0..N {
-                wide[k] = wide[k] - WideDisc::point_of(delta[k]).centre;
+                x[k] = x[k] - wide(step[k]);
+            }
+            if size(step.as_slice()) < SETTLED * (1.0 + size(&rounded)) {
+                return self.prove(&x, &lu.try_inverse()?);
             }
         }
-        self.prove(&wide, &inverse)
+        None
     }
 
     /// Krawczyk's test about a centre, and how far out the zero is.
@@ -319,18 +318,6 @@ impl FarSystem {
         }
         let entry = m.iter().flatten().map(|z| z.mignitude()).fold(0.0, f64::max);
         let rotation = entry / h.magnitude() * (2.0 - UP);
-        let finite = discs[6].mignitude() > 0.0;
-        (rotation > FAR).then_some(FarRoot { discs, rotation, finite })
-    }
-}
-
-/// A double as the centre of a disc.
-trait PointOf {
-    fn point_of(z: Complex64) -> Self;
-}
-
-impl PointOf for WideDisc {
-    fn point_of(z: Complex64) -> Self {
-        Self::about(z, Complex64::ZERO, 0.0)
+        (rotation > FAR).then_some(FarRoot { discs, rotation })
     }
 }
