@@ -94,6 +94,7 @@ impl Sub for Dual {
 
 impl Mul for Dual {
     type Output = Self;
+    #[allow(clippy::suspicious_arithmetic_impl)] // the product rule
     fn mul(self, other: Self) -> Self {
         let by = std::array::from_fn(|k| self.by[k] * other.value + self.value * other.by[k]);
         Self { value: self.value * other.value, by }
@@ -316,7 +317,7 @@ impl FarSystem {
         if !(dot(&across, &across).mignitude() > 0.0) {
             return None;
         }
-        let entry = m.iter().flatten().map(|z| z.mignitude()).fold(0.0, f64::max);
+        let entry = m.iter().flatten().map(WideDisc::mignitude).fold(0.0, f64::max);
         let rotation = entry / h.magnitude() * (2.0 - UP);
         (rotation > FAR).then_some(FarRoot { discs, rotation })
     }
