@@ -12,7 +12,7 @@ fn rounded(x: f64, digits: i32) -> f64 {
     if digits >= 16 { x } else { (x * scale).round() / scale }
 }
 
-fn platform(ends: [[[f64; 3]; 2]; 6], digits: i32) -> Manipulator {
+fn platform(ends: &[[[f64; 3]; 2]; 6], digits: i32) -> Manipulator {
     let point = |p: [f64; 3]| Point3::from(p.map(|x| rounded(x, digits)));
     Manipulator::from_legs(ends.map(|[a, b]| Leg { base: point(a), platform: point(b) })).unwrap()
 }
@@ -23,7 +23,7 @@ fn hexapod(radii: [f64; 2], spreads: [f64; 2], digits: i32) -> Manipulator {
     let side = [-1.0, 1.0];
     let base = |k: usize| on(radii[0], 120.0 * (k / 2) as f64 + side[k % 2] * spreads[0] / 2.0);
     let plate = |k: usize| on(radii[1], 60.0 + 120.0 * (k / 2) as f64 + side[k % 2] * spreads[1] / 2.0);
-    platform(std::array::from_fn(|k| [base(k), plate((k + 5) % 6)]), digits)
+    platform(&std::array::from_fn(|k| [base(k), plate((k + 5) % 6)]), digits)
 }
 
 /// Points of the edges of two triangles, joined as Griffis and Duffy do.
@@ -38,7 +38,7 @@ fn griffis_duffy(rng: &mut Rng, digits: i32) -> Manipulator {
             std::array::from_fn(|i| (1.0 - shares[k]) * p[i] + shares[k] * q[i])
         })
     });
-    platform(ends, digits)
+    platform(&ends, digits)
 }
 
 fn lengths(m: &Manipulator, rng: &mut Rng) -> SquaredLegLengths {
@@ -86,7 +86,7 @@ fn a_list_without_one_of_its_poses_is_not_proved() {
 fn designs_without_a_gap_between_near_and_far_poses_are_not_proved_so() {
     let mut rng = Rng::new(8);
     let ends = std::array::from_fn(|_| std::array::from_fn(|_| std::array::from_fn(|_| rng.normal())));
-    let m = platform(ends, 16);
+    let m = platform(&ends, 16);
     let s = lengths(&m, &mut rng);
     let mut found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
     found.completeness = Completeness::unproved([]);
@@ -97,6 +97,7 @@ fn designs_without_a_gap_between_near_and_far_poses_are_not_proved_so() {
 /// Proportion proved and times: `FAR_DESIGNS=300 cargo test -p equipod-fk proportion -- --ignored --nocapture`.
 #[test]
 #[ignore = "a measurement"]
+#[allow(clippy::print_stdout)]
 fn proportion_of_rounded_designs_proved() {
     let designs: u64 = std::env::var("FAR_DESIGNS").map_or(20, |n| n.parse().unwrap());
     let quick = FkOptions::default().pose_count(PoseCounting::Never);
