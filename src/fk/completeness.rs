@@ -5,6 +5,8 @@
 //! ```text
 //!                    Proved                a theorem: as many certified distinct poses as there can be
 //!                      |
+//!                 ProvedBounded            a theorem: all others are proved to be farther out than a real pose can be
+//!                      |
 //!                   Modular                as many as there are, counted modulo random primes
 //!                      |
 //!     Unproved { all reasons together }
@@ -28,6 +30,12 @@ pub enum Completeness {
     Proved {
         /// The bound.
         theorem: Theorem,
+    },
+    /// All poses up to a distance, so all real ones, are listed: the certified roots and the others, which are proved to
+    /// be farther out, are as many as there can be.
+    ProvedBounded {
+        /// How many, and the distance.
+        proof: BoundedProof,
     },
     /// The certified roots are distinct and as many as the finite poses, multiplicity included, of the design and
     /// lengths as written, counted modulo random primes: all poses are isolated and listed, up to the probability of
@@ -54,6 +62,7 @@ impl Completeness {
     pub fn word(&self) -> CompletenessWord {
         match self {
             Self::Proved { .. } => CompletenessWord::Proved,
+            Self::ProvedBounded { .. } => CompletenessWord::ProvedBounded,
             Self::Modular { .. } => CompletenessWord::Modular,
             Self::Unproved { .. } => CompletenessWord::Unproved,
         }
@@ -70,6 +79,8 @@ impl Completeness {
 pub enum CompletenessWord {
     /// By a theorem.
     Proved,
+    /// By a theorem, for all poses up to a distance: all real ones are listed.
+    ProvedBounded,
     /// Counted modulo random primes, with a bound on the probability of error.
     Modular,
     /// Not known.
@@ -82,9 +93,35 @@ impl CompletenessWord {
     pub fn name(self) -> &'static str {
         match self {
             Self::Proved => "proved",
+            Self::ProvedBounded => "proved_bounded",
             Self::Modular => "modular",
             Self::Unproved => "unproved",
         }
+    }
+}
+
+/// The numbers of a proof that all poses up to a distance are listed.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema))]
+pub struct BoundedProof {
+    /// Certified poses listed, with multiplicity.
+    pub poses: usize,
+    /// Others, certified to be different and farther out, or at infinity.
+    pub far: usize,
+    /// The distance: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries of real
+    /// rotations are at most 1.
+    pub rotation: f64,
+}
+
+impl fmt::Display for BoundedProof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { poses, far, rotation } = self;
+        write!(
+            f,
+            "{poses} certified distinct poses, and the other {far} of at most {} are proved to be far from every real pose, with entries of R above {rotation:.1e}: \
+             all poses with smaller entries, so all real ones, are listed",
+            poses + far
+        )
     }
 }
 
@@ -571,6 +608,10 @@ impl Completeness {
         match (self, other) {
             (Self::Proved { theorem: a }, Self::Proved { theorem: b }) => Self::Proved { theorem: a.min(b) },
             (proved @ Self::Proved { .. }, _) | (_, proved @ Self::Proved { .. }) => proved,
+            (Self::ProvedBounded { proof: a }, Self::ProvedBounded { proof: b }) => {
+                Self::ProvedBounded { proof: if a < b { b } else { a } }
+            }
+            (bounded @ Self::ProvedBounded { .. }, _) | (_, bounded @ Self::ProvedBounded { .. }) => bounded,
             (
                 Self::Modular { poses, lengths, error_probability: a },
                 Self::Modular { poses: other, lengths: others, error_probability: b },
@@ -607,7 +648,7 @@ impl Completeness {
     #[must_use]
     pub fn all_accounted(&self) -> bool {
         match self {
-            Self::Proved { .. } | Self::Modular { .. } => true,
+            Self::Proved { .. } | Self::ProvedBounded { .. } | Self::Modular { .. } => true,
             Self::Unproved { reasons } => reasons.iter().all(Reason::is_accounted),
         }
     }
@@ -615,11 +656,7 @@ impl Completeness {
     /// The name used in JSON.
     #[must_use]
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::Proved { .. } => "proved",
-            Self::Modular { .. } => "modular",
-            Self::Unproved { .. } => "unproved",
-        }
+        self.word().name()
     }
 }
 
@@ -628,6 +665,7 @@ impl fmt::Display for Completeness {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Proved { theorem } => theorem.fmt(f),
+            Self::ProvedBounded { proof } => proof.fmt(f),
             Self::Modular { poses, lengths: CountedLengths::Generic, error_probability } => write!(
                 f,
                 "{poses} certified distinct poses, and no lengths of the design have more isolated poses, by the algebra of generic lengths modulo random primes \
@@ -662,6 +700,8 @@ mod tests {
             Completeness::unproved([]),
             proved(Theorem::SixLegs),
             proved(Theorem::SharedJoints { poses: 8, construction: "three trilaterations" }),
+            Completeness::ProvedBounded { proof: BoundedProof { poses: 28, far: 12, rotation: 1e9 } },
+            Completeness::ProvedBounded { proof: BoundedProof { poses: 28, far: 12, rotation: 1e10 } },
             Completeness::Modular { poses: 12, lengths: CountedLengths::Given, error_probability: 1e-20 },
             reason(Reason::LegsNearlyDependent),
             reason(Reason::PosesUncertified { poses: 2 }),

@@ -4,6 +4,7 @@ mod prepared;
 
 use num_complex::Complex64;
 
+use super::bounded::bounded;
 use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{Harvest, HarvestEnd, PreciseEnd, harvest};
@@ -68,7 +69,7 @@ impl ForwardKinematics for Homotopy {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
             let (mut found, certificates) = problem.solve(m, s, o, seed)?;
             attach(&mut found, m, s, Theorem::SixLegs, certificates)?;
-            if found.completeness.is_proved() {
+            if found.completeness.is_proved() || bounded(&mut found, m, s, o.seed)? {
                 return Ok(found);
             }
             // before any end without a proof is taken for a pose: what kind of set is it?

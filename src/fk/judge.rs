@@ -6,6 +6,7 @@
 //! known within radii only, those of generic lengths are counted, which are as many or more: as many certified roots
 //! are all isolated ones, fewer may be all.
 
+use super::bounded::bounded;
 use super::evidence::{all_distinct, cluster_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::solve::certify::{Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs};
@@ -44,7 +45,7 @@ pub(super) fn counted(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> 
 }
 
 /// Whether the certified roots are proved to be different ones.
-fn are_distinct(found: &FkSolutions) -> bool {
+pub(super) fn are_distinct(found: &FkSolutions) -> bool {
     let enclosures: Vec<&PoseEnclosure> = found
         .roots
         .iter()
@@ -136,7 +137,7 @@ pub(super) fn compared_with_count(
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    if found.completeness.is_proved() {
+    if found.completeness.is_proved() || bounded(&mut found, m, s, o.seed)? {
         return Ok(found);
     }
     let Some(count) = counted(m, s, o) else { return Ok(found) };

@@ -12,6 +12,7 @@
 //! and a theorem or a count says whether they are all.
 
 mod batch;
+mod bounded;
 mod bounds;
 mod choose;
 mod closure;
@@ -49,7 +50,9 @@ pub use bounds::pose_bound;
 pub use choose::{Automatic, solver};
 pub use closure::{Closure, NoClosure, closure, closure_between};
 pub use closure_poses::closure_candidates;
-pub use completeness::{Completeness, CompletenessWord, PathsEnded, Reason, Reasons, Theorem, Tried};
+pub use completeness::{
+    BoundedProof, Completeness, CompletenessWord, PathsEnded, Reason, Reasons, Theorem, Tried,
+};
 pub use homotopy::Homotopy;
 pub use near::NearNumbers;
 use near::NeedsStart;

@@ -362,6 +362,9 @@ impl FkSolutions {
     /// known.
     #[must_use]
     pub fn missing(&self) -> Option<usize> {
+        if matches!(self.completeness, Completeness::ProvedBounded { .. }) {
+            return None;
+        }
         let count = self.pose_count.as_ref().filter(|c| c.lengths == CountedLengths::Given)?;
         count.finite()?.checked_sub(self.certified_count())
     }

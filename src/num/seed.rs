@@ -77,6 +77,8 @@ impl Purpose {
     pub const POSE_COUNT: Self = Self::single(0x9c);
     /// Squared lengths at which a design is solved to be prepared for others.
     pub const START_LENGTHS: Self = Self::single(0x51e6);
+    /// Starts of the search for points at infinity that legs have in common.
+    pub const FAR_POINTS: Self = Self::single(0xfa2);
     /// Complex designs of a topology, the same for every seed; one stream a design.
     pub const GENERIC_DESIGNS: Self = Self::single(0);
     /// Poses and joint errors of trials; one stream a trial.

@@ -90,6 +90,10 @@ typedef enum eqp_completeness {
      As many as a theorem allows.
      */
     EQP_COMPLETENESS_PROVED = 2,
+    /*
+     All poses up to a distance, so all real ones, by a theorem; others are proved to be farther out.
+     */
+    EQP_COMPLETENESS_PROVED_BOUNDED = 3,
 } eqp_completeness;
 
 /*

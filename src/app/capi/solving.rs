@@ -25,6 +25,8 @@ pub enum EqpCompleteness {
     Modular = 1,
     /// As many as a theorem allows.
     Proved = 2,
+    /// All poses up to a distance, so all real ones, by a theorem; others are proved to be farther out.
+    ProvedBounded = 3,
 }
 
 /// Whether a pose is real.
@@ -232,6 +234,7 @@ pub unsafe extern "C" fn eqp_solutions_completeness(solutions: *const EqpSolutio
     // SAFETY: the caller's promise.
     match unsafe { solutions.as_ref() }.map(|s| &s.0.completeness) {
         Some(Completeness::Proved { .. }) => EqpCompleteness::Proved,
+        Some(Completeness::ProvedBounded { .. }) => EqpCompleteness::ProvedBounded,
         Some(Completeness::Modular { .. }) => EqpCompleteness::Modular,
         _ => EqpCompleteness::Unproved,
     }

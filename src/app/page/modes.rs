@@ -144,7 +144,8 @@ pub(super) fn record(
     let listed = lengths.is_none() && !matches!(found.solution_set, SolutionSet::PositiveDimensional { .. });
     let nearest = (0..real.len()).min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
     let here = nearest.filter(|_| listed);
-    let proved = matches!(found.completeness, Completeness::Proved { .. });
+    let proved =
+        matches!(found.completeness, Completeness::Proved { .. } | Completeness::ProvedBounded { .. });
     Ok(ModesRecord {
         method: found.method.name(),
         solution_set: found.solution_set.name(),

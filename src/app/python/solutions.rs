@@ -26,10 +26,11 @@ fn reality(root: &FkRoot) -> i8 {
     }
 }
 
-/// 2 proved, 1 modular, 0 unproved.
+/// 3 proved up to a distance, 2 proved, 1 modular, 0 unproved.
 fn completeness(found: &FkSolutions) -> i8 {
     match found.completeness {
         Completeness::Proved { .. } => 2,
+        Completeness::ProvedBounded { .. } => 3,
         Completeness::Modular { .. } => 1,
         Completeness::Unproved { .. } => 0,
     }
@@ -87,7 +88,7 @@ impl NativeSolutions {
         self.column(py, |r| r.multiplicity)
     }
 
-    /// `proved`, `modular` or `unproved`.
+    /// `proved`, `proved_bounded`, `modular` or `unproved`.
     fn completeness(&self) -> &'static str {
         self.found.completeness.name()
     }

@@ -7,12 +7,14 @@
 use num_complex::Complex64;
 
 use super::{SectionProblem, assemble, ends_of};
+use crate::bounded::conclude_far;
 use crate::evidence::attach;
 use crate::harvest::harvest;
 use crate::judge::{RealityJudgement, judge};
+use crate::solve::certify::far::FarPoint;
 use crate::solve::homotopy::{LengthStart, StartKind, projective_distance, unit};
 use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
-use crate::solve::{ScaledFrames, mirror};
+use crate::solve::{ScaledFrames, far_points, mirror};
 use crate::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, PreparedDesign,
     SolutionSet, Theorem,
@@ -33,6 +35,8 @@ pub(super) struct PreparedHomotopy {
     theorem: Theorem,
     /// The number of start poses by the count, where no theorem proves it.
     count: Option<PoseCount>,
+    /// Points at infinity near the other poses, where the start poses are all up to a distance.
+    far: Vec<FarPoint>,
 }
 
 impl PreparedHomotopy {
@@ -45,8 +49,9 @@ impl PreparedHomotopy {
         if found.roots.is_empty() || found.solution_set != SolutionSet::Isolated {
             return None;
         }
-        let (theorem, count) = match found.completeness {
-            Completeness::Proved { theorem } => (theorem, None),
+        let (theorem, count, far) = match found.completeness {
+            Completeness::Proved { theorem } => (theorem, None, Vec::new()),
+            Completeness::ProvedBounded { .. } => (Theorem::SixLegs, None, far_points(m, o.seed)),
             _ if o.pose_count == PoseCounting::Never => return None,
             _ => {
                 let options = CountOptions { seed: o.seed, ..CountOptions::default() };
@@ -54,7 +59,7 @@ impl PreparedHomotopy {
                 if judge(&mut found.clone(), &generic).ok()? != RealityJudgement::Complete {
                     return None;
                 }
-                (Theorem::SixLegs, Some(generic))
+                (Theorem::SixLegs, Some(generic), Vec::new())
             }
         };
         let poses: Option<Vec<[Complex64; 8]>> = found.roots.iter().map(|r| r.dual_quaternion).collect();
@@ -68,7 +73,7 @@ impl PreparedHomotopy {
             (StartKind::Generic, frame, poses.iter().map(|x| unit(&frame.to_frame(*x))).collect())
         });
         let start = LengthStart::new(kind, &frame, m, &from, &points, to)?;
-        Some(Self { manipulator: m.clone(), start, theorem, count })
+        Some(Self { manipulator: m.clone(), start, theorem, count, far })
     }
 
     /// The answer where it is whole, `None` where anything is left over.
@@ -85,6 +90,9 @@ impl PreparedHomotopy {
         let (mut found, certificates) = assemble(o, &problem, &paths, self.start.paths(), found);
         attach(&mut found, m, s, self.theorem, certificates)?;
         if found.completeness.is_proved() {
+            return Ok(Some(found));
+        }
+        if !self.far.is_empty() && conclude_far(&mut found, m, s, &self.far)? {
             return Ok(Some(found));
         }
         // what has no certificate may be a sign of a motion: the general treatment looks at it

@@ -3,6 +3,7 @@
 
 pub mod certify;
 mod dependence;
+mod far_points;
 #[cfg(feature = "lab")]
 pub mod generic_frame;
 pub mod homotopy;
@@ -17,5 +18,6 @@ pub mod sylvester;
 pub mod template;
 
 pub use dependence::{LegDependence, dependence};
+pub(crate) use far_points::far_points;
 pub use planar::mirror;
 pub use sections::{ScaledFrames, Sections, quaternion_product, split};

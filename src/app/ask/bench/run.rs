@@ -153,7 +153,10 @@ fn one(
     let proved = found.as_ref().is_some_and(|f| matches!(f.completeness, Completeness::Proved { .. }));
     // a proof of completeness is a certificate too
     let claimed_complete = found.as_ref().is_some_and(|f| {
-        matches!(f.completeness, Completeness::Proved { .. } | Completeness::Modular { .. })
+        matches!(
+            f.completeness,
+            Completeness::Proved { .. } | Completeness::ProvedBounded { .. } | Completeness::Modular { .. }
+        )
     });
     verdict.false_certificates += usize::from(claimed_complete && verdict.missed > 0);
     let poses: Vec<ComplexPose> = claims.iter().map(|c| c.pose).collect();

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ._design import Design
     from .records import CertificateRecord, FkAnswer
 
-COMPLETENESS = {2: "proved", 1: "modular", 0: "unproved", -1: "failed"}
+COMPLETENESS = {3: "proved_bounded", 2: "proved", 1: "modular", 0: "unproved", -1: "failed"}
 
 
 @dataclass(frozen=True, repr=False)
@@ -133,7 +133,7 @@ class Solutions(Sequence[Solution]):
 
     @property
     def completeness(self) -> str:
-        """``proved``, ``modular`` (by a count with a bound on the probability of error) or ``unproved``."""
+        """``proved``, ``proved_bounded`` (all real poses), ``modular`` (by a count with a bound on the probability of error) or ``unproved``."""
         return self._native.completeness()
 
     @property
@@ -247,7 +247,7 @@ class BatchSolutions(Sequence["RowPoses"]):
     residual : ndarray, float64, shape (n,)
     multiplicity : ndarray, uint32, shape (n,)
     completeness : ndarray, int8, shape (rows,)
-        2 proved, 1 modular, 0 unproved, -1 the row failed.
+        3 all real poses proved, 2 proved, 1 modular, 0 unproved, -1 the row failed.
     """
 
     def __init__(self, arrays: _core._BatchArrays) -> None:
@@ -371,7 +371,7 @@ class RowPoses:
     @property
     def complete(self) -> bool:
         """Whether all poses are there."""
-        return self.completeness in ("proved", "modular")
+        return self.completeness in ("proved", "proved_bounded", "modular")
 
     @property
     def real_transforms(self) -> Floats:

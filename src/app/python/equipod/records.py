@@ -17,7 +17,7 @@ CalibrateOutcome = Literal["calibrated", "not_identifiable", "planned", "refuted
 CalibrationFrames = Literal["design", "measured"]
 CentrePrecision = Literal["double", "double_double"]
 CoefficientsWord = Literal["enclosed", "expressions", "integers"]
-CompletenessWord = Literal["modular", "proved", "unproved"]
+CompletenessWord = Literal["modular", "proved", "proved_bounded", "unproved"]
 CorrelationsWord = Literal["design", "independent"]
 CountUndecided = Literal["degree_too_low", "joints_not_exact", "no_prime_drawn", "primes_disagree"]
 CountedLengths = Literal["generic", "given"]
@@ -73,6 +73,7 @@ Invariant = Literal[
 ]
 LengthsOrigin = Literal["design", "home"]
 Level = Literal["doubles_as_written", "exact_joints", "within_rounding"]
+LineClass = Literal["cubic", "octic", "quadratic", "quartic"]
 Loss = Literal["cauchy", "huber", "squares", "tukey"]
 LossUnit = Literal["leg", "pose"]
 MarginVerdict = Literal["at_limit", "met", "searched", "violated"]
@@ -566,6 +567,9 @@ class CheckAnswer(Record):
     common_points: Union[CommonPointsRecord, None]
     #: How many isolated finite poses no lengths exceed, by a theorem.
     pose_bound: PoseBoundRecord
+    #: In which steps the poses can be found: whether by quadratic equations alone, and which part of the
+    #: platform can be placed before the rest.
+    solvability: Solvability
     #: The line that fits the joints of each body best, base first: a body whose joints all lie on one
     #: turns about it. A body with its joints in one place has none.
     best_lines: tuple[BestLineRecord, ...]
@@ -1509,6 +1513,9 @@ class ExploreAnswer(Record):
     assessment: Union[AssessAnswer, None]
     #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
+    #: Conic programs that the library clarabel solved in the search for the platform; those with other
+    #: drives, for freedoms and for holes are not counted.
+    conic_programs: Union[int, None]
     #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
     price: Union[PriceRecord, None]
     #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
@@ -1587,6 +1594,9 @@ class ExploreOctahedralAnswer(Record):
     assessment: Union[AssessAnswer, None]
     #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
+    #: Conic programs that the library clarabel solved in the search for the platform; those with other
+    #: drives, for freedoms and for holes are not counted.
+    conic_programs: int
     #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
     price: Union[PriceRecord, None]
     #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
@@ -1818,6 +1828,8 @@ class FkAnswer(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
+    #: What libraries of linear algebra computed for `--method template`.
+    library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
@@ -1886,6 +1898,8 @@ class FkOneAnswer(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: tuple[SolutionRecord, ...]
+    #: What libraries of linear algebra computed for `--method template`.
+    library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
     #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
@@ -1962,6 +1976,8 @@ class FkRowRecord(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
+    #: What libraries of linear algebra computed for `--method template`.
+    library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
     #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
@@ -2464,6 +2480,20 @@ class LegSlideRecord(Record):
     squares_to_ends: tuple[ExactNumberRecord, ...]
     #: The entry of c: -t (1 - t) d^2, design units squared.
     constant: ExactNumberRecord
+
+
+class LibraryCallsRecord(Record):
+    """What a library of linear algebra computed for an answer."""
+
+    #: The library.
+    library: str
+    #: The computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised
+    #: eigenvectors.
+    computation: str
+    #: Rows and columns of the matrix.
+    size: tuple[int, ...]
+    #: How often.
+    calls: int
 
 
 class LightestDriveRecord(Record):
@@ -3318,6 +3348,20 @@ class PatternRecord(Record):
     det_zero: tuple[str, ...]
 
 
+class PlacedFirst(Record):
+    """A part of the platform that some of the legs place, before the others place the rest."""
+
+    part: Union[Literal["line", "joint"], None]
+    #: The body.
+    body: Union[Body, None]
+    #: The legs, counted from 1.
+    legs: Union[tuple[int, ...], None]
+    #: By which polynomial; null where the legs are dependent, or joints are no fractions.
+    class_: Union[LineClass, None]
+    #: The five other ends lie in a plane: a line-plane component.
+    other_ends_in_plane: Union[bool, None]
+
+
 class PolynomialRecord(Record):
     """A polynomial in one unknown or in several: its degrees, its coefficients and its real roots."""
 
@@ -3853,6 +3897,9 @@ class SearchRecord(Record):
     dominated: Union[int, None]
     #: Of a front: bounds that no run met.
     unmet: Union[int, None]
+    #: Conic programs that the library clarabel solved in this search; those with other drives and for
+    #: freedoms are not counted.
+    conic_programs: int
 
 
 class SearchStepRecord(Record):
@@ -4079,6 +4126,15 @@ class SolutionRecord(Record):
     dual_quaternion: Union[ComplexRecord4, None]
     #: The pose in real numbers, where it is real.
     real_pose: Union[RealPoseRecord, None]
+
+
+class Solvability(Record):
+    """How the poses can be found in steps."""
+
+    #: A chain of quadratic equations gives all poses.
+    quadratic: bool
+    #: The parts that can be placed first; empty where the legs do not decouple in these ways.
+    placed_first: tuple[PlacedFirst, ...]
 
 
 class SolvedBudgetRecord(Record):

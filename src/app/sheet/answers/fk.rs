@@ -93,6 +93,7 @@ fn cells(outcome: &FkRowOutcome) -> Vec<String> {
             let complete = match s.completeness {
                 _ if !s.solution_set.witness_points().is_empty() => "SELF-MOTION",
                 CompletenessWord::Proved => "proved",
+                CompletenessWord::ProvedBounded => "proved, all real",
                 CompletenessWord::Modular => "modular",
                 CompletenessWord::Unproved if s.all_paths_accounted => "all paths accounted",
                 CompletenessWord::Unproved => "ROOTS MAY BE MISSING",
@@ -227,6 +228,7 @@ fn completeness(s: &SolvedRecord) -> &'static str {
         matches!(s.solution_set, SolutionSetRecord::PositiveDimensional { dimension_established: true, .. });
     match (s.completeness, moves, s.all_paths_accounted) {
         (CompletenessWord::Proved, ..) => "complete: proved",
+        (CompletenessWord::ProvedBounded, ..) => "complete: proved for all real poses",
         (CompletenessWord::Modular, ..) => "complete: modulo random primes",
         (CompletenessWord::Unproved, true, true) if as_written => "self-motion: established",
         (CompletenessWord::Unproved, true, true) => "self-motion within the rounding of the lengths",

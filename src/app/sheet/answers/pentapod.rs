@@ -33,7 +33,7 @@ pub fn pentapod(answer: &PentapodAnswer, units: &str) -> Sheet {
             answer.name
         ),
         (None, None) => {
-            say!(out, "{}: not decided: the five legs are dependent at all poses tried", answer.name)
+            say!(out, "{}: not decided: the five legs are dependent at all poses tried", answer.name);
         }
     }
     if answer.rounded_joints {

@@ -71,6 +71,7 @@ mod cluster;
 mod coordinates;
 mod differences;
 mod distinct;
+pub(crate) mod far;
 mod inverse;
 mod krawczyk;
 pub mod octahedral;

@@ -198,6 +198,7 @@ fn poses(out: &mut String, r: &Results) {
     };
     let complete = match &s.completeness {
         Completeness::Proved { .. } => "proved",
+        Completeness::ProvedBounded { .. } => "proved for all real poses",
         Completeness::Modular { .. } => "modulo random primes",
         Completeness::Unproved { .. } if s.all_accounted() => "not proved",
         Completeness::Unproved { .. } => "NOT proved, poses may be missing",

@@ -1,0 +1,149 @@
+//! Where poses of a special design have gone: common points at infinity of its legs, as far as doubles know them.
+//!
+//! With isotropic `u`, `v` a leg holds at infinity when `r - 2 eta a.u - 2 xi b.v - 2 (a.u)(b.v) = 0` (`special`). A
+//! rounded design fulfils six such equations nearly. `u` and `v` have one parameter each; the five unknowns are found
+//! by least squares from random starts. They depend on the joints alone. Nothing is proved here: the points are starts
+//! for `certify::far`.
+
+use nalgebra::{SMatrix, SVector};
+use num_complex::Complex64;
+
+use super::certify::far::{C, D, FarPoint, PATCH};
+use num::{Purpose, Rng};
+use platform::manipulator::Manipulator;
+
+/// Random starts, and how many in turn may find nothing new.
+const STARTS: usize = 1500;
+const VAIN: usize = 200;
+/// Steps of one search.
+const STEPS: usize = 40;
+/// Largest residual of what may be a common point: joints are rounded.
+const NEARLY: f64 = 1e-2;
+/// Points closer than this are one.
+const SAME: f64 = 1e-4;
+
+type Unknowns = SVector<Complex64, 5>;
+type Gradient = SMatrix<Complex64, 6, 5>;
+
+/// An isotropic vector and its derivative.
+fn isotropic(s: Complex64) -> [[Complex64; 3]; 2] {
+    let (i, one) = (Complex64::I, Complex64::ONE);
+    [[one - s * s, i * (one + s * s), s * 2.0], [s * -2.0, i * s * 2.0, Complex64::from(2.0)]]
+}
+
+fn dot(a: &[f64; 3], u: &[Complex64; 3]) -> Complex64 {
+    u[0] * a[0] + u[1] * a[1] + u[2] * a[2]
+}
+
+struct Search {
+    a: [[f64; 3]; 6],
+    b: [[f64; 3]; 6],
+}
+
+impl Search {
+    /// Unknowns `s`, `t` of `u` and `v`, `r`, `eta`, `xi`.
+    fn equations(&self, x: &Unknowns) -> (SVector<Complex64, 6>, Gradient) {
+        let ([u, du], [v, dv]) = (isotropic(x[0]), isotropic(x[1]));
+        let mut f = SVector::<Complex64, 6>::zeros();
+        let mut j = Gradient::zeros();
+        for i in 0..6 {
+            let (p, dp) = (dot(&self.a[i], &u), dot(&self.a[i], &du));
+            let (q, dq) = (dot(&self.b[i], &v), dot(&self.b[i], &dv));
+            f[i] = x[2] - (x[3] * p + x[4] * q + p * q) * 2.0;
+            let row = [(x[3] + q) * dp * -2.0, (x[4] + p) * dq * -2.0, Complex64::ONE, p * -2.0, q * -2.0];
+            for k in 0..5 {
+                j[(i, k)] = row[k];
+            }
+        }
+        (f, j)
+    }
+
+    /// Levenberg's method.
+    fn from(&self, mut x: Unknowns) -> Option<Unknowns> {
+        let (mut f, mut j) = self.equations(&x);
+        let mut damping = 1e-2;
+        for _ in 0..STEPS {
+            let (gradient, mut normal) = (j.adjoint() * f, j.adjoint() * j);
+            for k in 0..5 {
+                normal[(k, k)] += damping;
+            }
+            let step = normal.lu().solve(&gradient)?;
+            let next = x - step;
+            let (g, k) = self.equations(&next);
+            if g.norm_squared() < f.norm_squared() {
+                let settled = step.norm_squared() < 1e-22 * (1.0 + x.norm_squared());
+                (x, f, j) = (next, g, k);
+                damping *= 0.1;
+                if settled {
+                    break;
+                }
+            } else {
+                damping = (damping * 8.0).max(1e-14);
+                if damping > 1e8 {
+                    break;
+                }
+            }
+        }
+        (f.norm() < NEARLY && x.norm() < 1e3).then_some(x)
+    }
+
+    /// The point in the coordinates of `certify::far`.
+    fn point(x: &Unknowns) -> Option<FarPoint> {
+        let ([u, _], [v, _]) = (isotropic(x[0]), isotropic(x[1]));
+        let m = |i: usize, j: usize| u[i] * v[j];
+        let trace = m(0, 0) + m(1, 1) + m(2, 2);
+        let product = |i: usize, j: usize| match (i.min(j), i.max(j)) {
+            (0, 0) => trace,
+            (0, k) => m((k + 1) % 3, k % 3) - m(k % 3, (k + 1) % 3),
+            (k, l) if k == l => m(k - 1, k - 1) * 2.0 - trace,
+            (k, l) => m(k - 1, l - 1) + m(l - 1, k - 1),
+        };
+        let largest = (0..4).max_by(|i, j| product(*i, *i).norm().total_cmp(&product(*j, *j).norm()))?;
+        let column: [Complex64; 4] = std::array::from_fn(|i| product(i, largest));
+        let patch = (0..4).fold(Complex64::ZERO, |sum, k| sum + column[k] * PATCH[k]);
+        let e = column.map(|z| z / patch);
+        // `column` is a multiple of the quaternion of `u v^T` by four times its largest coordinate
+        let scale = product(largest, largest) * 4.0 / (patch * patch);
+        let (to_u, to_v) = (dot(&D, &u), dot(&C, &v));
+        let k = to_u * to_v;
+        let (alpha, beta) = (x[3] / to_v, -x[4] / to_u);
+        let rho = (alpha * beta * k * 2.0 - x[2]) / (scale * k * k);
+        let out = [e[0], e[1], e[2], e[3], alpha, beta, Complex64::ZERO, rho];
+        out.iter().all(|z| z.norm() < 1e8).then_some(out)
+    }
+}
+
+/// Points at infinity that the legs nearly have in common.
+pub(crate) fn far_points(m: &Manipulator, seed: u64) -> Vec<FarPoint> {
+    // the unit of length of `certify::far`
+    let inverse = 2f64.powi(m.size().log2().floor() as i32).recip();
+    let legs = m.legs();
+    let search = Search {
+        a: std::array::from_fn(|i| (legs[i].base.coords * inverse).into()),
+        b: std::array::from_fn(|i| (legs[i].platform.coords * inverse).into()),
+    };
+    let mut rng = Purpose::FAR_POINTS.rng(seed);
+    let mut found: Vec<FarPoint> = Vec::new();
+    let mut vain = 0;
+    let draw = |rng: &mut Rng| Complex64::new(rng.normal(), rng.normal());
+    for _ in 0..STARTS {
+        if vain > VAIN {
+            break;
+        }
+        vain += 1;
+        let start = Unknowns::from_fn(|_, _| draw(&mut rng));
+        let Some(x) = search.from(start) else { continue };
+        let Some(point) = Search::point(&x) else { continue };
+        for point in [point, point.map(|z| z.conj())] {
+            let same = |other: &FarPoint| {
+                let size = 1.0 + point.iter().map(|z| z.norm()).fold(0.0, f64::max);
+                other.iter().zip(&point).all(|(x, y)| (x - y).norm() < SAME * size)
+            };
+            if !found.iter().any(same) {
+                found.push(point);
+                vain = 0;
+            }
+        }
+    }
+    found
+}
