@@ -208,9 +208,9 @@ fn a_design_without_shared_joints_has_its_legs_moved_and_is_compared_with_the_re
     let temp = tempfile::tempdir().unwrap();
     let out = explore(&shipped("rbt-griffis-duffy"), temp.path(), &["--json"]);
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
-    // the new joints are rounded: the map holds within rounding, which is no proof
-    assert_eq!((out.status.code(), &d["verdict"]), (Some(3), &"inconclusive".into()), "{d}");
-    assert!(d["explanation"].as_str().unwrap().contains("equivalent within rounding"), "{d}");
+    // the new joints are exact on lines of the old ones, so that the map is proved
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(0), &"equivalent".into()), "{d}");
+    assert!(d["explanation"].as_str().unwrap().contains("proved about the exact joints"), "{d}");
     assert!(!d["moves"]["moved_legs"].as_array().unwrap().is_empty());
     assert!(
         d["nearest"]["largest_displacement"].as_f64().unwrap() < 1e-9,

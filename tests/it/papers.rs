@@ -47,7 +47,7 @@ fn trilateration() {
 
 #[test]
 fn the_determinant_of_degree_forty() {
-    section_prints_what_it_shows("Lee", 3);
+    section_prints_what_it_shows("Lee", 4);
 }
 
 #[test]

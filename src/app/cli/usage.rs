@@ -184,7 +184,7 @@ mod tests {
             ("convert", "", &["design convert"]),
             ("presets", "", &["design presets"]),
             ("schema", "", &["design schema"]),
-            ("locus", "", &["plot locus"]),
+            ("locus", "", &["singular locus", "plot locus"]),
             ("completions", "", &["shell completions"]),
             ("man", "", &["shell man"]),
             ("optimise", "", &["optimize"]),
