@@ -16,7 +16,8 @@ use super::{
 };
 use fk::solve::pose_count::{CountedLengths, PoseSet};
 use fk::{
-    CompletenessWord, FkRoot, FkSolutions, LibraryCalls, Method, PathReport, Reality, Rejected, SolutionSet,
+    BoundedProof, Completeness, CompletenessWord, FkRoot, FkSolutions, LibraryCalls, Method, PathReport,
+    Reality, Rejected, SolutionSet,
 };
 use machine::rotary::RotaryPlatform;
 use platform::geom::{ComplexPose, Pose};
@@ -146,6 +147,9 @@ pub struct SolvedRecord {
     pub completeness: CompletenessWord,
     /// One sentence on what is known.
     pub completeness_reason: String,
+    /// The numbers of the proof that all poses up to a distance are listed, where it is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounded: Option<BoundedProof>,
     /// False: roots may be missing.
     pub all_paths_accounted: bool,
     /// The number of `solutions`.
@@ -186,6 +190,10 @@ impl From<&FkSolutions> for SolvedRecord {
             method: s.method,
             completeness: s.completeness.word(),
             completeness_reason: s.completeness.to_string(),
+            bounded: match s.completeness {
+                Completeness::ProvedBounded { proof } => Some(proof),
+                _ => None,
+            },
             all_paths_accounted: s.all_accounted(),
             finite_count: s.roots.len(),
             finite_count_with_multiplicity: s.count_with_multiplicity(),

@@ -291,6 +291,18 @@ class BeyondPrecisionRecord(Record):
     b: int
 
 
+class BoundedProof(Record):
+    """The numbers of a proof that all poses up to a distance are listed."""
+
+    #: Certified poses listed, with multiplicity.
+    poses: int
+    #: Others, certified to be different and farther out, or at infinity.
+    far: int
+    #: The distance: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries
+    #: of real rotations are at most 1.
+    rotation: float
+
+
 class BranchConflictRecord(Record):
     """Why a branch or a part of it is empty."""
 
@@ -1805,6 +1817,8 @@ class FkAnswer(Record):
     completeness: Union[CompletenessWord, None]
     #: One sentence on what is known.
     completeness_reason: Union[str, None]
+    #: The numbers of the proof that all poses up to a distance are listed, where it is one.
+    bounded: Union[BoundedProof, None]
     #: False: roots may be missing.
     all_paths_accounted: Union[bool, None]
     #: The number of `solutions`.
@@ -1898,6 +1912,8 @@ class FkOneAnswer(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: tuple[SolutionRecord, ...]
+    #: The numbers of the proof that all poses up to a distance are listed, where it is one.
+    bounded: Union[BoundedProof, None]
     #: What libraries of linear algebra computed for `--method template`.
     library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: What null stands for, where a number is not finite.
@@ -1953,6 +1969,8 @@ class FkRowRecord(Record):
     completeness: Union[CompletenessWord, None]
     #: One sentence on what is known.
     completeness_reason: Union[str, None]
+    #: The numbers of the proof that all poses up to a distance are listed, where it is one.
+    bounded: Union[BoundedProof, None]
     #: False: roots may be missing.
     all_paths_accounted: Union[bool, None]
     #: The number of `solutions`.
