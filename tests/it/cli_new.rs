@@ -314,3 +314,25 @@ fn decimals_that_were_meant_symmetric_are_said_to_be_and_written_so_with_snap() 
         (Some(2), &"convert::no_symmetry".into())
     );
 }
+
+#[test]
+fn sizes_are_told_as_they_were_understood_and_nearly_singular_ones_with_the_other_reading() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("other.toml");
+    let usual = new(&SIZES);
+    let told = usual["guesses"].to_string();
+    assert!(
+        told.contains("at 50, 70, 170, 190, 290, 310 degrees") && told.contains("says 100 for 20"),
+        "{told}"
+    );
+    assert!(!told.contains("nearly singular"));
+    let mut sizes = SIZES.map(str::to_owned);
+    sizes[7] = "98".into();
+    let mut words: Vec<&str> = sizes.iter().map(String::as_str).collect();
+    words.extend(["-o", path.to_str().unwrap()]);
+    let told = new(&words)["guesses"].to_string();
+    assert!(
+        told.contains("nearly singular") && told.contains("from the legs of a base pair (22 degrees)"),
+        "{told}"
+    );
+}

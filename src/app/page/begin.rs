@@ -78,7 +78,8 @@ impl DataSheet {
             height: self.height,
         };
         sizes.check().map_err(|e| Refusal::new("sizes", e))?;
-        Ok(MadeRecord { toml: sizes.to_toml(NAME, &self.units), guesses: Vec::new() })
+        let guesses = sizes.understood(&self.units).to_vec();
+        Ok(MadeRecord { toml: sizes.to_toml(NAME, &self.units), guesses })
     }
 }
 

@@ -59,6 +59,34 @@ impl HexapodSizes {
         Ok(())
     }
 
+    /// Where the joints are and how the spreads are meant, a sentence each.
+    pub fn understood(&self, units: &str) -> [String; 3] {
+        let pair = |k: usize, middle: f64| {
+            let half = self.spread_deg[k] / 2.0;
+            if half > 0.0 { vec![middle - half, middle + half] } else { vec![middle] }
+        };
+        let body = |k: usize, first: f64| {
+            let angles = [0.0, 1.0, 2.0].into_iter().flat_map(|n| pair(k, first + n * PAIRS_DEG));
+            let angles: Vec<String> = angles.map(|x| format!("{x}")).collect();
+            format!("on a circle of radius {} {units}, at {} degrees", self.radius[k], angles.join(", "))
+        };
+        [
+            format!("The base joints are {}.", body(0, 0.0)),
+            format!("The platform joints are {}.", body(1, PLATFORM_TURN_DEG)),
+            format!(
+                "The spread is the angle between neighbours of one body: who counts the platform pair from the legs of a base pair says {} for {} degrees.",
+                self.other_reading().spread_deg[1],
+                self.spread_deg[1]
+            ),
+        ]
+    }
+
+    /// The same numbers where the pair of the platform is counted from the legs of a base pair, as some makers do.
+    #[must_use]
+    pub fn other_reading(self) -> Self {
+        Self { spread_deg: [self.spread_deg[0], PAIRS_DEG - self.spread_deg[1]], ..self }
+    }
+
     /// The design file in TOML, without leg lengths.
     pub fn to_toml(self, name: &str, units: &str) -> String {
         let [(base, base_ends), (platform, platform_ends)] =

@@ -21,6 +21,7 @@ use ::files::design::{
 use ask::Design;
 use ask::design::parse_with_cranks;
 use platform::geom::{Angles, Pose};
+use platform::manipulator::{inverse_condition, jacobian};
 use records::{NewAnswer, PresetFile};
 use synthesis::singularity::Architecture;
 
@@ -108,9 +109,9 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Result<Answer, Failure> 
         (None, Some(corners)) => (from_corners(args, corners)?, None),
         (None, None) if nothing_given(args) => {
             let PromptedHexapod { sizes, units, output } = asked()?;
-            (from_sizes(&sizes, &args.name, &units)?, Some(output))
+            (from_sizes(&sizes, &args.name, &units, context)?, Some(output))
         }
-        (None, None) => (from_sizes(&sizes(args)?, &args.name, units.unwrap_or(UNIT))?, None),
+        (None, None) => (from_sizes(&sizes(args)?, &args.name, units.unwrap_or(UNIT), context)?, None),
     };
     let output = args.output.clone().or(asked_output);
     finish(made, output.as_ref(), context)
@@ -156,10 +157,35 @@ fn bad(why: impl Into<String>) -> Failure {
     Failure::refused("new::bad_sizes", why).with_help("choose other sizes")
 }
 
-fn from_sizes(sizes: &HexapodSizes, name: &str, units: &str) -> Result<Made, Failure> {
+fn from_sizes(sizes: &HexapodSizes, name: &str, units: &str, context: &Context) -> Result<Made, Failure> {
     sizes.check().map_err(|why| bad(why.to_string()))?;
-    read_back(sizes.to_toml(name, units))
+    let mut made = read_back(sizes.to_toml(name, units))?;
+    made.guesses = sizes.understood(units).to_vec();
+    let condition = |made: &Made| {
+        let (m, home) = (made.design.manipulator(), made.design.home_or_default());
+        inverse_condition(&jacobian(m, &home, made.design.characteristic_length()))
+    };
+    let here = condition(&made);
+    if here < NEARLY_SINGULAR {
+        let other = sizes.other_reading();
+        let there =
+            other.check().ok().and_then(|()| Some(condition(&read_back(other.to_toml(name, units)).ok()?)));
+        let would = match there.filter(|there| *there >= NEARLY_SINGULAR) {
+            Some(there) => format!(
+                ", and {there:.3} with the platform spread counted from the legs of a base pair ({} degrees)",
+                other.spread_deg[1]
+            ),
+            None => String::new(),
+        };
+        made.guesses
+            .push(format!("Home is nearly singular: the inverse condition number is {here:.3}{would}."));
+    }
+    made.guesses.iter().for_each(|sentence| context.note(sentence));
+    Ok(made)
 }
+
+/// Below this inverse condition number at home a new hexapod is said to be nearly singular.
+const NEARLY_SINGULAR: f64 = 0.05;
 
 /// The design that a text of this command says.
 fn read_back(toml: String) -> Result<Made, Failure> {
