@@ -15,6 +15,8 @@ use platform::manipulator::Manipulator;
 /// Random starts, and how many in turn may find nothing new.
 const STARTS: usize = 1500;
 const VAIN: usize = 200;
+/// Six legs have at most so many isolated common points.
+const MOST: usize = 40;
 /// Steps of one search.
 const STEPS: usize = 40;
 /// Largest residual of what may be a common point: joints are rounded.
@@ -113,7 +115,7 @@ impl Search {
     }
 }
 
-/// Points at infinity that the legs nearly have in common.
+/// Points at infinity that the legs nearly have in common; none where there are more than isolated ones can be.
 pub(crate) fn far_points(m: &Manipulator, seed: u64) -> Vec<FarPoint> {
     // the unit of length of `certify::far`
     let inverse = 2f64.powi(m.size().log2().floor() as i32).recip();
@@ -143,6 +145,10 @@ pub(crate) fn far_points(m: &Manipulator, seed: u64) -> Vec<FarPoint> {
                 found.push(point);
                 vain = 0;
             }
+        }
+        // legs with a curve of common points at infinity: no number of them is all
+        if found.len() > MOST {
+            return Vec::new();
         }
     }
     found
