@@ -18,6 +18,7 @@ CALLS = """
 1 check {longer}
 1 check {star}
 0 check {rbt-griffis-duffy}
+0 check-pentapod {line-plane}
 0 shell-completions bash
 0 equivalents-components {rbt-octahedral} --samples 1
 0 equivalents-components {rbt-griffis-duffy} --samples 1
@@ -34,7 +35,7 @@ CALLS = """
 0 explore {rbt-octahedral} --samples 1 -o {explored}
 1 explore {apart} --samples 1 -o {none}
 1 explore {general-6-6} --samples 1 -o {general}
-3 explore {rbt-griffis-duffy} --samples 1 -o {made}
+0 explore {rbt-griffis-duffy} --samples 1 -o {made}
 0 equivalents-nearest {general-6-6} -o {nearest.toml}
 0 report {explored}
 0 export {rbt-octahedral} --to csv,svg -o {exported}
@@ -270,7 +271,7 @@ class Files:
 
     def path(self, name):
         """The file of that name: shipped, made here, or a place to write to."""
-        for folder in ("designs", "designs/worked", "designs/presets"):
+        for folder in ("designs", "designs/worked", "designs/presets", "designs/pentapods"):
             if (self.root / folder / f"{name}.toml").exists():
                 return f"{folder}/{name}.toml"
         if name in OFFSETS:
@@ -308,7 +309,7 @@ def answers(program, root, folder):
     files = Files(program, root, folder)
     for call in CALLS.strip().splitlines():
         code, name, *arguments = call.split()
-        command = [] if name in ("error", "help") else name.split("-")
+        command = [] if name in ("error", "help") else name.removesuffix("-pentapod").split("-")
         words = [files.path(w[1:-1]) if w[0] + w[-1] == "{}" else w for w in [*command, *arguments]]
         found, text = files.ask([*words, "--json"])
         yield " ".join(words), int(code), found, name, text
