@@ -5,26 +5,28 @@
 //! together are forty, every pose whose `R` has no entry beyond those of the far ones is in the list. Entries of real
 //! rotations are at most one: all real poses are.
 
+use std::cell::LazyCell;
+
 use super::evidence::reject_others;
 use super::judge::are_distinct;
 use super::{BoundedProof, Completeness, FkError, FkRoot, FkSolutions, Theorem};
 use crate::solve::certify::far::{FarPoint, FarRoot, FarSystem};
 use crate::solve::certify::{PoseEnclosure, SquareData};
-use crate::solve::far_points;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// [`conclude_far`] with the points at infinity of the design.
-pub(super) fn bounded(
+/// [`conclude_far`] with the points at infinity of the design, which are looked for once a design, and where poses are
+/// missing.
+pub(super) fn bounded<F: FnOnce() -> Vec<FarPoint>>(
     found: &mut FkSolutions,
     m: &Manipulator,
     s: &SquaredLegLengths,
-    seed: u64,
+    points: &LazyCell<Vec<FarPoint>, F>,
 ) -> Result<bool, FkError> {
     let near = found.certified_count();
     if near == 0 || near >= Theorem::SixLegs.bound() || !are_distinct(found) {
         return Ok(false);
     }
-    conclude_far(found, m, s, &far_points(m, seed))
+    conclude_far(found, m, s, points)
 }
 
 /// Proves that what is missing of forty poses is far out, or at infinity; whether that succeeds. `points` are starts.

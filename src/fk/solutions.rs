@@ -269,7 +269,7 @@ pub struct Rejected {
     pub residual: f64,
 }
 
-/// What a library of linear algebra computed for an answer.
+/// A library of linear algebra computed this for an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",

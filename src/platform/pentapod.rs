@@ -57,6 +57,12 @@ pub fn dot(x: &RationalPoint, y: &RationalPoint) -> Rational {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
+/// `x x y`.
+pub fn cross(x: &RationalPoint, y: &RationalPoint) -> RationalPoint {
+    let minor = |i: usize, j: usize| &x[i] * &y[j] - &x[j] * &y[i];
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
 fn difference(x: &RationalPoint, y: &RationalPoint) -> RationalPoint {
     std::array::from_fn(|k| &x[k] - &y[k])
 }

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use num::exact::{ExactVector, Rational, rank};
 use num_traits::{One, Zero};
 use platform::manipulator::Body;
-use platform::pentapod::{LINE_NUMBERS, LinearPentapod, Pentapod, RationalPoint};
+use platform::pentapod::{LINE_NUMBERS, LinearPentapod, Pentapod, RationalPoint, cross};
 
 /// Exponents of `p_x, p_y, p_z, v_x, v_y, v_z`.
 type LineExponents = [u8; 6];
@@ -306,11 +306,6 @@ pub fn independent_somewhere(p: &Pentapod, seed: u64) -> bool {
             .collect();
         rank(&rows) == 5
     })
-}
-
-fn cross(x: &RationalPoint, y: &RationalPoint) -> RationalPoint {
-    let minor = |i: usize, j: usize| &x[i] * &y[j] - &x[j] * &y[i];
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
 #[cfg(test)]

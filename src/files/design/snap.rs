@@ -159,7 +159,7 @@ impl DesignModel {
                 }
             }
         }
-        // lengths follow from joints and pose, and the joints have moved
+        // a joint that is exactly in a plane has moved nowhere
         found.retain(|relation: &FoundRelation| {
             relation.off > 0.0
                 || !matches!(relation.relation, JointRelation::Level | JointRelation::InPlane(_))

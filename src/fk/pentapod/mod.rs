@@ -23,7 +23,7 @@ use thiserror::Error;
 use self::quotient::{ByOneForm, Quadric, Quotient};
 use num::exact::{ExactVector, Rational, nearest, relations};
 use num::poly::{ComplexRoot, Dyadic, IntPoly, complex_roots};
-use platform::pentapod::{LINE_NUMBERS, LinearPentapod, RationalPoint};
+use platform::pentapod::{LINE_NUMBERS, LinearPentapod, RationalPoint, cross};
 
 /// What the line is found by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -157,13 +157,7 @@ pub fn line_class(p: &LinearPentapod) -> Option<LineClass> {
 fn normal(points: &[RationalPoint; 5]) -> Option<RationalPoint> {
     let from_first = |i: usize| -> RationalPoint { std::array::from_fn(|k| &points[i][k] - &points[0][k]) };
     let pairs = (1..5).flat_map(|i| (i + 1..5).map(move |j| (i, j)));
-    pairs
-        .map(|(i, j)| {
-            let (x, y) = (from_first(i), from_first(j));
-            let minor = |k: usize, l: usize| &x[k] * &y[l] - &x[l] * &y[k];
-            [minor(1, 2), minor(2, 0), minor(0, 1)]
-        })
-        .find(|n| n.iter().any(|x| !x.is_zero()))
+    pairs.map(|(i, j)| cross(&from_first(i), &from_first(j))).find(|n| n.iter().any(|x| !x.is_zero()))
 }
 
 /// A basis of the vectors that all rows take to zero.

@@ -27,7 +27,7 @@ pub enum Elimination {
     Template,
 }
 
-/// What the elimination of one problem left.
+/// Figures of one problem's elimination.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RawOutcome {
     /// Residuals of the candidates, eq. (18), ascending; `None` where the elimination does not apply.

@@ -142,7 +142,7 @@ impl ComparedDesigns {
     /// Two designs in the frames that they are given in, compared at the lengths of so many sample poses of the first.
     ///
     /// # Errors
-    /// Those of the comparison.
+    /// The comparison gives these ([`verify::verify`]).
     pub fn of([a, b]: [&Design; 2], samples: usize, options: &FkOptions) -> Result<Self, VerifyError> {
         let plan = sample_plan(a, samples, options.seed);
         let found = verify::verify(a.manipulator(), b.manipulator(), &plan, options)?;

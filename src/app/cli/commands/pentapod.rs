@@ -1,5 +1,6 @@
 //! Designs of five legs, for `equipod check` and `equipod fk`.
 
+use super::fk::lengths::separated;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -32,7 +33,7 @@ pub(super) fn check(design: &FiveLegs, context: &Context) -> Answer {
 pub(super) fn fk(design: &FiveLegs, lengths: Option<&str>, context: &Context) -> Result<Answer, Failure> {
     let lengths = match lengths {
         None => design.lengths,
-        Some(text) => Some(five(text).map_err(|why| {
+        Some(text) => Some(separated(text, "five").map_err(|why| {
             Failure::refused("fk::bad_lengths", format!("--lengths: {why}"))
                 .with_help("give five lengths separated by commas")
         })?),
@@ -58,15 +59,4 @@ pub(super) fn fk(design: &FiveLegs, lengths: Option<&str>, context: &Context) ->
         }
     };
     Ok(answered(exit, &report))
-}
-
-fn five(text: &str) -> Result<[f64; 5], String> {
-    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
-    let fields: [&str; 5] =
-        fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of five", f.len()))?;
-    let mut values = [0.0; 5];
-    for (i, field) in fields.iter().enumerate() {
-        values[i] = field.parse().map_err(|_| format!("value {}, `{field}`, is not a number", i + 1))?;
-    }
-    Ok(values)
 }

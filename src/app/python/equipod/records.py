@@ -2501,7 +2501,7 @@ class LegSlideRecord(Record):
 
 
 class LibraryCallsRecord(Record):
-    """What a library of linear algebra computed for an answer."""
+    """A library of linear algebra computed this for an answer."""
 
     #: The library.
     library: str

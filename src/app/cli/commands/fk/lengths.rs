@@ -67,15 +67,23 @@ impl ShownLengths {
 
 /// Six comma-separated lengths.
 pub(in crate::app::cli::commands) fn six(text: &str, offsets: &[f64; 6]) -> Result<ShownLengths, String> {
+    ShownLengths::new(separated(text, "six")?, offsets)
+}
+
+/// So many comma-separated numbers; `word` is how many.
+pub(in crate::app::cli::commands) fn separated<const N: usize>(
+    text: &str,
+    word: &str,
+) -> Result<[f64; N], String> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
-    let fields: [&str; 6] =
-        fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of six", f.len()))?;
-    let mut values = [0.0; 6];
+    let fields: [&str; N] =
+        fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of {word}", f.len()))?;
+    let mut values = [0.0; N];
     for (i, field) in fields.iter().enumerate() {
         values[i] =
             numbers::one(field).ok_or_else(|| format!("value {}, `{field}`, is not a number", i + 1))?;
     }
-    ShownLengths::new(values, offsets)
+    Ok(values)
 }
 
 /// A table with six lengths a line.

@@ -20,10 +20,10 @@ const LEAST_NUMBERS: usize = 2;
 
 /// Root elements of models that are not read, and what these are called.
 const MODELS: [(&str, &str); 4] = [
-    ("<robot", "URDF (ROS), whose joints make no closed loops"),
-    ("<sdf", "SDF (Gazebo)"),
-    ("<SimMechanics", "Simscape Multibody XML"),
-    ("<COLLADA", "COLLADA"),
+    ("robot", "URDF (ROS), whose joints make no closed loops"),
+    ("sdf", "SDF (Gazebo)"),
+    ("SimMechanics", "Simscape Multibody XML"),
+    ("COLLADA", "COLLADA"),
 ];
 
 /// The ends of the six legs as a table has them.
@@ -79,10 +79,13 @@ impl PointTable {
         if text.trim_start().starts_with("ISO-10303-21") {
             return Err(InvalidPointTable::Step);
         }
-        if let Some((_, name)) = MODELS.iter().find(|(root, _)| text.contains(root) && mjcf::is_xml(&text)) {
-            return Err(InvalidPointTable::Model(name));
-        }
         if mjcf::is_xml(&text) {
+            let root = text.split('<').find(|tag| tag.starts_with(|c: char| c.is_ascii_alphabetic()));
+            if let Some((_, name)) =
+                MODELS.iter().find(|(root_of, _)| root.is_some_and(|r| r.starts_with(root_of)))
+            {
+                return Err(InvalidPointTable::Model(name));
+            }
             return mjcf::read(&text).map_err(InvalidPointTable::Mjcf);
         }
         if let Some(pins) = HexapodPins::read(&text) {
