@@ -1,5 +1,5 @@
 //! Tables of numbers as people have them: exports of spreadsheets, of CAD programs and of scripts; and legs in models
-//! of `MuJoCo`.
+//! of simulators.
 //!
 //! Nothing says how such a table is written, so that its form is guessed from its text, and every guess is a sentence
 //! that the reader of the answer sees. What cannot be read is refused; no cell is passed over without a word.
@@ -7,13 +7,15 @@
 mod drives;
 mod hal;
 mod header;
-mod mjcf;
+mod models;
 mod placed;
 mod points;
 mod rig_sheet;
 mod series;
 mod sheet;
 mod text;
+#[cfg(feature = "workbook")]
+mod workbook;
 
 pub use drives::{DesignUnits, Drive, DriveTable, InvalidDriveTable};
 pub use points::{InvalidPointTable, PointTable};

@@ -47,6 +47,12 @@ pub(super) fn within(outer: &Pose, inner: &Pose) -> Pose {
     Pose { rotation: outer.rotation * inner.rotation, position }
 }
 
+/// The outer frame seen from `inner`.
+pub(super) fn inverse(inner: &Pose) -> Pose {
+    let rotation = inner.rotation.inverse();
+    Pose { rotation, position: -(rotation * inner.position) }
+}
+
 /// Legs at home.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PlacedLegs {

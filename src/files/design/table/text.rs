@@ -1,4 +1,4 @@
-//! The bytes of a table as text: UTF-8, UTF-16, or one byte a character.
+//! The bytes of a table as text: UTF-8, UTF-16, one byte a character, or a spreadsheet.
 
 /// The text of a table and, where it is not UTF-8, what it was taken for.
 pub(super) struct Decoded {
@@ -12,6 +12,9 @@ const ZIP: &[u8] = b"PK\x03\x04";
 /// Text of `bytes`; the sentence is why there is none.
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
     if bytes.starts_with(ZIP) {
+        #[cfg(feature = "workbook")]
+        return super::workbook::decode(bytes);
+        #[cfg(not(feature = "workbook"))]
         return Err("this is a packed spreadsheet file, not a text: save the sheet as CSV".into());
     }
     let wide = |bytes: &[u8], big_endian: bool| {

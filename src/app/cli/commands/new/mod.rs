@@ -56,7 +56,7 @@ pub(crate) struct NewArgs {
     )]
     corners: Option<Vec<String>>,
     /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any
-    /// usual notation, the pins of `genhexkins`, or a model of `MuJoCo`
+    /// usual notation, the pins of `genhexkins`, a spreadsheet, or a model of `MuJoCo`, Gazebo (SDF) or ROS (URDF)
     #[arg(
         long,
         value_name = "FILE",
@@ -241,9 +241,9 @@ fn corners(text: &str) -> Result<[[f64; 3]; 3], Failure> {
 /// A table or a model that gives no design.
 fn bad_points(shown: &str, why: &InvalidPointTable) -> Failure {
     let (code, help) = match why {
-        InvalidPointTable::Mjcf(_) => (
+        InvalidPointTable::Mechanism(_) => (
             "new::bad_mjcf",
-            "legs are slide joints between a joint of the base and one of the platform, or spatial tendons from a site of the base to one of the platform",
+            "legs are six slide joints (prismatic), each between joints of the base and of the platform; in MuJoCo also spatial tendons from a site of the base to one of the platform",
         ),
         InvalidPointTable::Model(_) => (
             "new::bad_model",

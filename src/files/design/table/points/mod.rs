@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::hal::{HOME_OF_COMMENT, HexapodPins, home_of};
 use super::header::{UNITS, plain};
-use super::mjcf;
+use super::models;
 use super::sheet::{CellTable, InvalidSheet, SheetRow};
 use super::text::decode;
 use crate::design::{DesignModel, NameCount};
@@ -19,9 +19,7 @@ use platform::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
 const LEAST_NUMBERS: usize = 2;
 
 /// Root elements of models that are not read, and what these are called.
-const MODELS: [(&str, &str); 4] = [
-    ("robot", "URDF (ROS), whose joints make no closed loops"),
-    ("sdf", "SDF (Gazebo)"),
+const MODELS: [(&str, &str); 2] = [
     ("SimMechanics", "Simscape Multibody XML"),
     ("COLLADA", "COLLADA"),
 ];
@@ -51,9 +49,9 @@ pub enum InvalidPointTable {
     /// Its rows or columns are not those of twelve points.
     #[error("{0}")]
     Form(String),
-    /// It is a model of `MuJoCo`, or other XML, without six legs in it.
+    /// It is a model of a simulator, or other XML, without six legs in it.
     #[error("{0}")]
-    Mjcf(String),
+    Mechanism(String),
     /// It is an exchange file of a CAD program (ISO 10303-21), which is not read.
     #[error("this is a STEP file, and assemblies are not read")]
     Step,
@@ -70,7 +68,8 @@ impl PointTable {
     ///
     /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one
     /// point belong to the body that a cell, a title above them or their name says, else the first six to the base.
-    /// Lists of Python, C, MATLAB, JSON and YAML, settings of `genhexkins` and models of `MuJoCo` are read too.
+    /// Lists of Python, C, MATLAB, JSON and YAML, settings of `genhexkins` and models of
+    /// `MuJoCo`, Gazebo (SDF) and ROS (URDF) are read too.
     ///
     /// # Errors
     /// [`InvalidPointTable`].
@@ -79,14 +78,14 @@ impl PointTable {
         if text.trim_start().starts_with("ISO-10303-21") {
             return Err(InvalidPointTable::Step);
         }
-        if mjcf::is_xml(&text) {
+        if models::is_xml(&text) {
             let root = text.split('<').find(|tag| tag.starts_with(|c: char| c.is_ascii_alphabetic()));
             if let Some((_, name)) =
                 MODELS.iter().find(|(root_of, _)| root.is_some_and(|r| r.starts_with(root_of)))
             {
                 return Err(InvalidPointTable::Model(name));
             }
-            return mjcf::read(&text).map_err(InvalidPointTable::Mjcf);
+            return models::read(&text).map_err(InvalidPointTable::Mechanism);
         }
         if let Some(pins) = HexapodPins::read(&text) {
             let HexapodPins { legs, home, guesses } = pins?;
@@ -127,7 +126,7 @@ impl PointTable {
 
     /// When one body is all above the other the table has both in one frame, as a drawing has them: the platform frame
     /// is then put at the mean height of the platform joints.
-    fn part_frames(&mut self) {
+    pub(super) fn part_frames(&mut self) {
         // the axis along which the bodies are apart: z, where it is one of several
         let Some(axis) = [2, 1, 0].into_iter().find(|axis| self.apart_along(*axis)) else { return };
         let heights = |body: Body| self.legs.map(|leg| leg.end(body)[axis]);

@@ -1,5 +1,4 @@
-//! The kinematic tree at the reference configuration: rigid groups of bodies, the joints between them, sites, and loops
-//! that `equality` closes.
+//! Models of `MuJoCo`: bodies in bodies, sites, and loops that `equality` closes.
 
 use std::collections::BTreeMap;
 
@@ -7,42 +6,9 @@ use nalgebra::{Point3, Unit, Vector3};
 use roxmltree::Node;
 
 use super::attributes::{Settings, at, elements};
+use super::graph::{JointKind, Mechanism, ModelJoint, PlacedBody, Tendon, WORLD};
 use crate::design::table::placed::{identity, within};
 use platform::geom::Pose;
-
-/// The group of the world.
-pub(super) const WORLD: usize = 0;
-
-/// What a joint lets move.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum JointKind {
-    Hinge,
-    Ball,
-    Slide,
-}
-
-impl JointKind {
-    /// Of the rotations, how many.
-    pub(super) fn rotations(self) -> usize {
-        match self {
-            Self::Hinge => 1,
-            Self::Ball => 3,
-            Self::Slide => 0,
-        }
-    }
-}
-
-/// A joint between two groups.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct ModelJoint {
-    pub(super) kind: JointKind,
-    pub(super) name: String,
-    pub(super) groups: [usize; 2],
-    /// Its point as each group has it, base frame; two sites of a `connect` need not be at the same place.
-    pub(super) points: [Point3<f64>; 2],
-    /// Of a hinge, base frame.
-    pub(super) axis: Option<Unit<Vector3<f64>>>,
-}
 
 /// A joint of a body in its frame.
 struct OwnJoint {
@@ -53,49 +19,15 @@ struct OwnJoint {
     axis: Option<Unit<Vector3<f64>>>,
 }
 
-/// A tendon from site to site.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tendon {
-    pub(super) name: String,
-    pub(super) groups: [usize; 2],
-    pub(super) points: [Point3<f64>; 2],
-}
-
-/// A body with its group and its frame, base frame.
-#[derive(Debug, Clone, PartialEq)]
-struct PlacedBody {
-    group: usize,
-    at: Pose,
-}
-
-/// What of a model concerns legs.
-#[derive(Debug, Default)]
-pub(super) struct MujocoModel {
-    groups: usize,
-    /// Groups that `weld` makes one: the lowest of them.
-    joined: Vec<usize>,
-    pub(super) joints: Vec<ModelJoint>,
-    pub(super) tendons: Vec<Tendon>,
-    /// Number of spatial tendons that are not from one site to another.
-    pub(super) other_tendons: usize,
-    /// The first body of each group, its name and its frame.
-    first: BTreeMap<usize, (String, Pose)>,
-    bodies: BTreeMap<String, PlacedBody>,
-    sites: BTreeMap<String, PlacedBody>,
-    /// Number of hinges that an actuator turns.
-    pub(super) driven_hinges: usize,
-    pub(super) guesses: Vec<String>,
-}
-
 /// Elements that stand for others: what they stand for is in another file, or many.
 const NOT_READ: [&str; 5] = ["include", "replicate", "composite", "flexcomp", "attach"];
 
-impl MujocoModel {
-    /// Reads a model.
+impl Mechanism {
+    /// Reads a model of `MuJoCo`.
     ///
     /// # Errors
     /// A sentence with the line.
-    pub(super) fn read(root: Node<'_, '_>) -> Result<Self, String> {
+    pub(super) fn of_mujoco(root: Node<'_, '_>) -> Result<Self, String> {
         if let Some(node) =
             root.descendants().find(|n| n.is_element() && NOT_READ.contains(&n.tag_name().name()))
         {
@@ -106,9 +38,7 @@ impl MujocoModel {
             return Err(at(node, message));
         }
         let settings = Settings::of(root)?;
-        let mut model = Self { groups: 1, joined: vec![WORLD], ..Self::default() };
-        model.first.insert(WORLD, ("world".into(), identity()));
-        model.bodies.insert("world".into(), PlacedBody { group: WORLD, at: identity() });
+        let mut model = Self::new();
         let of = |tag: &'static str| elements(root).filter(move |n| n.tag_name().name() == tag);
         for world in of("worldbody") {
             let around = world.attribute("childclass");
@@ -125,30 +55,6 @@ impl MujocoModel {
         let is_driven = |j: &&ModelJoint| j.kind == JointKind::Hinge && driven.contains(&j.name.as_str());
         model.driven_hinges = model.joints.iter().filter(is_driven).count();
         Ok(model)
-    }
-
-    fn new_group(&mut self) -> usize {
-        self.joined.push(self.groups);
-        self.groups += 1;
-        self.groups - 1
-    }
-
-    /// The group that a group is one with.
-    pub(super) fn group(&self, mut group: usize) -> usize {
-        while self.joined[group] != group {
-            group = self.joined[group];
-        }
-        group
-    }
-
-    /// Name and frame of the first body of a group; a group between two joints of a body has none.
-    pub(super) fn first_body(&self, group: usize) -> Option<&(String, Pose)> {
-        self.first.iter().find(|(g, _)| self.group(**g) == group).map(|(_, first)| first)
-    }
-
-    /// The group and the frame of a site.
-    pub(super) fn site(&self, name: &str) -> Option<(usize, Pose)> {
-        self.sites.get(name).map(|placed| (self.group(placed.group), placed.at))
     }
 
     /// Joints of a body, those in `frame` elements too.
@@ -314,8 +220,7 @@ impl MujocoModel {
                     let message = "`weld` of sites or with `relpose` is not read: it may hold bodies where they are not at qpos0";
                     return Err(at(node, message));
                 }
-                let [a, b] = [first.group, second.group].map(|g| self.group(g));
-                self.joined[a.max(b)] = a.min(b);
+                self.join(first.group, second.group);
             }
             _ => {}
         }

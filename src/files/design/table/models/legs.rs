@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::tree::{JointKind, ModelJoint, MujocoModel, WORLD};
+use super::graph::{JointKind, Mechanism, ModelJoint, WORLD};
 use crate::design::table::placed::{extent, order_of, trailing_number};
 
 /// Points and axes of joints that are nearer to the end of a leg than this times the size go through it.
@@ -65,7 +65,7 @@ struct Graph<'a> {
 type RootedPiece = BTreeMap<usize, Option<usize>>;
 
 impl<'a> Graph<'a> {
-    fn of(model: &'a MujocoModel) -> Self {
+    fn of(model: &'a Mechanism) -> Self {
         let mut between: BTreeMap<[usize; 2], Vec<&ModelJoint>> = BTreeMap::new();
         for joint in model.joints.iter().filter(|j| j.kind != JointKind::Slide) {
             let [a, b] = joint.groups.map(|g| model.group(g));
@@ -158,7 +158,7 @@ fn common_point(way: &[&Link<'_>], near: f64) -> Option<(Point3<f64>, f64)> {
 }
 
 /// What a model has instead of six legs.
-fn counted(model: &MujocoModel) -> String {
+fn counted(model: &Mechanism) -> String {
     let slides = model.joints.iter().filter(|j| j.kind == JointKind::Slide).count();
     let mut found = format!(
         "six slide joints, or six spatial tendons from one site to another, are legs; this model has {slides} slide joints, {} such tendons and {} others",
@@ -180,7 +180,7 @@ impl ModelLegs {
     ///
     /// # Errors
     /// A sentence that says what the model has instead.
-    pub(super) fn of(model: &MujocoModel) -> Result<Self, String> {
+    pub(super) fn of(model: &Mechanism) -> Result<Self, String> {
         let slides: Vec<&ModelJoint> = model.joints.iter().filter(|j| j.kind == JointKind::Slide).collect();
         let (what, (platform, legs)) = match (slides.len(), model.tendons.len()) {
             (6, _) => ("slide joints", by_slides(model, &slides)?),
@@ -199,7 +199,7 @@ impl ModelLegs {
     }
 }
 
-fn by_slides(model: &MujocoModel, slides: &[&ModelJoint]) -> Result<(usize, Vec<NamedLeg>), String> {
+fn by_slides(model: &Mechanism, slides: &[&ModelJoint]) -> Result<(usize, Vec<NamedLeg>), String> {
     let graph = Graph::of(model);
     let base = graph.piece(WORLD)?;
     let mut leg_groups = Vec::new();
@@ -279,7 +279,7 @@ fn by_slides(model: &MujocoModel, slides: &[&ModelJoint]) -> Result<(usize, Vec<
 
 /// The group of a piece with the most joints; of several the one with the site `platform_frame` or a body named
 /// platform.
-fn platform_of(model: &MujocoModel, graph: &Graph<'_>, piece: &RootedPiece) -> Result<usize, String> {
+fn platform_of(model: &Mechanism, graph: &Graph<'_>, piece: &RootedPiece) -> Result<usize, String> {
     let most = piece.keys().map(|g| graph.links_of(*g).len()).max().unwrap_or(0);
     let candidates: Vec<usize> = piece.keys().copied().filter(|g| graph.links_of(*g).len() == most).collect();
     let named = |g: &&usize| {
@@ -297,7 +297,7 @@ fn platform_of(model: &MujocoModel, graph: &Graph<'_>, piece: &RootedPiece) -> R
     }
 }
 
-fn by_tendons(model: &MujocoModel) -> Result<(usize, Vec<NamedLeg>), String> {
+fn by_tendons(model: &Mechanism) -> Result<(usize, Vec<NamedLeg>), String> {
     let mut platform = None;
     let mut legs = Vec::new();
     for tendon in &model.tendons {

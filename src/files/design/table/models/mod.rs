@@ -1,19 +1,24 @@
-//! Models of `MuJoCo` (MJCF): legs and home at the reference configuration, as `export --to mjcf` writes them and
-//! people do.
+//! Models of simulators (MJCF of `MuJoCo`, SDF of Gazebo, URDF of ROS): legs and home at the reference configuration,
+//! as `export` writes them and people do.
 
 mod attributes;
+mod graph;
 mod legs;
+mod links;
+mod mujoco;
+mod sdf;
 #[cfg(test)]
 mod tests;
-mod tree;
+mod urdf;
 
 use roxmltree::{Document, Node};
 
 use self::legs::{ModelLegs, SAME_POINT};
-use self::tree::MujocoModel;
-use super::placed::{FileUnit, PlacedLegs, number_between};
+use self::graph::Mechanism;
+use super::placed::{FileUnit, PlacedLegs, identity, number_between};
 use super::points::PointTable;
 use crate::design::unit_of_millimetres;
+use platform::geom::Pose;
 
 /// The site that is the platform frame in models of this program.
 const PLATFORM_SITE: &str = "platform_frame";
@@ -25,6 +30,44 @@ pub(super) fn is_xml(text: &str) -> bool {
     text.trim_start_matches('\u{feff}').trim_start().starts_with('<')
 }
 
+/// A format of models.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum ModelFormat {
+    Mujoco,
+    Sdf,
+    Urdf,
+}
+
+impl ModelFormat {
+    /// By the root element of its files.
+    fn of_root(name: &str) -> Option<Self> {
+        match name {
+            "mujoco" => Some(Self::Mujoco),
+            "sdf" => Some(Self::Sdf),
+            "robot" => Some(Self::Urdf),
+            _ => None,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Mujoco => "MuJoCo",
+            Self::Sdf => "SDF",
+            Self::Urdf => "URDF",
+        }
+    }
+
+    fn opening(self) -> &'static str {
+        match self {
+            Self::Mujoco => {
+                "A model of MuJoCo, read at its reference configuration (qpos0); key frames are not used."
+            }
+            Self::Sdf => "An SDF model (Gazebo), read where its poses are.",
+            Self::Urdf => "A URDF model (ROS), read with all joints at zero.",
+        }
+    }
+}
+
 /// Reads a model.
 ///
 /// # Errors
@@ -33,34 +76,61 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
     few_attributes(text)?;
     let document = Document::parse(text).map_err(|why| format!("the XML is broken: {why}"))?;
     let root = document.root_element();
-    if root.tag_name().name() != "mujoco" {
-        let name = root.tag_name().name();
-        return Err(format!(
-            "this is XML with the root element `{name}`; of XML, only models of MuJoCo are read"
-        ));
-    }
+    let name = root.tag_name().name();
+    let format = ModelFormat::of_root(name).ok_or_else(|| {
+        format!("this is XML with the root element `{name}`; models are read as MJCF (MuJoCo), SDF and URDF")
+    })?;
     bounded(&document)?;
-    let model = MujocoModel::read(root)?;
-    let found = ModelLegs::of(&model)?;
-    let mut guesses = vec![
-        "A model of MuJoCo, read at its reference configuration (qpos0); key frames are not used."
-            .to_string(),
-    ];
-    guesses.extend(found.guesses);
-    let on_platform = model.site(PLATFORM_SITE).filter(|(group, _)| *group == found.platform);
-    let home = if let Some((_, pose)) = on_platform {
-        guesses.push(format!("Home is where the site `{PLATFORM_SITE}` is."));
-        pose
-    } else {
-        let (name, pose) =
-            model.first_body(found.platform).ok_or("the platform is between two joints of a body")?;
-        guesses.push(format!("The platform is the body `{name}`, and home is where its frame is."));
-        *pose
+    let model = match format {
+        ModelFormat::Mujoco => Mechanism::of_mujoco(root)?,
+        ModelFormat::Sdf => sdf::read(root)?.mechanism()?,
+        ModelFormat::Urdf => {
+            let mut model = urdf::read(root)?.mechanism()?;
+            model.close_loops(format.name())?;
+            model
+        }
     };
-    let unit = unit(&document, &mut guesses)?;
+    let found = ModelLegs::of(&model)?;
+    let mut guesses = vec![format.opening().to_string()];
+    guesses.extend(found.guesses);
+    let home = home(&model, format, found.platform, &mut guesses)?;
+    let unit = unit(&document, format, &mut guesses)?;
     guesses.extend(model.guesses);
-    let placed = PlacedLegs { ends: found.ends, home, tolerance: SAME_POINT };
-    placed.table(&unit, guesses).ok_or_else(|| "the coordinates of the joints overflow".to_string())
+    let placed =
+        PlacedLegs { ends: found.ends, home: home.unwrap_or_else(identity), tolerance: SAME_POINT };
+    let table = placed.table(&unit, guesses);
+    let mut table = table.ok_or("the coordinates of the joints overflow")?;
+    if home.is_none() {
+        table.home = None;
+        table.part_frames();
+        if table.home.is_none() {
+            return Err("no frame of the platform is said: name its link `platform`".into());
+        }
+    }
+    Ok(table)
+}
+
+/// The platform frame at the reference configuration; `None` where the model has none.
+fn home(
+    model: &Mechanism,
+    format: ModelFormat,
+    platform: usize,
+    guesses: &mut Vec<String>,
+) -> Result<Option<Pose>, String> {
+    if format != ModelFormat::Mujoco {
+        return Ok(model.platform_frame(platform).map(|(name, pose)| {
+            guesses.push(format!("The platform is the link `{name}`, and home is where its frame is."));
+            *pose
+        }));
+    }
+    let on_platform = model.site(PLATFORM_SITE).filter(|(group, _)| *group == platform);
+    if let Some((_, pose)) = on_platform {
+        guesses.push(format!("Home is where the site `{PLATFORM_SITE}` is."));
+        return Ok(Some(pose));
+    }
+    let (name, pose) = model.first_body(platform).ok_or("the platform is between two joints of a body")?;
+    guesses.push(format!("The platform is the body `{name}`, and home is where its frame is."));
+    Ok(Some(*pose))
 }
 
 /// Attributes of an element: whether two have one name is looked up in a time that grows with the square of their
@@ -117,13 +187,20 @@ fn bounded(document: &Document<'_>) -> Result<(), String> {
 }
 
 /// The unit of the design of which this program wrote the model; metres else.
-fn unit(document: &Document<'_>, guesses: &mut Vec<String>) -> Result<FileUnit, String> {
+fn unit(
+    document: &Document<'_>,
+    format: ModelFormat,
+    guesses: &mut Vec<String>,
+) -> Result<FileUnit, String> {
     let comments = document.descendants().filter(Node::is_comment).filter_map(|n| n.text());
     let said = comments
         .flat_map(str::lines)
         .find_map(|line| number_between(line, "Lengths in m; one unit of the design is ", " m"));
     let Some(metres) = said else {
-        guesses.push("The lengths are in metres, as is usual: MuJoCo has no units.".into());
+        guesses.push(match format {
+            ModelFormat::Mujoco => "The lengths are in metres, as is usual: MuJoCo has no units.".into(),
+            ModelFormat::Sdf | ModelFormat::Urdf => format!("The lengths are in metres, as {} has them.", format.name()),
+        });
         return Ok(FileUnit { label: "m", per: 1.0 });
     };
     let (label, millimetres) = unit_of_millimetres(1000.0 * metres).ok_or_else(|| {
