@@ -3,7 +3,7 @@
 //!
 //! The span of the polynomials is closed under multiplication by an unknown up to a degree `D`, so that a combination
 //! whose leading form cancels is multiplied again. When no monomial of degree `D` is left over, those left over are a
-//! basis of the algebra (Mourrain 1999; `docs/theory/completeness.md` uses the same for poses of six legs).
+//! basis of the algebra (Mourrain 1999; `docs/theory/pose-count.md` uses the same for poses of six legs).
 
 use num::exact::{ExactVector, Rational, relations};
 use num_bigint::BigInt;

@@ -1,7 +1,7 @@
 //! `cargo bench --package equipod-benches --bench pose_counts -- SEED`: how many finite poses, real and complex,
 //! platforms of special families have for generic leg lengths.
 //!
-//! Each family is drawn with exact joints, counted modulo two random primes (`docs/theory/completeness.md`), and held
+//! Each family is drawn with exact joints, counted modulo two random primes (`docs/theory/pose-count.md`), and held
 //! against the bound that is proved for all lengths. The seed draws the joints; without a number it is 1.
 
 use std::error::Error;

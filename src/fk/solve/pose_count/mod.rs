@@ -5,7 +5,7 @@
 //! zeros of quadrics in ten unknowns. Their algebra is built degree by degree (`quotient.rs`) from the squared lengths
 //! as the dyadic numbers and the joints as the dyadic or algebraic numbers (`joints.rs`) they are, modulo a random
 //! prime of 61 bits. The method shares nothing with those that find poses, nor with their certificates. Theorem, bound
-//! on the probability of error and sources: `docs/theory/completeness.md`.
+//! on the probability of error and sources: `docs/theory/pose-count.md`.
 
 mod infinity;
 mod joints;
@@ -398,7 +398,7 @@ fn leg_equation(field: Field, [a, b]: &[[u64; 3]; 2], square: u64) -> Linear {
     row
 }
 
-/// Bound on the probability that a prime is bad: see "The probability of error" in `docs/theory/completeness.md`.
+/// Bound on the probability that a prime is bad: see "The probability of error" in `docs/theory/pose-count.md`.
 ///
 /// A bad prime divides a minor, not zero, of the integer matrix of all multiples of some degree `<= depth + 1` of the
 /// quadrics and linear equations in sixteen unknowns, or of its columns above one of the degrees `0..=DEGREE`, of
