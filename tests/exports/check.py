@@ -20,6 +20,7 @@ from dynamics import check_dynamics
 from drawings import check_dxf, check_svg, check_xml
 from linuxcnc import check_linuxcnc, check_preset
 from motion import check_equivalent, check_poses
+from robots import check_robots
 from solids import check_step, check_stl
 from standing import check_standing
 from swing import check_swing
@@ -68,6 +69,7 @@ def main():
         limits = leg_range(ROOT / f"designs/{design}.toml", doc)
         check_step(folder, design, doc, limits and [1000 * x for x in limits])
         check_poses(folder, design, time, limits)
+        check_robots(program, folder, ROOT / f"designs/{design}.toml", doc)
     check_preset(program, top / "preset")
     check_dynamics(program, top / "dynamics")
     check_cranks(program, top / "cranks", ROOT / "designs/presets/reachy-mini.toml")

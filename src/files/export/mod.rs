@@ -15,11 +15,13 @@ mod drawing;
 mod dxf;
 mod hal;
 mod json;
+mod masses;
 mod matlab;
 mod mjcf;
 mod model;
 mod parts;
 mod plate;
+mod robots;
 #[cfg(test)]
 mod round_trip;
 mod sizes;
@@ -182,17 +184,21 @@ pub enum ExportFormat {
     Matlab,
     /// A closed mechanism for `MuJoCo` and other simulators.
     Mjcf,
+    /// A closed mechanism for Gazebo.
+    Sdf,
     /// Solids for CAD programs.
     Step,
     /// Solids as meshes.
     Stl,
     /// A drawing with three views.
     Drawing,
+    /// A tree of links for ROS.
+    Urdf,
 }
 
 impl ExportFormat {
     /// Every format, by name.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::C,
         Self::Csv,
         Self::Dxf,
@@ -200,9 +206,11 @@ impl ExportFormat {
         Self::Json,
         Self::Matlab,
         Self::Mjcf,
+        Self::Sdf,
         Self::Step,
         Self::Stl,
         Self::Drawing,
+        Self::Urdf,
     ];
 
     /// What writes it.
@@ -216,9 +224,11 @@ impl ExportFormat {
             Self::Json => &json::Json,
             Self::Matlab => &matlab::Matlab,
             Self::Mjcf => &mjcf::Mjcf,
+            Self::Sdf => &robots::Sdf,
             Self::Step => &step::StepFile,
             Self::Stl => &stl::Stl,
             Self::Drawing => &drawing::Drawing,
+            Self::Urdf => &robots::Urdf,
         }
     }
 

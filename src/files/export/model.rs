@@ -1,6 +1,6 @@
 //! What all formats need, worked out once.
 
-use nalgebra::{DMatrix, Point3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Point3, Rotation3, Vector3};
 
 use super::controller::EquivalentOctahedral;
 use super::plate::Plate;
@@ -11,7 +11,7 @@ use crate::design::{CalibratedNumber, DesignModel};
 use machine::coupled::CoupledLegs;
 use machine::requirements::{Hardware, KeepOutShape, MovingBodies, plate_normal};
 use machine::rotary::RotaryPlatform;
-use platform::geom::Pose;
+use platform::geom::{Pose, any_across};
 use platform::manipulator::{Body, Manipulator};
 
 /// A joint of a body.
@@ -80,6 +80,13 @@ impl ExportLeg {
         let d = (self.head - self.foot).try_normalize(0.0);
         d.ok_or(Unsupported::NoDirection { leg: self.number })
     }
+}
+
+/// A frame with its third axis along a direction.
+pub(super) fn frame_along(direction: &Vector3<f64>, origin: Vector3<f64>) -> Pose {
+    let x = any_across(direction);
+    let axes = Matrix3::from_columns(&[x, direction.cross(&x), *direction]);
+    Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: origin }
 }
 
 /// The cranks of a design whose legs are rods on cranks.

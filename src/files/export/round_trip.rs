@@ -67,6 +67,15 @@ fn models_of_mujoco_return() {
 }
 
 #[test]
+fn models_of_gazebo_and_ros_return() {
+    for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN, MOTION_BASE] {
+        for format in ["sdf", "urdf"] {
+            returns(&design(text), format);
+        }
+    }
+}
+
+#[test]
 fn tables_of_legs_return() {
     for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN, MOTION_BASE] {
         let mut given = design(text);

@@ -129,11 +129,14 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
         // or their tolerances are not known
         context.load(&args.design)?;
     }
-    let simulated = args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name());
-    if !simulated {
-        for option in ["mass", "gravity_compensation"] {
-            context.no_effect(option, "only the simulator's format, mjcf, holds masses")?;
-        }
+    let asked = |formats: &[ExportFormat]| {
+        args.to.iter().any(|t| t == "all" || formats.iter().any(|format| t == format.name()))
+    };
+    if !asked(&[ExportFormat::Mjcf, ExportFormat::Sdf, ExportFormat::Urdf]) {
+        context.no_effect("mass", "only the formats of simulators (mjcf, sdf, urdf) hold masses")?;
+    }
+    if !asked(&[ExportFormat::Mjcf, ExportFormat::Sdf]) {
+        context.no_effect("gravity_compensation", "only the formats mjcf and sdf can switch gravity off")?;
     }
     let mut export = model(args, &design, hole_places(args, &design, context)?)?;
     let controller = wanted(args).iter().any(|f| f.name() == ExportFormat::C.name());

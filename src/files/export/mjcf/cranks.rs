@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::swing::{self, SwingTendon};
-use super::{Export, ModelMasses, Scale, Unsupported, opening, platform, quat, shape};
+use super::{Export, ModelMasses, Scale, Unsupported, inertial, opening, platform, quat, shape};
 use crate::export::model::ExportCranks;
 use crate::export::text::{real, reals};
 use platform::geom::Pose;
@@ -86,13 +86,13 @@ fn leg(
         quat(&turned),
         scale.gravity,
         real(cranks.home_angles[i]),
-        masses.nothing(),
+        inertial(&masses.nothing()),
         capsule(&Vector3::zeros(), &(x * leg.crank.length), thick),
         scale.at(&hung.position),
         quat(&hung),
         scale.gravity,
         reals(first.iter().copied(), " "),
-        masses.rod(leg.rod * scale.metres),
+        inertial(&masses.rod(leg.rod * scale.metres)),
         capsule(&Vector3::zeros(), &(z * leg.rod), thin),
         damp = real(1e-4 * damping),
     );

@@ -2,22 +2,22 @@
 //! loops closed by `connect`.
 
 mod cranks;
-mod masses;
 mod swing;
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 
-use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use super::text::{one_line, real, reals, scaled, xml_comment};
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Unsupported, Writer};
 use crate::plot::escape;
 use machine::requirements::{JointAxes, KeepOutShape};
-use platform::geom::{Pose, any_across};
+use platform::geom::Pose;
 
-use self::masses::ModelMasses;
 use self::swing::SwingTendon;
+use super::masses::{ModelMasses, Solid};
+use super::model::frame_along;
 
 /// The format `mjcf`.
 #[derive(Debug)]
@@ -94,10 +94,19 @@ impl Scale {
 
 /// The frame of a leg at home: third axis along the leg, origin in its base joint.
 fn leg_frame(leg: &ExportLeg) -> Result<Pose, Unsupported> {
-    let d = leg.direction()?;
-    let x = any_across(&d);
-    let axes = Matrix3::from_columns(&[x, d.cross(&x), d]);
-    Ok(Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: leg.foot.coords })
+    Ok(frame_along(&leg.direction()?, leg.foot.coords))
+}
+
+/// The mass of a body and how it is spread.
+fn inertial(solid: &Solid) -> String {
+    let (Solid { mass, center, .. }, i) = (solid, &solid.inertia);
+    let moments = if [(0, 1), (0, 2), (1, 2)].iter().all(|at| i[*at] == 0.0) {
+        format!("diaginertia=\"{}\"", reals([i[(0, 0)], i[(1, 1)], i[(2, 2)]], " "))
+    } else {
+        let six = [i[(0, 0)], i[(1, 1)], i[(2, 2)], i[(0, 1)], i[(0, 2)], i[(1, 2)]];
+        format!("fullinertia=\"{}\"", reals(six, " "))
+    };
+    format!("<inertial pos=\"{}\" mass=\"{}\" {moments}/>", reals(center.iter().copied(), " "), real(*mass))
 }
 
 fn quat(pose: &Pose) -> String {
@@ -190,14 +199,14 @@ fn leg(
         scale.at(&frame.position),
         quat(&frame),
         scale.gravity,
-        masses.nothing(),
+        inertial(&masses.nothing()),
         scale.gravity,
-        masses.cylinder(),
+        inertial(&masses.cylinder()),
         capsule(0.0, leg.cylinder.min(length), thick, CYLINDER),
         scale.at(&tip),
         scale.gravity,
         real(masses.armature()),
-        masses.rod(0.0),
+        inertial(&masses.rod(0.0)),
         capsule(-half.min(length - leg.cylinder.min(length)).max(0.1 * length), 0.0, thin, ROD),
     );
     if let Some(tendon) = SwingTendon::of(export, leg)? {
@@ -232,7 +241,7 @@ fn platform(
         quat(place),
         scale.gravity,
         scale.at(&joint),
-        masses.platform(),
+        inertial(&masses.platform()),
         real(0.01 * scale.size),
     );
     for leg in &export.legs {

@@ -64,8 +64,7 @@ impl LinkedModel {
     /// The link that is the base: the one that is fixed to the world, else the one whose name says so.
     fn base(&self) -> Result<usize, String> {
         let called_base = |link: usize| self.links[link].name.to_lowercase().contains("base");
-        let grounded: Vec<usize> =
-            self.fixed_to(BTreeSet::from([None])).into_iter().flatten().collect();
+        let grounded: Vec<usize> = self.fixed_to(BTreeSet::from([None])).into_iter().flatten().collect();
         let named: Vec<usize> = (0..self.links.len()).filter(|link| called_base(*link)).collect();
         match (grounded.iter().find(|link| called_base(**link)).or(grounded.first()), &named[..]) {
             (Some(link), _) => Ok(*link),
@@ -205,7 +204,8 @@ impl Mechanism {
                 hanging.push(slide);
             }
         }
-        let Some(platform) = ends.iter().find(|g| self.is_called_platform(**g)).or(ends.first()).copied() else {
+        let Some(platform) = ends.iter().find(|g| self.is_called_platform(**g)).or(ends.first()).copied()
+        else {
             return Ok(());
         };
         let platform_piece = self.piece_of(platform);
@@ -217,7 +217,12 @@ impl Mechanism {
             }
         }
         let named = |model: &Self, groups: &[usize]| {
-            groups.iter().flat_map(|g| model.names_of(*g)).map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ")
+            groups
+                .iter()
+                .flat_map(|g| model.names_of(*g))
+                .map(|n| format!("`{n}`"))
+                .collect::<Vec<_>>()
+                .join(", ")
         };
         let tips: Vec<usize> = ends.into_iter().filter(|end| *end != platform).collect();
         if !tips.is_empty() {
@@ -240,7 +245,8 @@ impl Mechanism {
 
     /// The frame of the platform, where the file says it: that of the link called platform, else of its only link.
     pub(super) fn platform_frame(&self, platform: usize) -> Option<&(String, Pose)> {
-        let mut links = self.first.iter().filter(|(g, _)| self.group(**g) == platform).map(|(_, first)| first);
+        let mut links =
+            self.first.iter().filter(|(g, _)| self.group(**g) == platform).map(|(_, first)| first);
         let called = links.clone().find(|(name, _)| name.to_lowercase().contains("platform"));
         called.or_else(|| links.next().filter(|_| links.next().is_none()))
     }

@@ -13,8 +13,8 @@ mod urdf;
 
 use roxmltree::{Document, Node};
 
-use self::legs::{ModelLegs, SAME_POINT};
 use self::graph::Mechanism;
+use self::legs::{ModelLegs, SAME_POINT};
 use super::placed::{FileUnit, PlacedLegs, identity, number_between};
 use super::points::PointTable;
 use crate::design::unit_of_millimetres;
@@ -96,8 +96,7 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
     let home = home(&model, format, found.platform, &mut guesses)?;
     let unit = unit(&document, format, &mut guesses)?;
     guesses.extend(model.guesses);
-    let placed =
-        PlacedLegs { ends: found.ends, home: home.unwrap_or_else(identity), tolerance: SAME_POINT };
+    let placed = PlacedLegs { ends: found.ends, home: home.unwrap_or_else(identity), tolerance: SAME_POINT };
     let table = placed.table(&unit, guesses);
     let mut table = table.ok_or("the coordinates of the joints overflow")?;
     if home.is_none() {
@@ -187,11 +186,7 @@ fn bounded(document: &Document<'_>) -> Result<(), String> {
 }
 
 /// The unit of the design of which this program wrote the model; metres else.
-fn unit(
-    document: &Document<'_>,
-    format: ModelFormat,
-    guesses: &mut Vec<String>,
-) -> Result<FileUnit, String> {
+fn unit(document: &Document<'_>, format: ModelFormat, guesses: &mut Vec<String>) -> Result<FileUnit, String> {
     let comments = document.descendants().filter(Node::is_comment).filter_map(|n| n.text());
     let said = comments
         .flat_map(str::lines)
@@ -199,7 +194,9 @@ fn unit(
     let Some(metres) = said else {
         guesses.push(match format {
             ModelFormat::Mujoco => "The lengths are in metres, as is usual: MuJoCo has no units.".into(),
-            ModelFormat::Sdf | ModelFormat::Urdf => format!("The lengths are in metres, as {} has them.", format.name()),
+            ModelFormat::Sdf | ModelFormat::Urdf => {
+                format!("The lengths are in metres, as {} has them.", format.name())
+            }
         });
         return Ok(FileUnit { label: "m", per: 1.0 });
     };

@@ -88,7 +88,8 @@ impl<'a, 'i> ModelFrames<'a, 'i> {
             if MODEL.contains(&name) {
                 return Ok(pose);
             }
-            let element = self.elements.get(name).ok_or_else(|| format!("`{name}` names nothing in the model"))?;
+            let element =
+                self.elements.get(name).ok_or_else(|| format!("`{name}` names nothing in the model"))?;
             pose = within(&element.pose, &pose);
             name = element.relative_to;
         }
@@ -101,7 +102,9 @@ impl<'a, 'i> ModelFrames<'a, 'i> {
         let xyz = child(axis, "xyz");
         let direction = match xyz.and_then(|n| n.text()) {
             None => [0.0, 0.0, 1.0],
-            Some(text) => numbers::<3>(text).ok_or_else(|| at(axis, format!("`{}` is no axis", text.trim())))?,
+            Some(text) => {
+                numbers::<3>(text).ok_or_else(|| at(axis, format!("`{}` is no axis", text.trim())))?
+            }
         };
         let of_model = matches!(text_of(axis, "use_parent_model_frame"), Some("1" | "true"));
         let expressed = xyz.and_then(|n| n.attribute("expressed_in")).filter(|name| !name.is_empty());
@@ -110,7 +113,8 @@ impl<'a, 'i> ModelFrames<'a, 'i> {
             None if of_model || version < AXES_IN_JOINTS => identity(),
             None => self.pose(joint.attribute("name").unwrap_or_default())?,
         };
-        Unit::try_new(frame.rotation * Vector3::from(direction), 0.0).ok_or_else(|| at(axis, "axis has no direction"))
+        Unit::try_new(frame.rotation * Vector3::from(direction), 0.0)
+            .ok_or_else(|| at(axis, "axis has no direction"))
     }
 }
 
@@ -124,7 +128,10 @@ fn model_with_slides<'a, 'i>(root: Node<'a, 'i>) -> Result<Node<'a, 'i>, String>
     match with[..] {
         [model] => Ok(*model),
         [] => Err("no model of this file has prismatic joints, which legs are".into()),
-        _ => Err(format!("{} models of this file have prismatic joints: write one into a file of its own", with.len())),
+        _ => Err(format!(
+            "{} models of this file have prismatic joints: write one into a file of its own",
+            with.len()
+        )),
     }
 }
 
@@ -136,7 +143,8 @@ pub(super) fn read(root: Node<'_, '_>) -> Result<LinkedModel, String> {
     let version = root.attribute("version").and_then(|v| v.trim().parse().ok()).unwrap_or(AXES_IN_JOINTS);
     let model = model_with_slides(root)?;
     if let Some(node) = elements(model).find(|n| matches!(n.tag_name().name(), "include" | "model")) {
-        let message = "models in models and included files are not read: write one model with all links and joints";
+        let message =
+            "models in models and included files are not read: write one model with all links and joints";
         return Err(at(node, message));
     }
     let frames = ModelFrames::of(model)?;

@@ -231,7 +231,7 @@ fn what_is_no_hexapod_is_told() {
     let five = model.replacen("type='slide'", "type='ball'", 1);
     assert!(refusal(&five).contains("5 slide joints, 0 such tendons"), "{}", refusal(&five));
     assert!(refusal(&model.replace("</worldbody>", "")).contains("the XML is broken"));
-    assert!(refusal("<robot name='x'/>").contains("root element `robot`"));
+    assert!(refusal("<machine name='x'/>").contains("root element `machine`"));
     let parts = model.replace("<equality>", "<include file='x.xml'/><equality>");
     assert!(refusal(&parts).contains("`include` is not read"));
     assert!(
@@ -275,4 +275,86 @@ fn too_many_attributes_are_refused_with_their_line() {
     }
     let few = "<mujoco><!-- it isn't --><body a='>' b=\"it's\"/></mujoco>";
     assert!(!refusal(few).contains("attributes"), "{}", refusal(few));
+}
+
+const URDF: &str = include_str!("../../../../../tests/fixtures/models/six.urdf");
+const SDF: &str = include_str!("../../../../../tests/fixtures/models/six.sdf");
+
+/// The joints of both files: on circles, at these angles in degrees, the platform 0.4 higher.
+fn is_on_circles(table: &PointTable) {
+    let at = |radius: f64, degrees: f64| {
+        let angle = degrees.to_radians();
+        Point3::new(radius * angle.cos(), radius * angle.sin(), 0.0)
+    };
+    let base = [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0];
+    let platform = [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0];
+    for (i, leg) in table.legs.iter().enumerate() {
+        // the files have six decimals
+        assert!((leg.base - at(0.3, base[i])).norm() < 1e-6, "leg {}: {:?}", i + 1, leg.base);
+        assert!((leg.platform - at(0.18, platform[i])).norm() < 3e-6, "leg {}: {:?}", i + 1, leg.platform);
+    }
+    let home = table.home.unwrap();
+    assert!((home.position - Vector3::new(0.0, 0.0, 0.4)).norm() < 1e-6, "{home:?}");
+    assert_eq!(table.units.as_deref(), Some("m"));
+}
+
+#[test]
+fn an_sdf_model_closes_its_loops_itself() {
+    is_on_circles(&read(SDF).unwrap());
+}
+
+#[test]
+fn legs_of_a_urdf_tree_end_at_one_platform() {
+    let table = read(URDF).unwrap();
+    is_on_circles(&table);
+    let said = table.guesses.join("\n");
+    assert!(said.contains("URDF has no closed loops") && said.contains("floating"), "{said}");
+}
+
+#[test]
+fn models_without_six_legs_or_with_a_doubtful_base_are_refused() {
+    for (model, why) in [
+        (
+            URDF.replace("name=\"slide6\" type=\"prismatic\"", "name=\"slide6\" type=\"fixed\""),
+            "5 slide joints",
+        ),
+        (URDF.replace("type=\"floating\"", "type=\"planar\""), "`planar` are not read"),
+        (URDF.replace("type=\"floating\"", "type=\"fixed\""), "nothing follows the slide"),
+        (URDF.replace("<child link=\"u2\"/>", "<child link=\"u1\"/>"), "two joints"),
+        (
+            URDF.replace("<robot name", "<robot xmlns:xacro=\"x\" name")
+                .replace("<link name=\"u1\"/>", "<xacro:a/>"),
+            "xacro",
+        ),
+        (SDF.replace("\"base\"", "\"lower\"").replace(">base<", ">lower<"), "name it `base`"),
+        (
+            SDF.replace("<parent>base</parent><child>cyl3", "<parent>floor</parent><child>cyl3"),
+            "names no link",
+        ),
+        (
+            SDF.replace("name=\"slide2\" type=\"prismatic\"", "name=\"slide2\" type=\"screw\""),
+            "`screw` are not read",
+        ),
+        (SDF.replace("<xyz>0 1 0</xyz>", "<xyz>0 0 0</xyz>"), "no direction"),
+        (SDF.replace("name=\"rod2\"><pose>", "name=\"rod2\"><pose relative_to=\"rod2\">"), "given by itself"),
+    ] {
+        let said = refusal(&model);
+        assert!(said.contains(why), "{why}: {said}");
+    }
+}
+
+#[test]
+fn poses_of_sdf_are_read_in_the_frames_that_they_name() {
+    // link 1 of the legs is placed in the frame of the base, which is turned and moved in the model
+    let turned = SDF
+        .replace("name=\"base\"><pose>0 0 0 0 0 0", "name=\"base\"><pose degrees=\"true\">1 2 3 10 20 30")
+        .replace("name=\"platform\"><pose>", "name=\"platform\"><pose relative_to=\"base\">");
+    let mut text = String::new();
+    for line in turned.lines() {
+        let leg = line.trim_start().starts_with("<link name=\"cyl")
+            || line.trim_start().starts_with("<link name=\"rod");
+        let line = if leg { line.replace("<pose>", "<pose relative_to=\"base\">") } else { line.into() };
+        let _ = writeln!(text, "{line}");
+    }
+    is_on_circles(&read(&text).unwrap());
 }

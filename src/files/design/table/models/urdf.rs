@@ -20,10 +20,14 @@ struct TreeJoint<'a, 'i> {
 
 /// `xyz` and `rpy` of an element `origin` below a node: turns about the fixed axes x, y, z.
 fn origin(node: Node<'_, '_>) -> Result<Pose, String> {
-    let Some(origin) = elements(node).find(|n| n.tag_name().name() == "origin") else { return Ok(identity()) };
+    let Some(origin) = elements(node).find(|n| n.tag_name().name() == "origin") else {
+        return Ok(identity());
+    };
     let read = |name: &str| match origin.attribute(name) {
         None => Ok([0.0; 3]),
-        Some(text) => numbers::<3>(text).ok_or_else(|| at(origin, format!("{name}=\"{text}\" is not 3 numbers"))),
+        Some(text) => {
+            numbers::<3>(text).ok_or_else(|| at(origin, format!("{name}=\"{text}\" is not 3 numbers")))
+        }
     };
     Ok(Pose::new(read("xyz")?, Angles::from_radians(read("rpy")?)))
 }
@@ -31,7 +35,9 @@ fn origin(node: Node<'_, '_>) -> Result<Pose, String> {
 /// The link that an element `parent` or `child` of a joint names.
 fn link_of<'a>(node: Node<'a, '_>, tag: &str) -> Result<&'a str, String> {
     let element = elements(node).find(|n| n.tag_name().name() == tag);
-    element.and_then(|n| n.attribute("link")).ok_or_else(|| at(node, format!("the joint names no {tag} link")))
+    element
+        .and_then(|n| n.attribute("link"))
+        .ok_or_else(|| at(node, format!("the joint names no {tag} link")))
 }
 
 /// Reads the tree.
@@ -60,7 +66,10 @@ pub(super) fn read(root: Node<'_, '_>) -> Result<LinkedModel, String> {
     for node in named("link") {
         let name = node.attribute("name").unwrap_or_default();
         if joints.iter().filter(|j| j.child == name).count() > 1 {
-            return Err(at(node, format!("link `{name}` is the child of two joints, which URDF does not allow")));
+            return Err(at(
+                node,
+                format!("link `{name}` is the child of two joints, which URDF does not allow"),
+            ));
         }
         if !joints.iter().any(|j| j.child == name) {
             frames.insert(name, identity());

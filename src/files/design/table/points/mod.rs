@@ -19,10 +19,7 @@ use platform::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
 const LEAST_NUMBERS: usize = 2;
 
 /// Root elements of models that are not read, and what these are called.
-const MODELS: [(&str, &str); 2] = [
-    ("SimMechanics", "Simscape Multibody XML"),
-    ("COLLADA", "COLLADA"),
-];
+const MODELS: [(&str, &str); 2] = [("SimMechanics", "Simscape Multibody XML"), ("COLLADA", "COLLADA")];
 
 /// The ends of the six legs as a table has them.
 #[derive(Debug, Clone, PartialEq)]

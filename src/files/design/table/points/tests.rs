@@ -217,8 +217,8 @@ fn nothing_is_taken_for_a_coordinate_that_is_none() {
     assert!(refusal(&three).contains("3 lists of six points"));
     // arithmetic is not done
     assert!(PointTable::read(b"a = [[1*2, 3, 0], [1, 2, 3]]\nb = [[1, 2, 3]]").is_err());
-    assert!(refusal("<?xml version=\"1.0\"?><robot name=\"a\"/>").contains("URDF"));
-    assert!(refusal("<sdf version=\"1.7\"/>").contains("SDF"));
+    assert!(refusal("<?xml version=\"1.0\"?><COLLADA version=\"1.4\"/>").contains("COLLADA"));
+    assert!(refusal("<sdf version=\"1.7\"/>").contains("prismatic"));
 }
 
 #[test]
@@ -287,4 +287,18 @@ fn what_is_not_twelve_points_is_refused_with_its_reason() {
         let why = refusal(&text);
         assert!(why.contains(part), "{why}");
     }
+}
+
+#[cfg(feature = "workbook")]
+#[test]
+fn a_spreadsheet_is_read_as_its_table_would_be() {
+    let bytes = include_bytes!("../../../../../tests/fixtures/models/six-legs.xlsx");
+    let table = PointTable::read(bytes).unwrap();
+    assert!(is_meant(&table));
+    assert_eq!(table.units.as_deref(), Some("mm"));
+    let said = table.guesses.join("\n");
+    assert!(said.contains("sheet `Joints`") && said.contains("`Masses`"), "{said}");
+    let broken = &bytes[..bytes.len() / 2];
+    let why = PointTable::read(broken).unwrap_err().to_string();
+    assert!(why.contains("packed file"), "{why}");
 }

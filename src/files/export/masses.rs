@@ -15,8 +15,8 @@
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-use crate::export::Export;
-use crate::export::text::{real, reals};
+use super::Export;
+use super::text::real;
 use machine::requirements::{LegMasses, LegPart};
 
 /// Each rod has this share of the mass of the platform moving along it where the platform can spare it.
@@ -36,11 +36,12 @@ const ACCEPTED: f64 = 2e-15;
 
 /// A rigid body in SI units.
 #[derive(Debug, Clone, Copy)]
-struct Solid {
-    mass: f64,
-    center: Vector3<f64>,
+pub(super) struct Solid {
+    pub(super) mass: f64,
+    /// The centre of mass in the frame of the body.
+    pub(super) center: Vector3<f64>,
     /// About the centre of mass.
-    inertia: Matrix3<f64>,
+    pub(super) inertia: Matrix3<f64>,
 }
 
 impl Solid {
@@ -117,28 +118,22 @@ impl ModelMasses {
         self.leg.reflected
     }
 
-    pub(super) fn platform(&self) -> String {
-        let (Solid { mass, center, .. }, i) = (&self.platform, &self.platform.inertia);
-        format!(
-            "<inertial pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"/>",
-            reals(center.iter().copied(), " "),
-            real(*mass),
-            reals([i[(0, 0)], i[(1, 1)], i[(2, 2)], i[(0, 1)], i[(0, 2)], i[(1, 2)]], " ")
-        )
+    pub(super) fn platform(&self) -> Solid {
+        self.platform
     }
 
     /// A body that has next to no mass: a yoke, a crank.
-    pub(super) fn nothing(&self) -> String {
+    pub(super) fn nothing(&self) -> Solid {
         self.thin(&LegPart::default(), 0.0)
     }
 
-    pub(super) fn cylinder(&self) -> String {
+    pub(super) fn cylinder(&self) -> Solid {
         self.thin(&self.leg.cylinder, self.leg.cylinder.center)
     }
 
     /// The rod with its share, in a frame whose third axis leads along it and in which the joint of the platform is so
     /// many metres from the origin.
-    pub(super) fn rod(&self, tip: f64) -> String {
+    pub(super) fn rod(&self, tip: f64) -> Solid {
         let (own, share) = (&self.leg.rod, self.share);
         let mass = own.mass + share;
         let center = if mass > 0.0 { own.mass * own.center / mass } else { 0.0 };
@@ -148,17 +143,13 @@ impl ModelMasses {
     }
 
     /// A part of a leg, its centre so many metres from the origin of its body along the third axis.
-    fn thin(&self, part: &LegPart, center: f64) -> String {
+    fn thin(&self, part: &LegPart, center: f64) -> Solid {
         let mass = part.mass.max(NEARLY_NONE * (self.leg.lengthwise() + self.share)).max(ACCEPTED);
         let least = (NEARLY_NONE * mass * self.size * self.size).max(ACCEPTED);
         let across = part.inertia.max(least);
-        format!(
-            "<inertial pos=\"0 0 {}\" mass=\"{}\" diaginertia=\"{across} {across} {}\"/>",
-            real(center),
-            real(mass),
-            real((NEARLY_NONE * across).max(ACCEPTED)),
-            across = real(across)
-        )
+        let along = (NEARLY_NONE * across).max(ACCEPTED);
+        let inertia = Matrix3::from_diagonal(&Vector3::new(across, across, along));
+        Solid { mass, center: Vector3::new(0.0, 0.0, center), inertia }
     }
 
     /// The masses in sentences, for the comment of the file.
