@@ -92,7 +92,7 @@ pub struct CalibrationRecord {
     /// Uncertainty of poses computed with the machine; null: not all unknowns are identified, or the design has no pose
     /// to evaluate.
     pub computed_poses: Option<ComputedPosesRecord>,
-    /// Identifiability of the machine's parameters by these measurements.
+    /// Observability of the machine's parameters by these measurements.
     pub observability: ObservabilityRecord,
     /// Residuals of the design before calibration.
     pub before: ResidualsRecord,
@@ -235,7 +235,7 @@ impl ComputedPosesRecord {
     }
 }
 
-/// Identifiability of the machine's parameters by the measurements.
+/// Observability of the machine's parameters by the measurements.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ObservabilityRecord {
     /// Number of identified directions.

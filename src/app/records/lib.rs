@@ -1,7 +1,7 @@
 //! Every answer of the program as plain data: what `--json` prints, what the page and other programs read, and what the
 //! schemas describe.
 //!
-//! The type name of a command's answer ends in `Answer`. Its parts are values of the library, which serialise
+//! The type name of a command's answer ends in `Answer`. Its parts are values of the library, which write
 //! themselves (feature `serde` of their packages), or records. A record is a view that names joints, counts legs from
 //! 1, or joins several values. Commands print the same value as text, and as JSON by [`Document`]. It is described by
 //! [`schema()`], so each field is defined once. `.ci/generate` writes the tables of the documents and the records of

@@ -177,7 +177,7 @@ pub struct SolvedBudgetRecord {
     pub within_bound: bool,
     /// The largest share of the bound that was reached; null: a pose was lost.
     pub largest_share: Option<Number>,
-    /// The greatest radius for which the worst joint errors keep the bound, solved exactly at their pose.
+    /// A radius for which the worst joint errors keep the bound, solved exactly at their pose.
     pub radius: Option<Number>,
 }
 
