@@ -13,8 +13,8 @@ use num::names::changes_direction;
 
 const RENDERER: Renderer = Renderer::styled();
 
-/// Only this number of characters at the beginning of a line is used for excerpts, so that a long line with many faults is
-/// cheap.
+/// Only this number of characters at the beginning of a line is used for excerpts, so that a long line with many faults
+/// is cheap.
 const MAX_READ: usize = 2000;
 
 /// Shows a failure and all its violations.

@@ -160,8 +160,8 @@ fn anchor(name: &str) -> String {
     format!("file-{}", name.chars().map(plain).collect::<String>())
 }
 
-/// A link to the file beside the page or in a folder there. Empty path segments are dropped, since a path that begins with
-/// `//` leads to another host.
+/// A link to the file beside the page or in a folder there. Empty path segments are dropped, since a path that begins
+/// with `//` leads to another host.
 fn link(name: &str) -> Markup {
     let parts = name.split('/').filter(|part| !part.is_empty());
     let encoded: Vec<String> =
