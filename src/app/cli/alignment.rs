@@ -45,11 +45,11 @@ pub(crate) struct Second {
 /// The results of `--align`.
 #[derive(Debug)]
 struct Aligned {
-    /// For the second design as requested.
+    /// The alignment of the second design as requested.
     given: Alignment,
-    /// For the second design with base and platform exchanged.
+    /// The alignment of the second design with base and platform exchanged.
     exchanged: Alignment,
-    /// For its mirror image.
+    /// The alignment of the second design's mirror image.
     mirrored: Alignment,
 }
 

@@ -56,8 +56,8 @@ pub(crate) enum ShardState {
 pub(crate) enum PartLook {
     /// The whole part: its digest is compared with the manifest.
     Whole,
-    /// Its size only, which detects truncation. This is for the parts of other jobs: with as many jobs as shards,
-    /// complete checks by each would cost the square.
+    /// The size only, which detects truncation. For parts of other jobs: with as many jobs as shards, complete checks
+    /// by each would cost the square.
     Size,
 }
 
@@ -450,7 +450,7 @@ pub(crate) fn ranges(numbers: &[u64]) -> String {
     out.iter().map(shown).collect::<Vec<_>>().join(",")
 }
 
-/// Refuses an output inside the folder of the sweep, where it would be taken for a part.
+/// Refuses an output inside the folder of the sweep, since it would be taken for a part.
 pub(crate) fn outside(output: &OutputPath) -> Result<(), Failure> {
     let name = output.file_name().unwrap_or_default().to_string_lossy();
     if name.starts_with("part-") {

@@ -19,7 +19,7 @@ pub(super) struct OpeningRecord<'a> {
     units: &'a str,
     source: Option<&'a str>,
     description: Option<&'a str>,
-    /// `"octahedral"`, `"equivalent"`, `"general"`, or `"cranks"` where the legs are rods on cranks.
+    /// The kind: `"octahedral"`, `"equivalent"`, `"general"`, or `"cranks"` for rods on cranks.
     kind: &'static str,
     size: f64,
     /// Whether the platform shown first is architecturally singular: the octahedral original, or else the design.

@@ -128,7 +128,7 @@ impl Session {
         Ok(original.equivalent(&e.pattern, &e.offsets)?)
     }
 
-    /// The poses for the conditioning: those of the workspace, home first.
+    /// The poses for the conditioning: the poses of the workspace, home first.
     pub(super) fn judged(&self) -> Vec<Pose> {
         self.design.workspace_or_default().sample(&self.home)
     }

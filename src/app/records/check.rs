@@ -1,4 +1,4 @@
-//! Answers on whether a design is architecturally singular, why, and how far from a singular one it is.
+//! Answers on whether a design is architecturally singular, with reasons and the distance to a singular design.
 
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -43,7 +43,7 @@ pub struct AccuracyRecord {
 pub struct FiguresRecord {
     /// Name of the design.
     pub name: String,
-    /// Its file.
+    /// The design file.
     pub path: String,
     /// The result of `assess`; null: the design has no requirements.
     pub assessment: Option<AssessAnswer>,
@@ -266,7 +266,7 @@ impl CompareAnswer {
         FigureColumn { title: title.into(), unit: String::new(), cells }
     }
 
-    /// A sentence for every design: its verdict with the poses judged.
+    /// A sentence for every design: its verdict with the poses assessed.
     pub fn verdicts(&self) -> Vec<String> {
         let sentence = |d: &FiguresRecord| match &d.assessment {
             Some(a) => format!("{} {}", d.name, a.explanation),

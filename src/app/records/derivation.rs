@@ -59,7 +59,7 @@ pub struct LegSlideRecord {
 pub struct FactorRecord {
     /// The formula in the offsets, such as 1 - t1.
     pub formula: String,
-    /// The equation of its zeros, where the platform is architecturally singular.
+    /// The equation of its zeros; the platform is architecturally singular there.
     pub zero: String,
     /// The value of the factor at the offsets.
     pub value: ExactNumberRecord,

@@ -37,7 +37,7 @@ pub struct DrivesAnswer {
 /// A drive of the table, in the units of the design.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DriveRecord {
-    /// Its name.
+    /// The name of the drive.
     pub name: String,
     /// Line of the table, from 1.
     pub line: usize,
@@ -96,9 +96,9 @@ impl DriveRecord {
 /// The lightest drive of the table with which the requirements of a design are met.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LightestDriveRecord {
-    /// Its name; null: no drive is proved to suffice.
+    /// The name of the drive; null: no drive is proved to suffice.
     pub name: Option<String>,
-    /// Its mass; null: the table has none, or no drive is proved to suffice.
+    /// The mass of the drive; null: the table has none, or no drive is proved to suffice.
     pub mass: Option<Number>,
     /// The unit of the mass.
     pub mass_unit: String,

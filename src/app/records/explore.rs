@@ -29,9 +29,9 @@ pub struct FkRunRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExploreAnswer {
-    /// About an octahedral design.
+    /// The answer about an octahedral design.
     Octahedral(Box<ExploreOctahedralAnswer>),
-    /// About another design.
+    /// The answer about another design.
     General(Box<ExploreGeneralAnswer>),
 }
 

@@ -51,7 +51,7 @@ impl ExportAnswer {
 /// The files of a format.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FormatRecord {
-    /// Its name.
+    /// The name of the format.
     #[schemars(extend("enum" = ExportFormat::ALL.map(ExportFormat::name)))]
     pub format: String,
     /// The purpose of the format.

@@ -18,7 +18,7 @@ pub struct WarningRecord {
     pub help: String,
 }
 
-/// Why there is no answer: a refusal of what was asked, or a failure of the program.
+/// The reason why there is no answer: a refusal of the request, or a failure of the program.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ErrorAnswer {
     /// The failure.

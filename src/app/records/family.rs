@@ -57,13 +57,13 @@ impl FamilyAnswer {
 /// A pattern: the kept legs, and the moved legs with their edges.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PatternRecord {
-    /// Its name: V and the vertices kept, S and the sides of the moved ones.
+    /// The name of the pattern: V and the vertices kept, S and the sides of the moved ones.
     pub id: String,
-    /// Its class up to symmetry, from 1.
+    /// The class of the pattern up to symmetry, from 1.
     pub class: usize,
-    /// Its class up to all symmetries, from 1.
+    /// The class of the pattern up to all symmetries, from 1.
     pub class_exchange: usize,
-    /// Its topology, from 1.
+    /// The topology of the pattern, from 1.
     pub topology: usize,
     /// Whether offsets introduced one at a time lead to it.
     pub sequential: bool,
@@ -89,9 +89,9 @@ pub struct PatternRecord {
 /// One leg of a pattern.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PatternLegRecord {
-    /// Its base joint.
+    /// The base joint of the leg.
     pub base: String,
-    /// Its platform joint.
+    /// The platform joint of the leg.
     pub platform: String,
     /// The place of the leg on the hexagon.
     #[serde(flatten)]
@@ -120,7 +120,7 @@ pub enum PatternPlace {
 pub struct SharedJointRecord {
     /// The body it is on.
     pub body: Body,
-    /// Its name.
+    /// The name of the joint.
     pub joint: String,
     /// The legs, from 1.
     pub legs: Vec<usize>,
@@ -170,7 +170,7 @@ impl PatternRecord {
 /// A way in which the legs of equivalent platforms share joints.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FamilyTopologyRecord {
-    /// Its number, from 1.
+    /// The number of the topology, from 1.
     pub topology: usize,
     /// Joints of the base.
     pub base_joints: usize,

@@ -1,11 +1,11 @@
-//! Every answer of the program as plain data: what `--json` prints, what the page and other programs read, and what the
-//! schemas describe.
+//! Every answer of the program as plain data: the content of `--json`, read by the page and other programs, and
+//! described by the schemas.
 //!
-//! The type name of a command's answer ends in `Answer`. Its parts are values of the library, which write
-//! themselves (feature `serde` of their packages), or records. A record is a view that names joints, counts legs from
-//! 1, or joins several values. Commands print the same value as text, and as JSON by [`Document`]. It is described by
-//! [`schema()`], so each field is defined once. `.ci/generate` writes the tables of the documents and the records of
-//! Python from the schemas. Only types that the program reads from its own folders are `Deserialize`.
+//! The type name of a command's answer ends in `Answer`. Its parts are library values that write themselves (feature
+//! `serde` of their packages), or records. A record is a view that names joints, counts legs from 1, or joins several
+//! values. Commands print the same value as text, and as JSON by [`Document`]. It is described by [`schema()`], so each
+//! field is defined once. The script `.ci/generate` makes the tables of the documents and the records of Python from
+//! the schemas. The only `Deserialize` types are those that the program reads from its own folders.
 //!
 //! Numbers that may be infinite or not a number are `null` in JSON: [`Number`]s, or doubles under [`num::nullable`]. A
 //! truth value that may be undecided is an `Option<bool>`, `null` for undecided. Names of fields carry their unit
@@ -111,7 +111,7 @@ pub use num::Number;
 /// words under the same version.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// One JSON document: an answer between what all answers have.
+/// One JSON document: an answer with the fields that all answers have.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Document<T> {
     /// The version of the answer format, always 1.

@@ -65,9 +65,9 @@ pub struct MapRecord {
     /// The constant terms as exact numbers, design units squared; null if `det_exact` is null.
     #[serde(rename = "c_exact")]
     pub constants_exact: Option<[String; 6]>,
-    /// For each leg with ends on edges of FROM at the share t: the t for which det A vanishes, exact, other legs fixed.
-    /// The row of A of such a leg has the entries 1 - t and t, the others zero. An entry is null for other legs, or if
-    /// no t exists; the list is null if `det_exact` is null.
+    /// The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the share t. Its row of A
+    /// has the entries 1 - t and t, the others zero. The list has the t for which det A vanishes while other legs stay
+    /// fixed. An entry is null for other legs, or if no t exists. The list is null if `det_exact` is null.
     pub singular_shares: Option<[Option<String>; 6]>,
     /// det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs, the other legs fixed. TO
     /// is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is null.

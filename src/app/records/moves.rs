@@ -200,7 +200,7 @@ pub struct HoleRecord {
     pub legs: Vec<usize>,
     /// Dimension of the flat of possible opposite ends.
     pub dimension: Option<usize>,
-    /// The exact rank defect; 0: no leg ends there.
+    /// Rank defect of the equations in exact arithmetic; 0: no leg ends there.
     pub exact_rank_defect: Option<usize>,
     /// The singular value that decided.
     pub singular_value: Number,

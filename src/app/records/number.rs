@@ -27,7 +27,7 @@ impl<const N: usize, const M: usize> From<[[Complex64; N]; M]> for ComplexRecord
     }
 }
 
-/// The fields of a record that stand among those of another: all of them or none.
+/// The fields of a record among the fields of another one: all of them or none.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum AllOrNone<T> {

@@ -25,7 +25,7 @@ pub struct PresetAnswer {
     /// The preset.
     #[serde(flatten)]
     pub preset: PresetRecord,
-    /// Its design file.
+    /// The design file of the preset.
     #[serde(flatten)]
     pub file: PresetFile,
 }
@@ -49,7 +49,7 @@ pub enum PresetFile {
 /// A design of real hardware.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PresetRecord {
-    /// Its name as a preset.
+    /// The name of the preset.
     pub preset: String,
     /// The purpose of the preset.
     pub class: PresetClass,

@@ -195,7 +195,7 @@ impl AssessAnswer {
 pub struct TightestRecord {
     /// The kind.
     pub name: TermKind,
-    /// Its least margin divided by its limit, such as the travel of the legs or the greatest force; negative for a
+    /// The least margin divided by its limit, such as the travel of the legs or the greatest force; negative for a
     /// violation.
     pub share: Number,
 }

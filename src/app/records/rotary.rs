@@ -1,4 +1,4 @@
-//! Answers of inverse kinematics where the legs are rods of constant length on cranks: angles in place of lengths.
+//! Answers of inverse kinematics for rods of constant length on cranks: angles in place of lengths.
 
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -34,7 +34,7 @@ pub struct SelfmotionAnswer {
     pub singular_values: [Number; 8],
     /// Number of start poses beside the given one.
     pub further_starts: usize,
-    /// With `--lengths`: real poses on surfaces and sets of higher dimension, which are not traced.
+    /// Real poses on surfaces and sets of higher dimension, with `--lengths`; these sets are not traced.
     pub real_poses: Vec<PoseQuaternionRecord>,
     /// The completeness of the curves: they are traced numerically, without a proof that the list is complete.
     pub completeness: CompletenessWord,
@@ -62,11 +62,11 @@ pub enum MotionEvidenceWord {
     SecondOrder,
     /// Proved: the rank of the leg lines is constant around the pose.
     ConstantRank,
-    /// Not a proof: tracing found poses along a stretch, and the dimension is sampled.
+    /// Tracing found poses along a stretch, and the dimension is sampled: no proof.
     Traced,
-    /// Not a proof: random sections cut the set of poses with these lengths.
+    /// Random sections cut the set of poses with these lengths: no proof.
     Sections,
-    /// None: the question is undecided.
+    /// No evidence: the question is undecided.
     Undecided,
 }
 

@@ -129,7 +129,7 @@ pub struct SweepEstimateAnswer {
 /// A column of the table.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SweepColumnRecord {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
     /// The type of its cells.
     #[schemars(extend("enum" = ["number", "integer", "truth", "text"]))]
@@ -232,7 +232,7 @@ pub struct SweepBestRecord {
     pub candidate: u64,
     /// The value in the column.
     pub value: Number,
-    /// Its design file.
+    /// The design file of the candidate.
     pub output: String,
 }
 

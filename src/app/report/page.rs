@@ -105,7 +105,7 @@ pub fn html(report: &Report) -> String {
     document(&report.title, &policy(&[STYLE]), &html! { body { (body) } })
 }
 
-/// A page with its title and the rules of what it may load.
+/// A page with its title and its content security policy.
 pub(super) fn document(title: &str, policy: &str, body: &Markup) -> String {
     shown(&html! {
         (DOCTYPE)

@@ -1,4 +1,4 @@
-//! HTML, for reports and notebooks. Every text is escaped where it is written.
+//! HTML, for reports and notebooks. Every text is escaped during writing.
 
 use maud::{Markup, html};
 

@@ -70,7 +70,7 @@ pub(super) struct SweepCandidate<'a> {
     placed: Option<PlacedPattern<'a>>,
     /// The drive in all legs; `None`: the data of the design apply.
     pub(super) drive: Option<&'a Drive>,
-    /// The manipulator; `None`: that of the design.
+    /// The manipulator; `None`: the manipulator of the design.
     manipulator: Option<Manipulator>,
     whole: OnceCell<Result<Design, String>>,
     solved: OnceCell<Result<FkSolutions, String>>,

@@ -34,7 +34,7 @@ impl ColumnKind {
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SweepColumn {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
     /// The type of its cells.
     pub kind: ColumnKind,

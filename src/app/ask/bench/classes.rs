@@ -74,7 +74,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// All classes but those of the topologies, in the order of the tables.
+    /// All classes except topologies, in the order of the tables.
     pub const ALL: [Self; 17] = [
         Self::General,
         Self::SharedPlatformJoint,

@@ -129,9 +129,9 @@ impl JudgedPoses {
     }
 }
 
-/// The gap that a list of poses leaves open.
+/// The limitation of a list of poses.
 const BETWEEN: &str = "nothing is said between them";
-/// The same gap beside a region or a trajectory.
+/// The same limitation beside a region or a trajectory.
 const BETWEEN_LISTED: &str = "nothing is said between the poses listed";
 
 /// A number of poses in words.
@@ -165,7 +165,7 @@ impl std::fmt::Display for JudgedPoses {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct AssessReport {
-    /// The poses judged.
+    /// The poses assessed.
     pub judged: JudgedPoses,
     /// The least margin of each kind of requirement, with its proof.
     pub proof: MarginProof,

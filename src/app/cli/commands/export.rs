@@ -29,7 +29,7 @@ pub(crate) struct ExportArgs {
     /// Folder for the files; made if missing
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
-    /// Length unit of the design, if its label is none: um, mm, cm, m, in, ft
+    /// Length unit of the design, if its label is not one: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Thickness of the plates, design units

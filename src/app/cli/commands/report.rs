@@ -135,7 +135,7 @@ fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
 /// The path of the bill of materials in a folder of `explore`.
 const PARTS: [&str; 2] = ["machine", "parts.csv"];
 
-/// Files of a folder for the page: those of `explore` first, the others by name.
+/// Files of a folder for the page: files of `explore` first, the others by name.
 pub(in crate::app::cli::commands) fn read(
     folder: &Path,
     paths: impl IntoIterator<Item = PathBuf>,

@@ -217,7 +217,7 @@ impl Fields {
         out
     }
 
-    /// The tables of a record: its own fields, then those of each of its alternatives.
+    /// The tables of a record: its own fields, then the fields of each alternative.
     fn record(&self, schema: &Value) -> String {
         let rows = self.rows(schema, |name| !IN_ALL.contains(&name));
         let mut out = String::new();

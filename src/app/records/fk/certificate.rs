@@ -1,4 +1,4 @@
-//! Proofs of roots, single ones and those of clusters, with their numbers.
+//! Proofs of roots, single or in clusters, with their numbers.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -64,10 +64,10 @@ pub enum CertificateRecord {
         /// Discs that contain all poses of the cluster.
         enclosure: Box<EnclosureRecord>,
     },
-    /// Three angles as coordinates. The legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles h^2 + z^2 = rho about the
-    /// axes P1 P2, P2 P3, P3 P1. The coordinate z is along n = (P2 - P1) x (P3 - P1). The coordinate h points to the
-    /// left of the way from the first joint to the second. With u = h + i z, the distance is the largest of the three
-    /// |log(u / centre)|.
+    /// Three angles as coordinates. The legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles about the axes P1 P2, P2 P3,
+    /// P3 P1. Their equation is h^2 + z^2 = rho. The coordinate z is along n = (P2 - P1) x (P3 - P1). The coordinate h
+    /// points to the left of the way from the first joint to the second. With u = h + i z, the distance is the largest
+    /// value `|log(u / centre)|` of the three.
     Octahedral {
         /// Legs 14 24 25 35 36 16, from 0.
         order: [usize; 6],

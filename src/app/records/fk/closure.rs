@@ -22,7 +22,7 @@ pub enum ClosureRecord {
     },
 }
 
-/// The closure polynomial in one squared distance, with what it says about the number of real poses.
+/// The closure polynomial in one squared distance, with its results on the number of real poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ClosurePolynomialRecord {
     /// The joints of the virtual leg; null: none is needed.

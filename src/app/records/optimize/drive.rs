@@ -29,7 +29,7 @@ pub struct DriveSearchRecord {
 /// A drive of the table in the units of the design, with its search result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchedDriveRecord {
-    /// Its name.
+    /// The name of the drive.
     pub name: String,
     /// Line of the table, from 1.
     pub line: usize,

@@ -23,7 +23,7 @@ use verify::{VerdictWord, Verification};
 /// The notation of the zones of the six offsets.
 pub(super) const ZONES: &str = "^[-0+]{6}$";
 
-/// A platform found by a search; every field is null where there is none.
+/// A platform found by a search; every field is null if there is none.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct FoundPlatformRecord {
     /// Value of the first objective.
@@ -283,9 +283,9 @@ pub struct FrontMemberRecord {
 pub struct ObjectiveRecord {
     /// The name of the objective.
     pub name: Objective,
-    /// Its value over many poses, computed independently of the search.
+    /// The value over many poses, computed independently of the search.
     pub value: Number,
-    /// Its value over the poses at which the search held the requirements.
+    /// The value over the poses at which the search held the requirements.
     pub at_held_poses: Number,
     /// The unit; empty for a pure number.
     pub unit: String,

@@ -26,7 +26,7 @@ const MOST_CANDIDATES: u64 = 1 << 53;
 /// A plan, checked against its base design.
 #[derive(Debug, Clone)]
 pub struct SweepPlan {
-    /// Its name.
+    /// The name of the plan.
     pub name: String,
     /// The purpose, in words.
     pub description: Option<String>,

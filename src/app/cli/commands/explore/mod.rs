@@ -50,7 +50,8 @@ use verify::VerdictWord;
 pub(crate) struct ExploreArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Folder for the results, made if missing. Results of an earlier run are replaced; your own files never are
+    /// Folder for the results, made if missing. Results of an earlier run are replaced; a file of your
+    /// own in their place is refused
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
     /// Number of length sets for comparing two designs. An octahedral design is compared with the optimised one,

@@ -63,7 +63,7 @@ pub(crate) struct FkArgs {
     /// Write a CSV table with one real pose on each row, the nearest to home first
     #[arg(long, conflicts_with = "json")]
     csv: bool,
-    /// With --csv, write the complex poses as well
+    /// Add the complex poses to --csv
     #[arg(long, requires = "csv")]
     all: bool,
 }

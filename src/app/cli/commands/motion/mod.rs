@@ -50,7 +50,7 @@ pub(crate) struct MotionArgs {
     /// Number of instants in the period of a sine
     #[arg(long, value_name = "N", default_value_t = SAMPLES, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
     samples: u32,
-    /// Length unit of the design, if its label is none: um, mm, cm, m, in, ft
+    /// Length unit of the design, if its label is not one: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Write a table of all instants
@@ -72,7 +72,7 @@ pub(in crate::app::cli::commands) struct ChosenMotions<'a> {
 }
 
 impl<'a> ChosenMotions<'a> {
-    /// These motions about home, with the usual numbers of instants.
+    /// The given motions about home, with the usual numbers of instants.
     pub(in crate::app::cli::commands) fn new(
         trajectory: Option<&'a Path>,
         sine: &'a [String],

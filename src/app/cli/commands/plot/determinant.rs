@@ -17,8 +17,8 @@ const SIDE: usize = 201;
 pub(super) struct PlotDeterminantArgs {
     /// Octahedral design (.toml or .json)
     design: PathBuf,
-    /// Two offsets for the axes, 1 to 6 in the order of the legs around the octahedron; `equal` for the base offsets
-    /// and the platform offsets
+    /// Two offsets for the axes, 1 to 6 in the order of the legs around the octahedron; `equal`: base offsets and
+    /// platform offsets
     #[arg(long, value_name = "I,J", default_value = "equal", value_parser = ChangedOffsets::parse)]
     slice: ChangedOffsets,
     /// Six offsets of the marked design, as fractions of the edges; offsets off the axes keep these values

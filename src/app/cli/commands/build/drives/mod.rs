@@ -30,7 +30,7 @@ pub(crate) struct BuildDrivesArgs {
     /// Acceleration from rest at home, design units or degrees per second squared; repeat for several
     #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
     accelerate: Vec<String>,
-    /// Length unit of the design for forces along motions, if its label is none: um, mm, cm, m, in, ft
+    /// Length unit of the design for forces along motions, if its label is not one: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Write the design with the chosen drive; .json gives JSON, anything else TOML
